@@ -1,0 +1,37 @@
+"""Match and handicap analytics for pool: a game is a graph, a graph is a matrix, a matrix
+has a stochastic limit.
+
+The public names load on first use, so that importing the package costs next to nothing.
+"""
+
+from evenbreak._lazy import attach
+
+__version__ = "0.1.0"
+
+__getattr__, __dir__, __all__ = attach(
+    __name__,
+    {
+        "errors": [
+            "AccuracyError",
+            "ChainError",
+            "DataError",
+            "EvenbreakError",
+            "GameError",
+            "InputError",
+        ],
+        "game": ["Game", "graph_of"],
+        "games.rack": ["Rack"],
+        "games.breaks": [
+            "alternate_breaks",
+            "loser_breaks",
+            "player_1_breaks",
+            "player_2_breaks",
+            "winner_breaks",
+        ],
+        "games.race": ["Race"],
+        "games.ahead": ["Ahead"],
+        "games.one_ball": ["OneBall", "OneBallLookAhead"],
+        "games.series": ["Series"],
+        "games.drill": ["Drill"],
+    },
+)

@@ -1,0 +1,98 @@
+"""The chain: states and a sparse column-stochastic matrix.
+
+M[i, j] = P(next state is i | state is j), as in the source text: a density v moves to
+M v. Everything else in this package is a function of a `Chain`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from evenbreak.errors import ChainError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from scipy.sparse import csc_array
+
+__all__ = ["Chain"]
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """States and the transition matrix between them.
+
+    Build it with `chain_of`, which checks what it is given.
+
+    Parameters
+    ----------
+    states
+        the states, in the order of the matrix; hashable and distinct.
+    matrix
+        sparse CSC of shape (n, n), column-stochastic; a state without arcs of its own
+        has the self-loop 1 (it absorbs).
+    start
+        the state in which the game begins, or None.
+    """
+
+    states: Sequence[Hashable]
+    matrix: csc_array
+    start: Hashable | None = None
+
+    def __len__(self) -> int:
+        return len(self.states)
+
+    @cached_property
+    def position(self) -> dict[Hashable, int]:
+        """The position of each state in the matrix."""
+        return {state: i for i, state in enumerate(self.states)}
+
+    def density(self, start: Any = None) -> NDArray[np.float64]:
+        """Return the density that `start` stands for: a vector of length n that sums to 1.
+
+        Parameters
+        ----------
+        start
+            a state; a mapping from states to probabilities; an array of n
+            probabilities; or None for the chain's own start.
+
+        Raises
+        ------
+        ChainError
+            if a state is unknown, no start is known, or the density does not sum to 1
+            within 1e-9.
+        """
+        if start is None:
+            start = self.start
+            if start is None:
+                raise ChainError("the chain has no start of its own; give a start state")
+        v = np.zeros(len(self))
+        if isinstance(start, Mapping):
+            for state, chance in start.items():
+                v[self.index(state)] = chance
+        elif isinstance(start, np.ndarray):
+            if start.shape != v.shape:
+                raise ChainError(f"the start density has shape {start.shape}; give {v.shape}")
+            v = start.astype(float)
+        else:
+            v[self.index(start)] = 1.0
+            return v
+        if not (np.all(v >= 0) and abs(v.sum() - 1.0) <= 1e-9):
+            raise ChainError(
+                f"the start density sums to {v.sum():.12g}; give probabilities that sum to 1"
+            )
+        return v
+
+    def index(self, state: Hashable) -> int:
+        """Return the position of `state` in the matrix."""
+        try:
+            return self.position[state]
+        except (KeyError, TypeError):
+            raise ChainError(
+                f"state {state!r} is not in the chain; its states begin "
+                + ", ".join(repr(known) for known in self.states[:5])
+            ) from None

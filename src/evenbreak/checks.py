@@ -1,0 +1,104 @@
+"""Checks of parameters: each returns the value it was given, or says how to mend it.
+
+Scalars are checked without numpy, so that a program which only asks scalar
+questions never imports it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["one_of", "probability", "whole"]
+
+
+def probability(value: Any, name: str) -> Any:
+    """Return `value` if it is a probability, or an array of them.
+
+    Parameters
+    ----------
+    value
+        a number, or something numpy makes a float array of.
+    name
+        what the value is called where the caller wrote it.
+
+    Returns
+    -------
+    float or numpy.ndarray
+        a float for a number (integers and `fractions.Fraction` are converted), an
+        array otherwise.
+
+    Raises
+    ------
+    InputError
+        if a value is not a number in [0, 1].
+
+    >>> probability(1, "p")
+    1.0
+    >>> probability(1.5, "p")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: p is 1.5, not a probability; give a number from 0 to 1
+    """
+    if not hasattr(value, "__len__") and not hasattr(value, "ndim"):
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            number = math.nan
+        if not 0.0 <= number <= 1.0:
+            raise InputError(f"{name} is {value!r}, not a probability; give a number from 0 to 1")
+        return number
+    return _probabilities(value, name)
+
+
+def _probabilities(value: Any, name: str) -> NDArray[Any] | float:
+    import numpy as np
+
+    try:
+        array = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} is {value!r}, not an array of probabilities") from None
+    wrong = ~((array >= 0) & (array <= 1))
+    if wrong.any():
+        raise InputError(
+            f"{name} holds {array[wrong].flat[0]!r}, not a probability; give numbers from 0 to 1"
+        )
+    return float(array) if array.ndim == 0 else array
+
+
+def whole(value: Any, name: str, *, at_least: int = 0) -> int:
+    """Return `value` as an int if it is a whole number that is not too small.
+
+    >>> whole(3.0, "m")
+    3
+    >>> whole(0, "m", at_least=1)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: m is 0; give a whole number, 1 or more
+    """
+    try:
+        number = int(value)
+    except (TypeError, ValueError, OverflowError):
+        number = at_least - 1
+    if isinstance(value, (str, bytes)) or number != value or number < at_least:
+        raise InputError(f"{name} is {value!r}; give a whole number, {at_least} or more")
+    return number
+
+
+def one_of(value: Any, name: str, choices: tuple[Any, ...]) -> Any:
+    """Return `value` if it is one of `choices`.
+
+    >>> one_of(3, "first_breaker", (1, 2))
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: first_breaker is 3; give 1 or 2
+    """
+    if value not in choices:
+        listed = " or ".join(repr(choice) for choice in choices)
+        raise InputError(f"{name} is {value!r}; give {listed}")
+    return value

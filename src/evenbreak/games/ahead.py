@@ -1,0 +1,41 @@
+"""The n-ahead match m:n: player 1 wins when m ahead, player 2 when n ahead."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from evenbreak.games.match import Match, Score
+
+__all__ = ["Ahead"]
+
+
+@dataclass(frozen=True)
+class Ahead(Match):
+    """First to lead by the games needed: m for player 1, n for player 2 (P5.27, Fig. 5.10).
+
+    Only the lead matters, so a state's score is the lead: (2, 0) is player 1 ahead by
+    two games, (0, 1) player 2 ahead by one. The parameters are those of `Match`.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have; it says which.
+
+    >>> from evenbreak.games import Rack
+    >>> match = Ahead(5, 3, Rack(0.75))
+    >>> match.moves((0, 2))
+    {(0, 1): 0.75, (0, 3): 0.25}
+    >>> match.winner((0, 3))
+    2
+    """
+
+    def decided(self, a: int, b: int) -> int | None:
+        """Return who has won at the score a:b: 1, 2, or None while the match goes on."""
+        if a - b >= self.m:
+            return 1
+        return 2 if b - a >= self.n else None
+
+    def fold(self, a: int, b: int) -> Score:
+        """Return the lead as a score: the common games taken off."""
+        common = min(a, b)
+        return a - common, b - common

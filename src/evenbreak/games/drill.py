@@ -1,0 +1,70 @@
+"""Progressive practice drills: up a level on success, down a level on failure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from evenbreak.checks import probability, whole
+from evenbreak.errors import InputError
+
+__all__ = ["Drill"]
+
+
+@dataclass(frozen=True)
+class Drill:
+    """A progressive drill of n levels (P5.26, Fig. 5.7).
+
+    Success at a level leads to the next one (the last level repeats), failure to the
+    one before (the first level repeats).
+
+    Parameters
+    ----------
+    success
+        P(success | an attempt at level i), i = 1 ... n.
+
+    Raises
+    ------
+    InputError
+        if no level is given or a value is not a probability.
+
+    >>> Drill([1, 0.5, 0.25]).moves(2)
+    {3: 0.5, 1: 0.5}
+    >>> Drill([1, 0.5, 0.25]).moves(3)
+    {3: 0.25, 2: 0.75}
+    """
+
+    success: Sequence[float]
+
+    def __post_init__(self) -> None:
+        levels = tuple(
+            probability(p, f"success at level {i}") for i, p in enumerate(self.success, 1)
+        )
+        if not levels:
+            raise InputError("success is empty; give the chance of success at each level")
+        object.__setattr__(self, "success", levels)
+
+    @classmethod
+    def progressive(cls, p: float, levels: int = 9) -> Drill:
+        """Return the model of the progressive 9-ball drill: level i succeeds with p^(i-1).
+
+        >>> Drill.progressive(0.5, levels=4).success
+        (1.0, 0.5, 0.25, 0.125)
+        """
+        base = probability(p, "p")
+        return cls([base**i for i in range(whole(levels, "levels", at_least=1))])
+
+    @property
+    def start(self) -> int:
+        """The first level."""
+        return 1
+
+    def moves(self, state: int) -> Mapping[int, float]:
+        """Return the probability of each next level, given an attempt at level `state`."""
+        p = self.success[state - 1]
+        up, down = min(state + 1, len(self.success)), max(state - 1, 1)
+        return {up: 1.0} if up == down else {up: p, down: 1.0 - p}
+
+    def winner(self, state: int) -> None:  # noqa: ARG002
+        """Return None: a drill has no winner and no end."""
+        return

@@ -1,0 +1,70 @@
+"""The race m:n: player 1 needs m games, player 2 needs n."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+
+from evenbreak.checks import whole
+from evenbreak.games.match import Match, Score
+
+__all__ = ["Race"]
+
+
+@dataclass(frozen=True)
+class Race(Match):
+    """First to the games needed: m for player 1, n for player 2 (P5.5, P5.6).
+
+    Parameters
+    ----------
+    win_by
+        player 1 wins at the score a:b when a >= m and (a - m) - (b - n) >= win_by, and
+        player 2 likewise; 1 is the plain race.
+
+    The other parameters are those of `Match`.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have; it says which.
+
+    >>> from evenbreak.games import Rack, winner_breaks
+    >>> race = Race(3, 2, Rack(2 / 3))
+    >>> race.start, race.moves((2, 1))
+    ((0, 0), {(3, 1): 0.6666666666666666, (2, 2): 0.33333333333333337})
+    >>> race.winner((3, 1))
+    1
+    >>> Race(3, 2, Rack(0.6, 0.5), breaks=winner_breaks, first_breaker=2).start
+    (0, 0, 2)
+    """
+
+    _: KW_ONLY
+    win_by: int = 1
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "win_by", whole(self.win_by, "win_by", at_least=1))
+        super().__post_init__()
+
+    def decided(self, a: int, b: int) -> int | None:
+        """Return who has won at the score a:b: 1, 2, or None while the race goes on.
+
+        >>> Race(5, 4, Rack(0.5), win_by=2).decided(5, 3) is None
+        True
+        """
+        lead = (a - self.m) - (b - self.n)
+        if a >= self.m and lead >= self.win_by:
+            return 1
+        if b >= self.n and -lead >= self.win_by:
+            return 2
+        return None
+
+    def fold(self, a: int, b: int) -> Score:
+        """Return the first score from which the race goes on as it does from a:b.
+
+        Once both players are within `win_by` games of what they need, only the
+        difference of what they still need matters ("deuce").
+
+        >>> Race(5, 5, Rack(0.5), win_by=2).fold(8, 7)
+        (4, 3)
+        """
+        spare = min(a - max(self.m - self.win_by, 0), b - max(self.n - self.win_by, 0))
+        return (a - spare, b - spare) if spare > 0 else (a, b)

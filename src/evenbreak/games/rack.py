@@ -1,0 +1,64 @@
+"""One rack: the smallest thing that two players win or lose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from evenbreak.checks import one_of, probability
+
+__all__ = ["Rack"]
+
+
+@dataclass(frozen=True)
+class Rack:
+    """One rack of 9-ball, 8-ball or any other game, of which one player wins.
+
+    Parameters
+    ----------
+    p1
+        with `p2`: P(player 1 wins the rack | player 1 breaks it); alone: P(player 1
+        wins the rack), whoever breaks.
+    p2
+        P(player 2 wins the rack | player 2 breaks it); None if the break does not matter.
+
+    Either may be an array for the vectorised kernels of `evenbreak.matches`; a game's
+    graph takes numbers only. The probability of losing is formed once from the one
+    that was given (1 - p), never from a difference of differences.
+
+    Raises
+    ------
+    InputError
+        if p1 or p2 is not a probability.
+
+    Notes
+    -----
+    Source: problems P5.5 (`Rack(p)`) and P5.24 (`Rack(p1, p2)`).
+
+    >>> Rack(0.75).chance(2, breaker=1)
+    0.25
+    >>> Rack(0.9, 0.5).chance(1, breaker=2)
+    0.5
+    """
+
+    p1: Any
+    p2: Any = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "p1", probability(self.p1, "p1"))
+        if self.p2 is not None:
+            object.__setattr__(self, "p2", probability(self.p2, "p2"))
+
+    @property
+    def break_matters(self) -> bool:
+        """Whether the chances depend on who breaks."""
+        return self.p2 is not None
+
+    def chance(self, player: int, breaker: int = 1) -> Any:
+        """Return P(`player` wins the rack | `breaker` breaks it)."""
+        one_of(player, "player", (1, 2))
+        one_of(breaker, "breaker", (1, 2))
+        if self.p2 is None:
+            return self.p1 if player == 1 else 1.0 - self.p1
+        own = self.p1 if breaker == 1 else self.p2
+        return own if player == breaker else 1.0 - own
