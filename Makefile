@@ -1,0 +1,40 @@
+# `make check` is what CI runs. Set PYTHON to the interpreter of your own environment.
+PYTHON ?= .venv-dev/bin/python
+
+.PHONY: check check-rest lint types test layers docs reports drift bench clean
+
+check:            ## what CI runs, on the last commit, in new virtual environments
+	.ci/run
+
+check-rest: lint types layers docs drift   ## CI's checks after the tests, in this environment
+
+lint:
+	$(PYTHON) -m ruff format --check .
+	$(PYTHON) -m ruff check .
+
+types:
+	$(PYTHON) -m mypy
+
+test:             ## tests and every docstring's, README's and page's example
+	$(PYTHON) -m pytest -q
+
+layers:           ## imports in one direction, every example of README and docs
+	$(PYTHON) -m pytest -q tests/test_layers.py tests/test_docs.py
+
+docs:             ## HTML pages in docs/_build, a warning is an error
+	$(PYTHON) -m sphinx -W --keep-going -q -b html docs docs/_build/html
+
+reports:          ## make again every committed output that a script makes
+	$(PYTHON) data/make_demo_league.py
+	$(PYTHON) docs/images/make_images.py
+
+drift: reports    ## fail if what is committed is not what the scripts make
+	git diff --exit-code -- reports data docs/images
+	test -z "$$(git status --porcelain -- reports data docs/images)"
+
+bench:            ## each benchmark beside the bare floor it is compared with
+	$(PYTHON) -m pytest -q -o python_files='bench_*.py' -o addopts='--import-mode=importlib' \
+		--benchmark-columns=min,median,rounds --benchmark-group-by=group benchmarks
+
+clean:
+	rm -rf docs/_build sheet .venv .venv-dev .pytest_cache .mypy_cache .ruff_cache
