@@ -1,5 +1,7 @@
-"""Match and handicap analytics for pool: a game is a graph, a graph is a matrix, a matrix
-has a stochastic limit.
+"""Match and handicap analytics for pool, from Markov chains.
+
+A game is a directed graph; the graph is a transition matrix; the matrix has a
+stochastic limit; every answer is read off that limit.
 
 The public names load on first use, so that importing the package costs next to nothing.
 """

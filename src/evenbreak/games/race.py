@@ -47,6 +47,7 @@ class Race(Match):
     def decided(self, a: int, b: int) -> int | None:
         """Return who has won at the score a:b: 1, 2, or None while the race goes on.
 
+        >>> from evenbreak.games import Rack
         >>> Race(5, 4, Rack(0.5), win_by=2).decided(5, 3) is None
         True
         """
@@ -63,6 +64,7 @@ class Race(Match):
         Once both players are within `win_by` games of what they need, only the
         difference of what they still need matters ("deuce").
 
+        >>> from evenbreak.games import Rack
         >>> Race(5, 5, Rack(0.5), win_by=2).fold(8, 7)
         (4, 3)
         """
