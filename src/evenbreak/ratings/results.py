@@ -1,0 +1,178 @@
+"""What was played, column by column, and whether it can be true.
+
+A `Results` holds one match a row, as arrays. It knows no file: whoever reads one
+builds a `Results`, asks `find_problems` and says in which line each problem is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from evenbreak.errors import InputError
+from evenbreak.ratings.consistency import Problem, find_problems
+
+__all__ = ["FORMATS", "Played", "Problem", "Results", "find_problems"]
+
+FORMATS = ("", "winner", "loser", "alternate", "a", "b")
+"""Break formats in the order of their codes in `Results.break_format`; 0 is not stated."""
+
+_TYPES: dict[str, Any] = {
+    "player_a": np.int64,
+    "player_b": np.int64,
+    "score_a": np.int64,
+    "score_b": np.int64,
+    "date": "datetime64[D]",
+    "race_a": np.int64,
+    "race_b": np.int64,
+    "winner": np.int8,
+    "first_break": np.int8,
+    "break_format": np.int8,
+    "racks": object,
+    "event": object,
+    "forfeit": np.bool_,
+}
+_CODES = {"winner": 3, "first_break": 3, "break_format": len(FORMATS)}
+
+
+class Played(NamedTuple):
+    """The matches that were played, and how many rows were left out and why."""
+
+    results: Results
+    forfeits: int
+    empty: int
+
+
+@dataclass(frozen=True, eq=False)
+class Results:
+    """Matches as columns: one row a match, read-only arrays of one length.
+
+    Parameters
+    ----------
+    players
+        the names, each once.
+    player_a, player_b
+        who played: positions in `players`. Which of the two is called a means
+        nothing; in particular a is not taken to be the breaker.
+    score_a, score_b
+        games won by each.
+    date
+        days (`datetime64[D]`, NaT where not stated).
+    race_a, race_b
+        the games that each needed to win the match, 0 where not stated. The winner
+        is then who reached the race, whatever the scores.
+    winner, first_break
+        who won the match, who broke first: 1 for a, 2 for b, 0 where not stated.
+    break_format
+        who broke the next rack: positions in `FORMATS`, 0 where not stated.
+    racks
+        who won each rack, in order, as text like 'abba'; '' where not stated.
+    event
+        any text.
+    forfeit
+        whether the match was given away; its scores are then no games played.
+
+    The optional columns are None where there is no such column.
+
+    Raises
+    ------
+    InputError
+        if columns differ in length, or a position or code is out of range. What a
+        person may have typed wrongly is for `find_problems`.
+
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 0], [5, 0])
+    >>> season.players, season.player_a, len(season)
+    (('Ann', 'Bo', 'Cy'), array([0, 1]), 2)
+    """
+
+    players: tuple[str, ...]
+    player_a: NDArray[np.int64]
+    player_b: NDArray[np.int64]
+    score_a: NDArray[np.int64]
+    score_b: NDArray[np.int64]
+    _: KW_ONLY
+    date: NDArray[np.datetime64] | None = None
+    race_a: NDArray[np.int64] | None = None
+    race_b: NDArray[np.int64] | None = None
+    winner: NDArray[np.int8] | None = None
+    first_break: NDArray[np.int8] | None = None
+    break_format: NDArray[np.int8] | None = None
+    racks: NDArray[np.object_] | None = None
+    event: NDArray[np.object_] | None = None
+    forfeit: NDArray[np.bool_] | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "players", tuple(self.players))
+        if len(set(self.players)) < len(self.players):
+            raise InputError("players holds a name twice; give each name once")
+        rows = len(self.player_a)
+        for name, kind in _TYPES.items():
+            given = getattr(self, name)
+            if given is None:
+                continue
+            # A copy, so that a later change of the caller's array changes nothing here.
+            column = np.array(given, dtype=kind)
+            if column.shape != (rows,):
+                raise InputError(
+                    f"{name} has the shape {column.shape}; give one value for each of {rows} rows"
+                )
+            column.flags.writeable = False
+            object.__setattr__(self, name, column)
+            limit = len(self.players) if name.startswith("player_") else _CODES.get(name)
+            if limit is not None and rows and not (0 <= column.min() <= column.max() < limit):
+                raise InputError(f"{name} holds a code outside 0..{limit - 1}; give codes in range")
+
+    @classmethod
+    def from_names(
+        cls,
+        player_a: Sequence[str],
+        player_b: Sequence[str],
+        score_a: ArrayLike,
+        score_b: ArrayLike,
+        **columns: Any,
+    ) -> Results:
+        """Return the results of named players, who are put in the order of their names.
+
+        The other columns are given by keyword, as `Results` describes them.
+        """
+        players = sorted({*player_a, *player_b})
+        position = {name: k for k, name in enumerate(players)}
+        return cls(
+            tuple(players),
+            np.array([position[name] for name in player_a], dtype=np.int64),
+            np.array([position[name] for name in player_b], dtype=np.int64),
+            np.asarray(score_a, dtype=np.int64),
+            np.asarray(score_b, dtype=np.int64),
+            **columns,
+        )
+
+    def __len__(self) -> int:
+        return len(self.player_a)
+
+    def select(self, rows: NDArray[Any]) -> Results:
+        """Return the rows that a mask or positions pick; `players` stays as it is."""
+        columns = {name: getattr(self, name) for name in _TYPES}
+        picked: dict[str, Any] = {
+            name: None if column is None else column[rows] for name, column in columns.items()
+        }
+        return Results(self.players, **picked)
+
+    def played(self) -> Played:
+        """Return the matches with games in them, and how many rows were left out.
+
+        A forfeit is left out whatever its score says; a 0-0 that is no forfeit is
+        counted as empty.
+
+        >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 0], [5, 0])
+        >>> season.played()[1:]
+        (0, 1)
+        """
+        empty = (self.score_a == 0) & (self.score_b == 0)
+        forfeit = np.zeros(len(self), dtype=bool) if self.forfeit is None else self.forfeit
+        left_out = empty | forfeit
+        kept = self.select(~left_out) if left_out.any() else self
+        return Played(kept, int(forfeit.sum()), int((empty & ~forfeit).sum()))
