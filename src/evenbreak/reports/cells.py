@@ -1,0 +1,132 @@
+"""What the cells of a table say: numbers, and anything else that a text can be read as.
+
+Each reader notes the cells that it cannot read in the table's `problems` and goes on,
+so that one look at a file tells all that is wrong with it.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.reports.problems import quoted
+from evenbreak.reports.read_table import Table
+
+__all__ = ["Values", "numbers", "read_cells", "whole_numbers"]
+
+# Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
+_WHOLE = re.compile(r"[+-]?[0-9]+(\.0*)?", re.ASCII)
+_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)(e[+-]?[0-9]+)?", re.ASCII | re.IGNORECASE)
+LARGEST_WHOLE = 1_000_000
+
+
+class Values(NamedTuple):
+    """A column as read: a value for each row, and whether its cell could be read.
+
+    Cells that could not be read, empty ones among them, have the value for empty cells.
+    """
+
+    values: NDArray[Any]
+    good: NDArray[np.bool_]
+
+
+def read_cells(
+    table: Table,
+    name: str,
+    meaning: Callable[[str], Any],
+    *,
+    wanted: str,
+    remedy: str,
+    dtype: Any,
+    empty: Any,
+    may_be_empty: bool = False,
+) -> Values:
+    """Read a column, noting in the table's problems each cell that has no meaning.
+
+    Parameters
+    ----------
+    table, name
+        the column to read; one that the file lacks is all empty and no further problem.
+    meaning
+        from the text of a cell, never empty, to its value; None where it has none.
+    wanted, remedy
+        what a cell should be, and how to mend one: "x is not `wanted`; `remedy`".
+    dtype
+        numpy type of the values.
+    empty
+        the value of empty cells.
+    may_be_empty
+        whether empty cells are no problem.
+
+    >>> from evenbreak.reports.problems import Problems
+    >>> from evenbreak.reports.read_table import Texts
+    >>> column = Texts(["7", "seven"], np.array([0, 1, 0]))
+    >>> table = Table("r.csv", np.array([2, 3, 5]), {"score": column}, Problems("r.csv"), (), b"")
+    >>> read_cells(table, "score", lambda text: {"7": 7}.get(text), wanted="a score",
+    ...            remedy="write 0, 1, 2, ...", dtype=int, empty=0).values
+    array([7, 0, 7])
+    >>> table.problems.raise_any()
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.DataError: r.csv:3: score 'seven' is not a score; write 0, 1, 2, ...
+    """
+    distinct, codes = table.texts(name)
+    meant = [meaning(text) if text else None for text in distinct]
+    values = np.empty(len(distinct), dtype=dtype)
+    for place, value in enumerate(meant):
+        values[place] = empty if value is None else value
+    good = np.array([value is not None for value in meant], dtype=bool)
+    if may_be_empty or name not in table:
+        good |= np.array([not text for text in distinct], dtype=bool)
+
+    def message(row: int) -> str:
+        text = distinct[codes[row]]
+        if not text:
+            return f"{name} is empty; {remedy}"
+        return f"{name} {quoted(text)} is not {wanted}; {remedy}"
+
+    table.problems.add_rows(table.lines, np.flatnonzero(~good[codes]), message)
+    return Values(values[codes], good[codes])
+
+
+def whole_numbers(
+    table: Table, name: str, *, remedy: str = "write 0, 1, 2, ...", may_be_empty: bool = False
+) -> Values:
+    """Read a column of whole numbers of at most a million either way; empty cells are 0."""
+    return read_cells(
+        table,
+        name,
+        _whole,
+        wanted=f"a whole number (up to {LARGEST_WHOLE:,})",
+        remedy=remedy,
+        dtype=np.int64,
+        empty=0,
+        may_be_empty=may_be_empty,
+    )
+
+
+def _whole(text: str) -> int | None:
+    if not _WHOLE.fullmatch(text) or len(text) > 20:
+        return None
+    number = int(text.partition(".")[0])
+    return number if abs(number) <= LARGEST_WHOLE else None
+
+
+def numbers(table: Table, name: str, *, remedy: str) -> Values:
+    """Read a column of finite numbers with a decimal point; cells that are none are NaN."""
+    return read_cells(
+        table, name, _number, wanted="a number", remedy=remedy, dtype=np.float64, empty=math.nan
+    )
+
+
+def _number(text: str) -> float | None:
+    # Python's float() also takes nan, inf, 1_000 and digits of other scripts.
+    if not _NUMBER.fullmatch(text):
+        return None
+    number = float(text)
+    return number if math.isfinite(number) else None
