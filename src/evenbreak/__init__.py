@@ -35,5 +35,6 @@ __getattr__, __dir__, __all__ = attach(
         "games.one_ball": ["OneBall", "OneBallLookAhead"],
         "games.series": ["Series"],
         "games.drill": ["Drill"],
+        "chains.explore": ["chain_of"],
     },
 )

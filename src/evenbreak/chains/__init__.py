@@ -6,6 +6,7 @@ __getattr__, __dir__, __all__ = attach(
     __name__,
     {
         "chain": ["Chain"],
+        "explore": ["chain_from_arrays", "chain_of"],
         "symbolic": ["symbolic_limit"],
     },
 )
