@@ -1,0 +1,14 @@
+"""Exact answers for matches: who wins, how long it takes, with what score.
+
+`win_probability`, `match_length` and `final_scores` take arrays of chances;
+`evenbreak.matches.scalar` answers for plain numbers without numpy.
+"""
+
+from evenbreak._lazy import attach
+
+__getattr__, __dir__, __all__ = attach(
+    __name__,
+    {
+        "race_law": ["RaceLaw", "race_law"],
+    },
+)

@@ -1,0 +1,178 @@
+"""The race, worked out with plain numbers: one list a rack, no numpy.
+
+After k racks the score is i : k - i, so the scores form a list over i; a rack moves
+the mass at i to i + 1 or leaves it, and what leaves the list has won the race.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from evenbreak.checks import one_of, probability, whole
+from evenbreak.errors import InputError
+from evenbreak.games.breaks import BreakFormat
+from evenbreak.games.rack import Rack
+from evenbreak.matches.quantiles import quantile_of
+
+__all__ = ["RaceLaw", "race_law"]
+
+
+@dataclass(frozen=True)
+class RaceLaw:
+    """Who wins a race and after how many racks, as one joint distribution.
+
+    Parameters
+    ----------
+    games
+        the possible lengths in racks, from the start score on, ascending.
+    win_1, win_2
+        P(player 1, 2 wins after exactly games[k] racks), in the order of `games`.
+    p_hill_hill
+        P(the last possible rack decides).
+    p_shutout_1, p_shutout_2
+        P(player 1, 2 wins and the other wins no rack from the start score on).
+    """
+
+    games: Sequence[int]
+    win_1: Sequence[float]
+    win_2: Sequence[float]
+    p_hill_hill: float
+    p_shutout_1: float
+    p_shutout_2: float
+
+    @property
+    def p_win_1(self) -> float:
+        """P(player 1 wins the race)."""
+        return math.fsum(self.win_1)
+
+    @property
+    def p_win_2(self) -> float:
+        """P(player 2 wins the race); a sum of its own, so that it is right when tiny."""
+        return math.fsum(self.win_2)
+
+    @property
+    def probability(self) -> list[float]:
+        """P(the race takes games[k] racks), in the order of `games`."""
+        return [one + two for one, two in zip(self.win_1, self.win_2, strict=True)]
+
+    @property
+    def mean(self) -> float:
+        """The mean length in racks."""
+        return math.fsum(k * chance for k, chance in zip(self.games, self.probability, strict=True))
+
+    @property
+    def sd(self) -> float:
+        """The standard deviation of the length in racks."""
+        mean = self.mean
+        return math.sqrt(
+            math.fsum(
+                (k - mean) ** 2 * chance
+                for k, chance in zip(self.games, self.probability, strict=True)
+            )
+        )
+
+    def quantile(self, q: float) -> int:
+        """Return the smallest k with P(length <= k) >= q; a tie in the last ulps counts."""
+        at = quantile_of(self.probability, q)
+        if at is None:
+            raise InputError(f"q is {q!r}; give a number from 0 to 1")
+        return self.games[at]
+
+
+def race_law(
+    m: int,
+    n: int,
+    p1: float,
+    p2: float | None = None,
+    breaks: BreakFormat | None = None,
+    first_breaker: int = 1,
+    score: tuple[int, int] = (0, 0),
+) -> RaceLaw:
+    """Return who wins the race m:n and after how many racks, from the start score on.
+
+    Parameters
+    ----------
+    m, n
+        the games that player 1 and player 2 need.
+    p1, p2
+        P(player 1, 2 wins a rack | he breaks it); with p2 None the break does not
+        matter and p1 is P(player 1 wins a rack).
+    breaks
+        who breaks next; needed with p2.
+    first_breaker
+        who breaks the first rack, 1 or 2.
+    score
+        the games that each has at the start. A player who has what he needs has won.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have; it says which.
+
+    Notes
+    -----
+    Source: problems P5.4, P5.5 (the race), P5.24 (break formats).
+
+    >>> law = race_law(3, 2, 2 / 3)
+    >>> round(law.p_win_1, 12), law.games
+    (0.592592592593, [2, 3, 4])
+    """
+    rack = Rack(p1, p2)
+    probability(rack.p1, "p1")
+    one_of(first_breaker, "first_breaker", (1, 2))
+    need_1 = whole(m, "m") - whole(score[0], "score of player 1")
+    need_2 = whole(n, "n") - whole(score[1], "score of player 2")
+    if rack.break_matters and breaks is None:
+        raise InputError("breaks is missing: with p2 the break matters; give winner_breaks, ...")
+    if need_1 <= 0 or need_2 <= 0:
+        return _already_won(need_1, need_2)
+    steps = _steps(rack, breaks)
+    at = [[0.0] * (need_1 + 1) for _ in steps]
+    at[first_breaker - 1 if rack.break_matters else 0][0] = 1.0
+    win_1, win_2 = [0.0], [0.0]
+    for k in range(need_1 + need_2 - 1):
+        after = [[0.0] * (need_1 + 1) for _ in steps]
+        alive = range(max(0, k - need_2 + 1), min(k, need_1 - 1) + 1)
+        for row, (won, lost, next_won, next_lost) in zip(at, steps, strict=True):
+            up, down = after[next_won], after[next_lost]
+            for i in alive:
+                mass = row[i]
+                up[i + 1] += mass * won
+                down[i] += mass * lost
+        win_1.append(sum(row[need_1] for row in after))
+        lost_at = k + 1 - need_2
+        win_2.append(sum(row[lost_at] for row in after) if lost_at >= 0 else 0.0)
+        at = after
+    shortest = min(need_1, need_2)
+    return RaceLaw(
+        games=list(range(shortest, need_1 + need_2)),
+        win_1=win_1[shortest:],
+        win_2=win_2[shortest:],
+        p_hill_hill=win_1[-1] + win_2[-1],
+        p_shutout_1=win_1[need_1],
+        p_shutout_2=win_2[need_2],
+    )
+
+
+def _steps(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, float, int, int]]:
+    """Return for each breaker: P(1 wins), P(2 wins), and the row of the next breaker after each."""
+    if breaks is None or not rack.break_matters:
+        return [(rack.chance(1), rack.chance(2), 0, 0)]
+    return [
+        (
+            rack.chance(1, breaker),
+            rack.chance(2, breaker),
+            breaks(breaker, 1) - 1,
+            breaks(breaker, 2) - 1,
+        )
+        for breaker in (1, 2)
+    ]
+
+
+def _already_won(need_1: int, need_2: int) -> RaceLaw:
+    if need_1 <= 0 and need_2 <= 0:
+        raise InputError("score has both players where they have won; give a score before the end")
+    won_1 = float(need_1 <= 0)
+    return RaceLaw([0], [won_1], [1.0 - won_1], 0.0, won_1, 1.0 - won_1)
