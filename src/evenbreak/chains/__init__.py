@@ -6,6 +6,16 @@ __getattr__, __dir__, __all__ = attach(
     __name__,
     {
         "chain": ["Chain"],
+        "limits": [
+            "Limit",
+            "absorption",
+            "expected_visits",
+            "limit_matrix",
+            "stationary_laws",
+            "stochastic_limit",
+        ],
+        "structure": ["Structure"],
+        "transient": ["TransientPart"],
         "explore": ["chain_from_arrays", "chain_of"],
         "symbolic": ["symbolic_limit"],
     },

@@ -13,6 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from evenbreak.chains.arcs import Arcs, arcs_of
+from evenbreak.chains.structure import Structure, structure_of
+from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
@@ -50,6 +53,21 @@ class Chain:
     def position(self) -> dict[Hashable, int]:
         """The position of each state in the matrix."""
         return {state: i for i, state in enumerate(self.states)}
+
+    @cached_property
+    def arcs(self) -> Arcs:
+        """The arcs between different states, and the outflow of each state."""
+        return arcs_of(self.matrix)
+
+    @cached_property
+    def structure(self) -> Structure:
+        """The communicating classes: which are closed, their kinds and periods."""
+        return structure_of(self.arcs, self.matrix.diagonal() > 0.0)
+
+    @cached_property
+    def transient(self) -> TransientPart:
+        """The transient states, with the solves `visits` and `values`."""
+        return TransientPart(self.arcs, np.flatnonzero(~self.structure.recurrent))
 
     def density(self, start: Any = None) -> NDArray[np.float64]:
         """Return the density that `start` stands for: a vector of length n that sums to 1.

@@ -1,0 +1,79 @@
+"""The arcs of a chain between different states: all that a solver needs to know.
+
+A self-loop carries no information of its own: it is what the other arcs of its state
+leave over. Every solver therefore starts from the off-diagonal entries of M and from
+their column sums, the outflows, and never forms 1 - M[j, j] by subtraction.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csc_array
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Arcs", "arcs_of"]
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """Arcs between different states, in the order of their sources.
+
+    Parameters
+    ----------
+    size
+        the number of states n.
+    indptr
+        shape (n + 1,): the arcs out of state j are those from indptr[j] to indptr[j + 1].
+    sources, targets
+        shape (number of arcs,): positions of the states.
+    chances
+        shape (number of arcs,): the probability of the target, given the source; positive.
+
+    >>> arcs = arcs_of(csc_array([[0.25, 0.0], [0.75, 1.0]]))
+    >>> arcs.sources, arcs.targets, arcs.chances, arcs.outflow
+    (array([0], dtype=int32), array([1], dtype=int32), array([0.75]), array([0.75, 0.  ]))
+    """
+
+    size: int
+    indptr: NDArray[np.int32]
+    sources: NDArray[np.int32]
+    targets: NDArray[np.int32]
+    chances: NDArray[np.float64]
+
+    @cached_property
+    def outflow(self) -> NDArray[np.float64]:
+        """The probability to leave each state in a step: the sum of its arcs, shape (n,)."""
+        return np.bincount(self.sources, self.chances, self.size)
+
+    def matrix(self) -> csc_array:
+        """Return the arcs as a sparse matrix: entry [i, j] is the arc from j to i."""
+        return csc_array((self.chances, self.targets, self.indptr), shape=(self.size, self.size))
+
+
+def arcs_of(matrix: csc_array) -> Arcs:
+    """Return the arcs between different states of a column-stochastic matrix.
+
+    >>> arcs_of(csc_array([[1.0, 0.5], [0.0, 0.5]])).matrix().toarray()
+    array([[0. , 0.5],
+           [0. , 0. ]])
+    """
+    if not matrix.has_canonical_format:
+        matrix = matrix.copy()
+        matrix.sum_duplicates()
+    size = matrix.shape[0]
+    columns = np.arange(size, dtype=np.int32)
+    sources = np.repeat(columns, np.diff(matrix.indptr))
+    targets = matrix.indices.astype(np.int32, copy=False)
+    chances = matrix.data.astype(np.float64, copy=False)
+    keep = (sources != targets) & (chances > 0.0)
+    if not keep.all():
+        sources, targets, chances = sources[keep], targets[keep], chances[keep]
+    indptr = np.zeros(size + 1, dtype=np.int32)
+    np.cumsum(np.bincount(sources, minlength=size), out=indptr[1:])
+    return Arcs(size, indptr, sources, targets, chances)

@@ -1,0 +1,87 @@
+"""Elimination of states one by one, in plain Python, for any kind of number.
+
+To eliminate a state k is to watch the chain only while it is elsewhere: each path
+j -> k -> i becomes an arc j -> i of probability a[j][k] a[k][i] / d[k], where d[k] is the
+sum of the arcs out of k and of its leak, never 1 minus something. There are only sums,
+products and quotients of nonnegative numbers, so each entry of the answer is right to a
+few units in the last place times the number of states, however stiff the chain.
+
+References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993; Alfa, Xue and Ye 2002.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from typing import Any
+
+__all__ = ["Elimination"]
+
+
+class Elimination:
+    """(I - T) factored, where T holds the arcs of transient states among themselves.
+
+    Parameters
+    ----------
+    arcs
+        `arcs[j][i]`: the probability of i, given j, for i other than j. Used up.
+    leaks
+        `leaks[j]`: the probability to leave for good, given j.
+    """
+
+    def __init__(self, arcs: Sequence[dict[int, Any]], leaks: Sequence[Any]) -> None:
+        into: list[dict[int, Any]] = [{} for _ in arcs]
+        for j, row in enumerate(arcs):
+            for i, chance in row.items():
+                into[i][j] = chance
+        leak = list(leaks)
+        heap = [(len(arcs[k]) * len(into[k]), k) for k in range(len(leak))]
+        heapq.heapify(heap)
+        # (state, its pivot, arcs to and from the states that are eliminated later)
+        self.steps: list[tuple[int, Any, dict[int, Any], dict[int, Any]]] = []
+        done = [False] * len(leak)
+        while heap:
+            cost, k = heapq.heappop(heap)
+            if done[k]:
+                continue
+            out, back = arcs[k], into[k]
+            if len(out) * len(back) > cost:
+                heapq.heappush(heap, (len(out) * len(back), k))
+                continue
+            done[k] = True
+            pivot = sum(out.values(), leak[k])
+            self.steps.append((k, pivot, out, back))
+            for i in out:
+                del into[i][k]
+            for j, chance in back.items():
+                row = arcs[j]
+                del row[k]
+                share = chance / pivot
+                leak[j] += share * leak[k]
+                for i, onward in out.items():
+                    if i != j:
+                        row[i] = into[i][j] = row.get(i, 0) + share * onward
+
+    def visits(self, b: Sequence[Any]) -> list[Any]:
+        """Return x = (I - T)^-1 b: the expected visits to each state from the density b."""
+        x = list(b)
+        for k, pivot, out, _ in self.steps:
+            if x[k]:
+                share = x[k] / pivot
+                for i, chance in out.items():
+                    x[i] += share * chance
+        for k, pivot, _, back in reversed(self.steps):
+            x[k] = sum((chance * x[j] for j, chance in back.items()), x[k]) / pivot
+        return x
+
+    def values(self, r: Sequence[Any]) -> list[Any]:
+        """Return y = (I - T)^-T r: the expected sum of r over the visits from each state."""
+        y = list(r)
+        for k, pivot, _, back in self.steps:
+            if y[k]:
+                share = y[k] / pivot
+                for j, chance in back.items():
+                    y[j] += share * chance
+        for k, pivot, out, _ in reversed(self.steps):
+            y[k] = sum((chance * y[i] for i, chance in out.items()), y[k]) / pivot
+        return y

@@ -1,0 +1,153 @@
+"""What the graph of a chain says before any number is computed: classes, kinds, periods.
+
+Two states belong to the same (communicating) class if each can be reached from the other.
+The classes form an acyclic graph; they are numbered in a topological order of it, upstream
+first. A class that is never left is closed; its states are recurrent (absorbing where it
+is a single state), all others are transient. The period of a class is the greatest common
+divisor of the lengths of its cycles.
+
+References: Tarjan 1972 and Pearce 2005 for the classes (through scipy); Denardo 1977,
+"Periods of connected networks and powers of nonnegative matrices", for the periods.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csgraph, csr_array
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Arcs
+
+__all__ = ["Structure", "structure_of"]
+
+
+@dataclass(frozen=True, eq=False)
+class Structure:
+    """The communicating classes of a chain.
+
+    Parameters
+    ----------
+    label
+        shape (n,): the class of each state; no arc leads to a class of a smaller number.
+    count
+        the number of classes k.
+    arcs
+        the arcs between different states.
+    loops
+        shape (n,): whether the state has a self-loop.
+    """
+
+    label: NDArray[np.intp]
+    count: int
+    arcs: Arcs
+    loops: NDArray[np.bool_]
+
+    @cached_property
+    def order(self) -> NDArray[np.intp]:
+        """The positions of the states, grouped by class, upstream first; shape (n,)."""
+        return np.argsort(self.label, kind="stable")
+
+    @cached_property
+    def offsets(self) -> NDArray[np.intp]:
+        """Class c holds the states `order[offsets[c]:offsets[c + 1]]`; shape (k + 1,)."""
+        sizes = np.bincount(self.label, minlength=self.count)
+        return np.concatenate(([0], np.cumsum(sizes)))
+
+    @cached_property
+    def closed(self) -> NDArray[np.bool_]:
+        """Whether each class is never left; shape (k,)."""
+        source, target = self.label[self.arcs.sources], self.label[self.arcs.targets]
+        closed = np.ones(self.count, dtype=bool)
+        closed[source[source != target]] = False
+        return closed
+
+    @cached_property
+    def recurrent(self) -> NDArray[np.bool_]:
+        """Whether each state is in a closed class; shape (n,)."""
+        return self.closed[self.label]
+
+    @cached_property
+    def kinds(self) -> list[str]:
+        """The kind of each state: 'transient', 'recurrent' or (alone and never left) 'absorbing'.
+
+        A state of a closed class with others is 'recurrent'.
+        """
+        alone = np.diff(self.offsets)[self.label] == 1
+        code = self.recurrent * (1 + alone)
+        return np.array(["transient", "recurrent", "absorbing"])[code].tolist()
+
+    def members(self, label: int) -> NDArray[np.intp]:
+        """Return the positions of the states of class `label`."""
+        return self.order[self.offsets[label] : self.offsets[label + 1]]
+
+    @cached_property
+    def periods(self) -> NDArray[np.int64]:
+        """The period of each closed class, 0 for the others; shape (k,).
+
+        A state that is never left has period 1, also where its self-loop is not listed.
+        """
+        sizes = np.diff(self.offsets)
+        periods = np.where(self.closed, 1, 0).astype(np.int64)
+        looped = np.zeros(self.count, dtype=bool)
+        looped[self.label[self.loops]] = True
+        searched = self.closed & (sizes > 1) & ~looped
+        if searched.any():
+            depth = self._depths(searched)
+            source, target = self.arcs.sources, self.arcs.targets
+            home = self.label[source]
+            inside = np.flatnonzero(searched[home])
+            inside = inside[np.argsort(home[inside], kind="stable")]
+            slack = np.abs(depth[source[inside]] + 1 - depth[target[inside]])
+            first = np.flatnonzero(np.diff(home[inside], prepend=-1))
+            periods[home[inside][first]] = np.gcd.reduceat(slack, first)
+        return periods
+
+    def _depths(self, searched: NDArray[np.bool_]) -> NDArray[np.int64]:
+        """Return the depth of each state of the `searched` classes in a tree of arcs.
+
+        All trees are grown in one breadth-first search, from a root above them all.
+        """
+        n = self.arcs.size
+        roots = self.order[self.offsets[:-1][searched]]
+        sources = np.concatenate((self.arcs.sources, np.full(len(roots), n)))
+        targets = np.concatenate((self.arcs.targets, roots))
+        graph = csr_array((np.ones(len(sources)), (sources, targets)), shape=(n + 1, n + 1))
+        _, parent = csgraph.breadth_first_order(graph, n)
+        parent[parent < 0] = n
+        # Pointer jumping: after k rounds `parent` is the ancestor 2^k steps above.
+        depth = np.where(np.arange(n + 1) == n, 0, 1).astype(np.int64)
+        while (parent != n).any():
+            depth += depth[parent]
+            parent = parent[parent]
+        return depth[:n]
+
+
+def structure_of(arcs: Arcs, loops: NDArray[np.bool_]) -> Structure:
+    """Return the communicating classes of the graph that `arcs` make.
+
+    Cost is linear in the number of arcs. Where the arcs all lead forward in the given
+    order, or all backward, no search is made.
+
+    Parameters
+    ----------
+    arcs
+        the arcs between different states.
+    loops
+        shape (n,): whether the state has a self-loop, which only the periods ask.
+    """
+    n = arcs.size
+    forward = arcs.sources < arcs.targets
+    if forward.all():
+        return Structure(np.arange(n), n, arcs, loops)
+    if not forward.any():
+        return Structure(np.arange(n)[::-1].copy(), n, arcs, loops)
+    graph = csr_array((arcs.chances, arcs.targets, arcs.indptr), shape=(n, n))
+    count, label = csgraph.connected_components(graph, directed=True, connection="strong")
+    # Pearce's algorithm numbers a class after all that are downstream of it.
+    return Structure(count - 1 - label.astype(np.intp), count, arcs, loops)
