@@ -1,0 +1,93 @@
+"""`evenbreak fair`: the races that come nearest to a target chance."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from evenbreak.cli.options import LONGEST, PlainCommand, chance, refuse, span, wants_json
+from evenbreak.cli.output import aligned, chance_text, csv_text, print_json, to_terminal
+from evenbreak.cli.players import Players, player_options
+
+__all__ = ["fair"]
+
+COLUMNS = ("race_a", "race_b", "p_win_a", "mean_games", "games_p90")
+HEADINGS = ("A needs", "B needs", "A wins", "games, mean", "9 of 10 within")
+
+
+@click.command(cls=PlainCommand)
+@player_options
+@click.option(
+    "--games",
+    metavar="LO..HI",
+    callback=span,
+    help="The longest that the match can last, in games.",
+)
+@click.option(
+    "--race-to",
+    type=click.IntRange(1, LONGEST),
+    metavar="N",
+    help="The stronger player needs N games; find what the weaker needs.",
+)
+@click.option(
+    "--target",
+    metavar="P",
+    callback=chance,
+    default="0.5",
+    show_default=True,
+    help="The chance that A should have to win the match.",
+)
+@click.option(
+    "--top", type=click.IntRange(1), metavar="K", default=5, show_default=True, help="How many."
+)
+@wants_json
+def fair(
+    games: tuple[int, int] | None,
+    race_to: int | None,
+    target: float,
+    top: int,
+    as_json: bool,
+    **who: Any,
+) -> None:
+    r"""Find the races that come nearest to an even chance, the nearest first.
+
+    Who plays: two ratings A B; or --p; or --p1, --p2 and --breaks. How long: --games
+    or --race-to.
+
+    \b
+    evenbreak fair 612 521 --scale fargo --race-to 7
+    evenbreak fair 85 40 --games 7..13 --top 3
+    evenbreak fair --p1 0.6 --p2 0.5 --breaks alternate --games 5..9
+    """
+    from evenbreak.handicaps.fair import fair_races
+
+    players = Players.of(**who)
+    if games is None and race_to is None:
+        refuse("how long is missing; give --games LO..HI or --race-to N")
+    if games is not None and race_to is not None:
+        refuse("--games and --race-to exclude each other; leave one out")
+    races = fair_races(
+        players.rack,
+        games=games,
+        race_to=race_to,
+        target=target,
+        top=top,
+        breaks=players.breaks,
+        first_breaker=players.first_breaker,
+    )
+    rows = [
+        (race.race_1, race.race_2, race.p_win_1, race.mean_games, race.games_p90) for race in races
+    ]
+    if as_json:
+        print_json([dict(zip(COLUMNS, row, strict=True)) for row in rows])
+    elif to_terminal():
+        cells = [
+            [str(m), str(n), chance_text(p), f"{mean:.2f}", str(long)]
+            for m, n, p, mean, long in rows
+        ]
+        click.echo(f"{players.description}\n\n{aligned([HEADINGS, *cells], left=0)}", nl=False)
+    else:
+        if players.scale is not None:
+            click.echo(players.description, err=True)
+        click.echo(csv_text(COLUMNS, rows), nl=False)

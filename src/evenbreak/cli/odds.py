@@ -1,0 +1,164 @@
+"""`evenbreak odds`: the chances of a match, and how long it lasts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from evenbreak.cli.options import LONGEST, PlainCommand, pair, refuse, score, wants_json
+from evenbreak.cli.output import (
+    SCHEMA_VERSION,
+    aligned,
+    chance_text,
+    csv_text,
+    print_json,
+    to_terminal,
+)
+from evenbreak.cli.players import Players, player_options
+from evenbreak.games.ahead import Ahead
+from evenbreak.games.race import Race
+from evenbreak.games.rack import Rack
+
+if TYPE_CHECKING:
+    from evenbreak.games.match import Match
+
+__all__ = ["odds"]
+
+WORDS = {
+    "p_game_a": "A wins a game",
+    "p_win_a": "A wins the match",
+    "p_win_b": "B wins the match",
+    "p_never_ends": "the match never ends",
+    "mean_games": "games, mean",
+    "sd_games": "games, standard deviation",
+    "games_p50": "games, half of the matches within",
+    "games_p90": "games, 9 of 10 matches within",
+    "p_hill_hill": "hill-hill: the last possible game decides",
+    "p_shutout_a": "A wins without losing a game",
+    "p_shutout_b": "B wins without losing a game",
+}
+"""What each quantity is called on a terminal."""
+
+
+@click.command(cls=PlainCommand)
+@player_options
+@click.option("--race", metavar="M:N", callback=pair, help="A needs M games, B needs N.")
+@click.option("--ahead", metavar="M:N", callback=pair, help="A needs to lead by M games, B by N.")
+@click.option(
+    "--set",
+    "set_",
+    metavar="M:N",
+    callback=pair,
+    help="Play sets, each a race M:N; --race then counts sets.",
+)
+@click.option("--score", metavar="I:J", callback=score, help="The score already: I for A, J for B.")
+@click.option(
+    "--win-by",
+    type=click.IntRange(1, LONGEST),
+    metavar="K",
+    help="The race goes on until one leads by K, counted from what each needs.",
+)
+@wants_json
+def odds(
+    race: tuple[int, int] | None,
+    ahead: tuple[int, int] | None,
+    set_: tuple[int, int] | None,
+    score: tuple[int, int] | None,
+    win_by: int | None,
+    as_json: bool,
+    **who: Any,
+) -> None:
+    r"""Answer what the chances of a match are, and how long it lasts.
+
+    Who plays: two ratings A B; or --p; or --p1, --p2 and --breaks. What is played:
+    --race or --ahead, perhaps in sets.
+
+    \b
+    evenbreak odds 612 521 --scale fargo --race 7:5
+    evenbreak odds --p 0.6 --ahead 5:3
+    evenbreak odds --p1 0.6 --p2 0.5 --breaks winner --race 9:9 --score 4:6
+    evenbreak odds --p 0.66 --race 3:1 --set 3:3
+    """
+    from evenbreak.matches.scalar import match_odds
+
+    players = Players.of(**who)
+    match = match_of(players, race=race, ahead=ahead, set_=set_, score=score, win_by=win_by)
+    result = match_odds(match)
+    answer = {
+        "p_game_a": players.p_game_a,
+        "p1": None if players.p_game_a is not None else players.rack.p1,
+        "p2": players.rack.p2,
+        "p_win_a": result.p_win_1,
+        "p_win_b": result.p_win_2,
+        "p_never_ends": result.p_never_ends,
+        "mean_games": result.mean_games,
+        "sd_games": result.sd_games,
+        "games_p50": result.games_p50,
+        "games_p90": result.games_p90,
+        "p_hill_hill": result.p_hill_hill,
+        "p_shutout_a": result.p_shutout_1,
+        "p_shutout_b": result.p_shutout_2,
+    }
+    scale = players.scale.name if players.scale else None
+    if as_json:
+        print_json({**answer, "scale": scale, "schema_version": SCHEMA_VERSION})
+    elif to_terminal():
+        click.echo(players.description)
+        click.echo(match_text(match))
+        rows = [[WORDS[key], _text(key, answer[key])] for key in WORDS if answer[key] is not None]
+        click.echo("\n" + aligned(rows), nl=False)
+    else:
+        rows_out = [*answer.items(), ("scale", scale)]
+        click.echo(csv_text(["quantity", "value"], rows_out), nl=False)
+
+
+def match_of(
+    players: Players,
+    *,
+    race: tuple[int, int] | None,
+    ahead: tuple[int, int] | None,
+    set_: tuple[int, int] | None,
+    score: tuple[int, int] | None,
+    win_by: int | None,
+) -> Match:
+    """Return the match that the options describe, or refuse what contradicts itself."""
+    if race is not None and ahead is not None:
+        refuse("--race and --ahead exclude each other; leave one out")
+    if win_by is not None and (ahead or set_):
+        refuse(f"--win-by does not combine with {'--ahead' if ahead else '--set'}; leave it out")
+    rack: Any = players.rack
+    breaks, first = players.breaks, players.first_breaker
+    start = score or (0, 0)
+    if set_ is not None:  # the break format goes on across the sets: only the set has to know it
+        rack = Race(set_[0], set_[1], rack, breaks=breaks, first_breaker=first)
+        breaks = None
+    if ahead is not None:
+        return Ahead(ahead[0], ahead[1], rack, breaks=breaks, first_breaker=first, score=start)
+    if race is None:
+        refuse("what is played is missing; give --race M:N or --ahead M:N")
+    m, n = race
+    return Race(m, n, rack, breaks=breaks, first_breaker=first, score=start, win_by=win_by or 1)
+
+
+def match_text(match: Match) -> str:
+    """Return what is played, in words.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> match_text(Race(3, 1, Race(3, 3, Rack(0.6)), score=(1, 0)))
+    'race 3:1 in sets of 3:3, the score is 1:0'
+    """
+    text = f"{type(match).__name__.lower()} {match.m}:{match.n}"
+    if (win_by := getattr(match, "win_by", 1)) > 1:
+        text += f", win by {win_by}"
+    if not isinstance(match.rack, Rack):
+        text += f" in sets of {match.rack.m}:{match.rack.n}"
+    if any(match.score):
+        text += f", the score is {match.score[0]}:{match.score[1]}"
+    return text
+
+
+def _text(key: str, value: float) -> str:
+    if key.startswith("p_"):
+        return chance_text(value)
+    return f"{value:.2f}" if isinstance(value, float) else str(value)
