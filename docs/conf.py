@@ -29,4 +29,3 @@ nitpicky = False
 html_theme = "furo"
 html_title = f"evenbreak {release}"
 html_static_path: list[str] = []
-

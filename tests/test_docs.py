@@ -1,0 +1,224 @@
+"""What README and docs say is so: examples run, commands, options and names are all described."""
+
+import doctest
+import importlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import click
+import pytest
+
+from evenbreak.cli.base import COMMANDS, main
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CONTRIBUTING.md",
+    *sorted(
+        page
+        for page in (ROOT / "docs").rglob("*.md")
+        if "_build" not in page.relative_to(ROOT).parts
+    ),
+]
+PACKAGES = (
+    "evenbreak",
+    *sorted(
+        f"evenbreak.{init.parent.name}"
+        for init in (ROOT / "src" / "evenbreak").glob("*/__init__.py")
+    ),
+)
+FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+FENCE = re.compile(r"^```(?P<language>[^\n`]*)\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+class Block(NamedTuple):
+    """A fenced block: its language, its text, and the line where its text begins."""
+
+    language: str
+    body: str
+    line: int
+
+
+def blocks(text: str) -> list[Block]:
+    return [
+        Block(
+            found["language"].strip(), found["body"], text.count("\n", 0, found.start("body")) + 1
+        )
+        for found in FENCE.finditer(text)
+    ]
+
+
+def pages_with(language: str) -> list[Path]:
+    return [
+        page
+        for page in PAGES
+        if any(block.language == language for block in blocks(page.read_text(encoding="utf-8")))
+    ]
+
+
+def name_of(page: Path) -> str:
+    return str(page.relative_to(ROOT))
+
+
+@pytest.fixture
+def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Stand in a directory of one's own, with the sample data, as a reader of the README does."""
+    shutil.copytree(ROOT / "data", tmp_path / "data")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.usefixtures("desk")
+@pytest.mark.parametrize("page", pages_with("python"), ids=name_of)
+def test_python_examples(page: Path) -> None:
+    names: dict[str, object] = {"__name__": "example"}
+    for block in blocks(page.read_text(encoding="utf-8")):
+        if block.language != "python":
+            continue
+        if ">>>" not in block.body:
+            exec(compile(block.body, f"{name_of(page)}:{block.line}", "exec"), names)  # noqa: S102
+            continue
+        parser = doctest.DocTestParser()
+        test = parser.get_doctest(block.body, names, name_of(page), name_of(page), block.line)
+        runner = doctest.DocTestRunner(optionflags=FLAGS)
+        said: list[str] = []
+        runner.run(test, out=said.append, clear_globs=False)
+        names.update(test.globs)
+        assert not said, "".join(said)
+
+
+def commands_of(body: str) -> Iterator[tuple[str, str]]:
+    """Yield each `$ command` with the output that is printed below it."""
+    for part in re.split(r"^\$ ", body, flags=re.MULTILINE)[1:]:
+        lines = part.split("\n")
+        count = 1
+        while lines[count - 1].endswith("\\"):
+            count += 1
+        yield "\n".join(lines[:count]), "\n".join(lines[count:])
+
+
+def on_a_terminal(command: str) -> str:
+    """Run a command as a person would, and return what the screen shows."""
+    pty = pytest.importorskip("pty", reason="a terminal to look at needs a POSIX system")
+    import fcntl
+    import struct
+    import termios
+
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 100, 0, 0))
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+    environment = {**os.environ, "PATH": path, "NO_COLOR": "1", "TERM": "dumb", "PYTHONUTF8": "1"}
+    environment.pop("COLUMNS", None)
+    with subprocess.Popen(  # noqa: S602
+        command,
+        shell=True,
+        stdin=subprocess.DEVNULL,
+        stdout=theirs,
+        stderr=theirs,
+        env=environment,
+    ) as process:
+        os.close(theirs)
+        shown = b""
+        while True:
+            try:
+                piece = os.read(ours, 65536)
+            except OSError:  # the other end is closed: how Linux says end of file here
+                break
+            if not piece:
+                break
+            shown += piece
+    os.close(ours)
+    assert process.returncode == 0, shown.decode()
+    return shown.decode().replace("\r\n", "\n")
+
+
+@pytest.mark.usefixtures("desk")
+@pytest.mark.parametrize("page", pages_with("console"), ids=name_of)
+def test_console_examples(page: Path) -> None:
+    checker = doctest.OutputChecker()
+    for block in blocks(page.read_text(encoding="utf-8")):
+        if block.language != "console":
+            continue
+        for command, wanted in commands_of(block.body):
+            got = on_a_terminal(command)
+            assert checker.check_output(wanted.rstrip() + "\n", got.rstrip() + "\n", FLAGS), (
+                f"{name_of(page)}:{block.line}: $ {command}\n{got}"
+            )
+
+
+def test_readme_begins_with_the_two_commands_that_set_up() -> None:
+    use, develop, *_ = blocks((ROOT / "README.md").read_text(encoding="utf-8"))
+    for block in (use, develop):
+        assert block.body.count("\n") == 1
+        assert "-m venv" in block.body
+    assert "evenbreak report data/demo_league.csv --out sheet" in use.body
+    assert "[dev]" in develop.body
+    assert "pytest" in develop.body
+
+
+def test_every_page_is_in_a_table_of_contents() -> None:
+    listed = set()
+    for page in PAGES[2:]:
+        for block in blocks(page.read_text(encoding="utf-8")):
+            if block.language == "{toctree}":
+                entries = [line for line in block.body.split() if not line.startswith(":")]
+                listed |= {(page.parent / f"{entry}.md").resolve() for entry in entries}
+    assert set(PAGES[2:]) - listed == {ROOT / "docs" / "index.md"}
+
+
+def test_links_between_pages_lead_somewhere() -> None:
+    for page in PAGES:
+        for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+            assert (page.parent / target).exists(), f"{name_of(page)}: {target}"
+
+
+def section(name: str) -> str:
+    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
+    parts = re.split(r"^## `?evenbreak (\w+)`?$", text, flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))[name]
+
+
+def command(name: str) -> click.Command:
+    found = main.get_command(click.Context(main), name)
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_option_is_described_and_no_other(name: str) -> None:
+    options = {
+        text
+        for option in command(name).params
+        for text in (*option.opts, *option.secondary_opts)
+        if text.startswith("--")
+    }
+    described = set(re.findall(r"^\| `(--[a-z0-9-]+)", section(name), flags=re.MULTILINE))
+    assert described == options - {"--help"}
+
+
+def test_every_command_is_described_and_no_other() -> None:
+    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"^## `?evenbreak (\w+)`?$", text, flags=re.MULTILINE)) == set(COMMANDS)
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_every_public_name_is_in_the_reference(package: str) -> None:
+    reference = (ROOT / "docs" / "reference" / "api.md").read_text(encoding="utf-8")
+    described: set[str] = set()
+    for module in re.findall(r"^\.\. automodule:: (\S+)$", reference, flags=re.MULTILINE):
+        described |= set(importlib.import_module(module).__all__)
+    public = set(getattr(importlib.import_module(package), "__all__", ()))
+    assert public - described == set()
+
+
+def test_every_public_name_can_be_had() -> None:
+    for package in PACKAGES:
+        module = importlib.import_module(package)
+        for name in getattr(module, "__all__", ()):
+            assert getattr(module, name) is not None, f"{package}.{name}"
