@@ -11,10 +11,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["SHOWN", "Problems", "quoted"]
-
-SHOWN = 20
-"""How many problems of a file are told; the rest are counted."""
+__all__ = ["Problems", "quoted"]
 
 LONGEST_QUOTE = 40
 
@@ -48,34 +45,30 @@ class Problems:
 
     def __init__(self, source: str) -> None:
         self.source = source
-        self._total = 0
-        self._told: list[tuple[int, str]] = []
+        self._found: list[tuple[int, str]] = []
 
     def __len__(self) -> int:
-        return self._total
+        return len(self._found)
 
     def add(self, line: int | None, message: str) -> None:
         """Note one problem: its line (None for the file as a whole), what and how to mend it."""
-        self._total += 1
-        self._told.append((line or 0, message))
+        self._found.append((line or 0, message))
 
     def add_rows(
         self, lines: NDArray[np.int64], rows: NDArray[np.int64], message: Callable[[int], str]
     ) -> None:
-        """Note a problem in each of `rows`; `message` is asked only for those that may be told.
+        """Note a problem in each of `rows`.
 
         Parameters
         ----------
         lines
-            the line of each row of the table, rising.
+            the line of each row of the table.
         rows
-            the rows at fault, rising.
+            the rows at fault.
         message
             what is wrong in a row, and how to mend it.
         """
-        self._total += len(rows)
-        # The first lines of all checks together are among the first lines of each check.
-        self._told += [(int(lines[row]), message(int(row))) for row in rows[:SHOWN]]
+        self._found += [(int(lines[row]), message(int(row))) for row in rows]
 
     def raise_any(self) -> None:
         """Raise what was found, if anything was.
@@ -83,14 +76,11 @@ class Problems:
         Raises
         ------
         DataError
-            with one line a problem, those of the file as a whole first; beyond the first
-            20 only a count.
+            with one line a problem, those of the file as a whole first.
         """
-        if not self._total:
-            return
-        ordered = sorted(self._told, key=lambda problem: problem[0])[:SHOWN]
-        told = [f"{self.source}{f':{line}' if line else ''}: {text}" for line, text in ordered]
-        if self._total > SHOWN:
-            more = self._total - SHOWN
-            told.append(f"{self.source}: and {more:,} more problem{'s' if more > 1 else ''}")
-        raise DataError(told)
+        if self._found:
+            # Stable: problems of one line stay in the order in which they were found.
+            ordered = sorted(self._found, key=lambda problem: problem[0])
+            raise DataError(
+                f"{self.source}{f':{line}' if line else ''}: {text}" for line, text in ordered
+            )
