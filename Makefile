@@ -18,8 +18,8 @@ types:
 test:             ## tests and every docstring's, README's and page's example
 	$(PYTHON) -m pytest -q
 
-layers:           ## imports in one direction, every example of README and docs
-	$(PYTHON) -m pytest -q tests/test_layers.py tests/test_docs.py
+layers:           ## imports in one direction, files and terminal only at the end
+	$(PYTHON) -m pytest -q tests/test_layers.py
 
 docs:             ## HTML pages in docs/_build, a warning is an error
 	$(PYTHON) -m sphinx -W --keep-going -q -b html docs docs/_build/html
