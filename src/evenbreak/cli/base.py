@@ -28,7 +28,6 @@ COMMANDS = {
 """Each command with its line of help; module and function bear the command's name."""
 
 FAILED, USAGE, BAD_DATA, INTERRUPTED = 1, 2, 3, 130
-PROBLEMS_SHOWN = 20
 
 
 class Program(click.Group):
@@ -97,10 +96,7 @@ def report_error(error: BaseException) -> int:
 def _lines(error: BaseException) -> Iterator[str]:
     match error:
         case DataError():
-            yield from error.problems[:PROBLEMS_SHOWN]
-            hidden = len(error.problems) - PROBLEMS_SHOWN
-            if hidden > 0:
-                yield f"{hidden} more problem{'s' if hidden > 1 else ''} not shown"
+            yield from error.problems
         case OSError(filename=None):
             yield str(error.strerror or error)
         case OSError():

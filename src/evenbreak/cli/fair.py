@@ -15,8 +15,15 @@ __all__ = ["fair"]
 COLUMNS = ("race_a", "race_b", "p_win_a", "mean_games", "games_p90")
 HEADINGS = ("A needs", "B needs", "A wins", "games, mean", "9 of 10 within")
 
+EXAMPLES = """\b
+Examples:
+  evenbreak fair 612 521 --scale fargo --race-to 7
+  evenbreak fair 85 40 --games 7..13 --top 3
+  evenbreak fair --p1 0.6 --p2 0.5 --breaks alternate --games 5..9
+"""
 
-@click.command(cls=PlainCommand)
+
+@click.command(cls=PlainCommand, epilog=EXAMPLES)
 @player_options
 @click.option(
     "--games",
@@ -50,15 +57,10 @@ def fair(
     as_json: bool,
     **who: Any,
 ) -> None:
-    r"""Find the races that come nearest to an even chance, the nearest first.
+    """Find the races that come nearest to an even chance, the nearest first.
 
     Who plays: two ratings A B; or --p; or --p1, --p2 and --breaks. How long: --games
     or --race-to.
-
-    \b
-    evenbreak fair 612 521 --scale fargo --race-to 7
-    evenbreak fair 85 40 --games 7..13 --top 3
-    evenbreak fair --p1 0.6 --p2 0.5 --breaks alternate --games 5..9
     """
     from evenbreak.handicaps.fair import fair_races
 

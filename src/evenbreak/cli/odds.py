@@ -40,8 +40,16 @@ WORDS = {
 }
 """What each quantity is called on a terminal."""
 
+EXAMPLES = """\b
+Examples:
+  evenbreak odds 612 521 --scale fargo --race 7:5
+  evenbreak odds --p 0.6 --ahead 5:3
+  evenbreak odds --p1 0.6 --p2 0.5 --breaks winner --race 9:9 --score 4:6
+  evenbreak odds --p 0.66 --race 3:1 --set 3:3
+"""
 
-@click.command(cls=PlainCommand)
+
+@click.command(cls=PlainCommand, epilog=EXAMPLES)
 @player_options
 @click.option("--race", metavar="M:N", callback=pair, help="A needs M games, B needs N.")
 @click.option("--ahead", metavar="M:N", callback=pair, help="A needs to lead by M games, B by N.")
@@ -69,16 +77,10 @@ def odds(
     as_json: bool,
     **who: Any,
 ) -> None:
-    r"""Answer what the chances of a match are, and how long it lasts.
+    """Answer what the chances of a match are, and how long it lasts.
 
     Who plays: two ratings A B; or --p; or --p1, --p2 and --breaks. What is played:
     --race or --ahead, perhaps in sets.
-
-    \b
-    evenbreak odds 612 521 --scale fargo --race 7:5
-    evenbreak odds --p 0.6 --ahead 5:3
-    evenbreak odds --p1 0.6 --p2 0.5 --breaks winner --race 9:9 --score 4:6
-    evenbreak odds --p 0.66 --race 3:1 --set 3:3
     """
     from evenbreak.matches.scalar import match_odds
 

@@ -1,0 +1,111 @@
+"""`evenbreak chain`: the stochastic limit of any chain, from a file of arcs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from evenbreak.cli.options import wants_json
+from evenbreak.cli.output import SCHEMA_VERSION, print_json
+from evenbreak.errors import DataError
+
+if TYPE_CHECKING:
+    from evenbreak.chains.chain import Chain
+    from evenbreak.chains.limits import Limit
+
+__all__ = ["chain"]
+
+EXAMPLES = """\b
+Examples:
+  evenbreak chain arcs.csv
+  evenbreak chain arcs.csv --start S2 --json
+  evenbreak chain arcs.csv --steps 10
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("arcs", metavar="ARCS.csv")
+@click.option("--start", metavar="STATE", help="Where to begin.  [default: the first row's source]")
+@click.option(
+    "--steps",
+    type=click.IntRange(0),
+    metavar="N",
+    help="Print the density after N steps in place of the limit.",
+)
+@wants_json
+def chain(arcs: str, start: str | None, steps: int | None, as_json: bool) -> None:
+    """Find the stochastic limit of any chain, from a file of arcs.
+
+    The columns of ARCS.csv are source, target and probability; - reads standard input.
+    The arcs out of each state sum to 1; a state that is only a target absorbs. Where
+    the chain goes round for ever, the limit is the long-run average.
+    """
+    from evenbreak.chains.explore import chain_from_arrays
+    from evenbreak.chains.limits import stochastic_limit
+    from evenbreak.chains.steps import propagate
+    from evenbreak.reports.read_arcs import read_arcs
+
+    file = read_arcs(arcs)
+    for warning in file.warnings:
+        click.echo(f"Warning: {warning}", err=True)
+    if start is None:
+        start = file.states[file.sources[0]]
+    elif start not in file.states:
+        known = ", ".join(repr(state) for state in file.states[:5])
+        raise DataError([f"{file.source}: start {start!r} is no state; its states begin {known}"])
+    built = chain_from_arrays(file.states, *file[1:4], start=start)
+    if steps is not None and not as_json:
+        _print_csv(file.states, propagate(built, steps=steps).tolist())
+        return
+    limit = stochastic_limit(built)
+    if as_json:
+        print_json(_answer(built, limit, steps))
+        return
+    for note in _notes(limit):
+        click.echo(f"Note: {note}", err=True)
+    _print_csv(file.states, limit.probability.tolist())
+
+
+def _notes(limit: Limit) -> Iterator[str]:
+    """Yield what a reader of the bare numbers should know."""
+    if limit.is_cesaro:
+        yield f"this is the long-run average; the chain goes round with period {limit.period}"
+    if limit.residual is not None:
+        yield f"solved with residual {limit.residual:.3g}, without a bound for each entry"
+
+
+def _answer(built: Chain, limit: Limit, steps: int | None) -> dict[str, Any]:
+    """Return what --json prints."""
+    from evenbreak.chains.steps import propagate, steps_to_absorption
+
+    states, structure = built.states, built.structure
+    classes = zip(structure.label.tolist(), structure.kinds, strict=True)
+    answer = {
+        "start": built.start,
+        "limit": limit.to_dict(),
+        "states": {
+            state: {"class": label, "kind": kind}
+            for state, (label, kind) in zip(states, classes, strict=True)
+        },
+        "period": limit.period,
+        "mean_steps": steps_to_absorption(built).mean,
+        "residual": limit.residual,
+    }
+    if steps is not None:
+        density = propagate(built, steps=steps).tolist()
+        answer |= {"steps": steps, "density": dict(zip(states, density, strict=True))}
+    return {**answer, "schema_version": SCHEMA_VERSION}
+
+
+def _print_csv(states: list[str], chances: list[float]) -> None:
+    """Print each state with its probability, in the shortest text that reads back the same."""
+    import csv
+    import io
+
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["state", "probability"])
+    writer.writerows(zip(states, map(repr, chances), strict=True))
+    click.echo(text.getvalue().encode(), nl=False)
