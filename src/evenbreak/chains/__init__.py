@@ -17,6 +17,7 @@ __getattr__, __dir__, __all__ = attach(
         "structure": ["Structure"],
         "transient": ["TransientPart"],
         "explore": ["chain_from_arrays", "chain_of"],
+        "steps": ["Passage", "first_passage", "propagate", "steps_to_absorption"],
         "symbolic": ["symbolic_limit"],
     },
 )
