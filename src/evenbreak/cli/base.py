@@ -107,7 +107,7 @@ def _lines(error: BaseException) -> Iterator[str]:
             yield " ".join(str(error).split())
 
 
-@click.command(cls=Program, context_settings={"help_option_names": ["-h", "--help"]})
+@click.command("evenbreak", cls=Program, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="evenbreak", message="%(prog)s %(version)s")
 def main() -> None:
     """Fair races, odds and ratings for pool, from Markov chains."""
