@@ -68,8 +68,7 @@ def solve(matrix: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> li
             if r != k:
                 factor = rows[r][k]
                 rows[r] = [
-                    (pivot * x - factor * y) // last
-                    for x, y in zip(rows[r], rows[k], strict=True)
+                    (pivot * x - factor * y) // last for x, y in zip(rows[r], rows[k], strict=True)
                 ]
         last = pivot
     return [Fraction(rows[k][n], rows[k][k]) for k in range(n)]

@@ -3,7 +3,6 @@
 from fractions import Fraction
 
 import oracle
-
 from evenbreak.chains import chain_of
 
 HALF = Fraction(1, 2)
@@ -43,7 +42,11 @@ def test_solve_needs_a_row_exchange() -> None:
 def test_period() -> None:
     ring = chain_of([("A", "B", 1), ("B", "C", 1), ("C", "A", 1)])
     chord = chain_of([("A", "B", 0.5), ("A", "C", 0.5), ("B", "C", 1), ("C", "A", 1)])
-    square = chain_of([(k, (k + 1) % 4, 0.5) for k in range(4)] + [(k, k - 1, 0.5) for k in (1, 2, 3)] + [(0, 3, 0.5)])
+    square = chain_of(
+        [(k, (k + 1) % 4, 0.5) for k in range(4)]
+        + [(k, k - 1, 0.5) for k in (1, 2, 3)]
+        + [(0, 3, 0.5)]
+    )
     assert [oracle.period(c, set(range(len(c)))) for c in (ring, chord, square)] == [3, 1, 2]
 
 
