@@ -23,6 +23,7 @@ __all__ = ["Values", "numbers", "read_cells", "whole_numbers"]
 _WHOLE = re.compile(r"[+-]?[0-9]+(\.0*)?", re.ASCII)
 _NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)(e[+-]?[0-9]+)?", re.ASCII | re.IGNORECASE)
 LARGEST_WHOLE = 1_000_000
+LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of digits
 
 
 class Values(NamedTuple):
@@ -95,26 +96,31 @@ def read_cells(
 
 
 def whole_numbers(
-    table: Table, name: str, *, remedy: str = "write 0, 1, 2, ...", may_be_empty: bool = False
+    table: Table,
+    name: str,
+    *,
+    at_least: int = 0,
+    remedy: str = "write 0, 1, 2, ...",
+    may_be_empty: bool = False,
 ) -> Values:
-    """Read a column of whole numbers of at most a million either way; empty cells are 0."""
+    """Read a column of whole numbers from `at_least` to a million; empty cells are 0."""
+
+    def meaning(text: str) -> int | None:
+        if not _WHOLE.fullmatch(text) or len(text) > LONGEST_WHOLE:
+            return None
+        number = int(text.partition(".")[0])
+        return number if at_least <= number <= LARGEST_WHOLE else None
+
     return read_cells(
         table,
         name,
-        _whole,
-        wanted=f"a whole number (up to {LARGEST_WHOLE:,})",
+        meaning,
+        wanted=f"a whole number from {at_least} to {LARGEST_WHOLE:,}",
         remedy=remedy,
         dtype=np.int64,
         empty=0,
         may_be_empty=may_be_empty,
     )
-
-
-def _whole(text: str) -> int | None:
-    if not _WHOLE.fullmatch(text) or len(text) > 20:
-        return None
-    number = int(text.partition(".")[0])
-    return number if abs(number) <= LARGEST_WHOLE else None
 
 
 def numbers(table: Table, name: str, *, remedy: str) -> Values:

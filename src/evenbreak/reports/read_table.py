@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import csv
 import io
-import sys
 from array import array
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
@@ -22,20 +21,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.errors import DataError
+from evenbreak.reports.bytes_in import content_of, encoding_of
 from evenbreak.reports.problems import Problems, quoted
 
 __all__ = ["Table", "Texts", "read_table"]
 
 SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab"}
 ROWS_AT_A_TIME = 1024  # few enough to stay in the processor's cache
-MAGIC = {
-    b"PK\x03\x04": "a spreadsheet or a zip archive",
-    b"\xd0\xcf\x11\xe0": "an old Excel workbook",
-    b"%PDF": "a PDF document",
-    b"\xff\xfe": "UTF-16 text",
-    b"\xfe\xff": "UTF-16 text",
-}
 
 
 class Texts(NamedTuple):
@@ -133,8 +125,8 @@ def read_table(
     >>> table.cells("target"), table.lines, len(table.problems)
     (['W', 'L'], array([3, 4]), 0)
     """
-    source, content = _content(path)
-    encoding, warnings = _encoding(content, source)
+    source, content = content_of(path)
+    encoding, warnings = encoding_of(content, source)
     problems = Problems(source)
     names = {**required, **(optional or {})}
     chunks = _chunks(content, encoding, _separator(content, encoding, names), problems)
@@ -147,64 +139,16 @@ def read_table(
     places, unused = _places(header, names, problems)
     missing = [name for name in required if name not in places]
     for name in missing:
-        others = f" (or {', '.join(required[name])})" if required[name] else ""
+        others = " or ".join(map(quoted, required[name][:3]))
         problems.add(
             header_line,
-            f"there is no column {name!r}{others} among {_listed(header)}; add it",
+            f"there is no column {name!r} among {_listed(header)}; add it"
+            + (f" (it may also be called {others})" if others else ""),
         )
     if unused:
         warnings.append(f"{source}: columns not used: {_listed(unused)}")
     row_lines, columns = _columns(chunks, len(header), places, problems)
     return Table(source, row_lines, columns, problems, tuple(warnings), content)
-
-
-def _content(path: str | Path) -> tuple[str, bytes]:
-    """Return what to call the file, and its bytes."""
-    if str(path) == "-":
-        return "stdin", sys.stdin.buffer.read()
-    # A name that is not text must still print.
-    source = str(path).encode("utf-8", "backslashreplace").decode()
-    try:
-        return source, Path(path).read_bytes()
-    except FileNotFoundError:
-        raise DataError([f"{source}: there is no such file; check its name"]) from None
-    except IsADirectoryError:
-        raise DataError([f"{source}: is a folder; name a file in it"]) from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise DataError([f"{source}: cannot be read ({reason}); check the file"]) from None
-
-
-def _encoding(content: bytes, source: str) -> tuple[str, list[str]]:
-    """Return how a file is encoded, and a warning if that had to be guessed."""
-    for magic, kind in MAGIC.items():
-        if content.startswith(magic):
-            raise DataError([f"{source}: is {kind}; save it as CSV, in UTF-8"])
-    nul = content.find(b"\0")
-    if nul >= 0:
-        line = content.count(b"\n", 0, nul) + 1
-        raise DataError([f"{source}:{line}: holds a NUL byte; save the file as CSV, in UTF-8"])
-    try:
-        encoding, warnings = "utf-8-sig", []
-        text = content.decode(encoding)
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        try:
-            encoding = "cp1252"
-            text = content.decode(encoding)
-        except UnicodeDecodeError as also:
-            line = content.count(b"\n", 0, also.start) + 1
-            raise DataError(
-                [f"{source}:{line}: is neither UTF-8 nor Windows-1252 text; save it as UTF-8"]
-            ) from None
-        warnings = [
-            f"{source}:{line}: is not UTF-8; read as Windows-1252, so look at the accents in names"
-        ]
-    if not text.strip():
-        raise DataError(
-            [f"{source}: is empty; write a header line and one line for each row below it"]
-        )
-    return encoding, warnings
 
 
 def _key(name: str) -> str:

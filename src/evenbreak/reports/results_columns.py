@@ -1,0 +1,247 @@
+"""The columns of a results file: what each may be called, and what its cells may say."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections import defaultdict
+from datetime import date
+from itertools import count
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.ratings.results import FORMATS, Results, find_problems
+from evenbreak.reports.cells import Values, read_cells, whole_numbers
+from evenbreak.reports.problems import quoted
+from evenbreak.reports.read_table import Table
+
+__all__ = ["OPTIONAL", "REQUIRED", "ResultsColumns"]
+
+NAMES = ("player_a", "player_b")
+
+REQUIRED = {
+    "date": ("day", "match date", "played", "played on"),
+    "player_a": ("player 1", "player a name", "home", "home player", "a"),
+    "player_b": ("player 2", "player b name", "away", "away player", "b"),
+    "score_a": ("score 1", "games a", "games 1", "home score", "frames a", "racks won a"),
+    "score_b": ("score 2", "games b", "games 2", "away score", "frames b", "racks won b"),
+}
+"""The columns that a results file must have, with their other names."""
+
+OPTIONAL = {
+    "race_a": ("race 1", "race to a", "needs a", "home race"),
+    "race_b": ("race 2", "race to b", "needs b", "away race"),
+    "winner": ("won by", "match winner"),
+    "first_break": ("first breaker", "breaks first", "lag won by"),
+    "break_format": ("who breaks", "breaks next"),
+    "racks": ("rack winners", "games in order"),
+    "event": ("tournament", "competition", "league", "division"),
+    "forfeit": ("walkover", "forfeited", "no show", "w/o"),
+}
+"""The columns that a results file may have, with their other names."""
+
+_DATE = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})([T ]\d{1,2}:\d{2}\S*)?", re.ASCII)
+_SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
+_FORFEIT = {
+    **dict.fromkeys(("yes", "y", "true", "t", "1", "x", "forfeit", "walkover", "wo"), True),
+    **dict.fromkeys(("no", "n", "false", "f", "0"), False),
+}
+
+
+class ResultsColumns:
+    """The columns of a table on their way to becoming `Results`.
+
+    Reading them notes each cell that has no meaning in the table's problems.
+
+    Parameters
+    ----------
+    table
+        what `evenbreak.reports.read_table` made of the file.
+    """
+
+    def __init__(self, table: Table) -> None:
+        self.table = table
+        self.numbers: defaultdict[str, int] = defaultdict(count().__next__)
+        self.values: dict[str, NDArray[Any]] = {}
+        self.good = np.ones(len(table), dtype=bool)
+
+        for name in NAMES:
+            self._keep(name, self._names(name))
+        self.named = self.good.copy()
+        self._keep("date", self._dates())
+        if "forfeit" in self.table:
+            self._keep("forfeit", self._words("forfeit", _FORFEIT, "yes or no", False))
+        for name in ("score_a", "score_b"):
+            self._keep(name, whole_numbers(self.table, name, at_least=0, may_be_empty=True))
+            self._refuse_empty_score(name)
+        for name in ("race_a", "race_b"):
+            if name in self.table:
+                remedy = "write 1, 2, 3, ..., or leave both races empty"
+                self._keep(
+                    name,
+                    whole_numbers(self.table, name, at_least=1, remedy=remedy, may_be_empty=True),
+                )
+        for name in ("winner", "first_break"):
+            if name in self.table:
+                self._keep(name, self._sides(name))
+        if "break_format" in self.table:
+            self._keep("break_format", self._formats())
+        for name in ("racks", "event"):
+            if name in self.table:
+                distinct, codes = self.table.texts(name)
+                meaning = _racks if name == "racks" else _plain
+                self.values[name] = np.array([*map(meaning, distinct)], dtype=object)[codes]
+
+    def checked(self) -> Results:
+        """Return the rows that could be read, their contradictions noted as problems."""
+        players = sorted(self.numbers)
+        rank = np.zeros(len(players), dtype=np.int64)
+        for place, name in enumerate(players):
+            rank[self.numbers[name]] = place
+        rows = np.flatnonzero(self.good)
+        columns = {name: values[rows] for name, values in self.values.items()}
+        columns |= {name: rank[columns[name]] for name in NAMES}
+        results = Results(tuple(players), **columns)
+        self._note(results, rows)
+        # Where only the names could be read, they can still be one and the same.
+        rows = np.flatnonzero(self.named & ~self.good)
+        a, b = (rank[self.values[name][rows]] for name in NAMES)
+        self._note(Results(tuple(players), a, b, 0 * a, 0 * b), rows)
+        return results
+
+    def _note(self, results: Results, rows: NDArray[np.int64]) -> None:
+        for problem in find_problems(results):
+            self.table.problems.add(int(self.table.lines[rows[problem.row]]), problem.message)
+
+    def merged_names(self) -> list[str]:
+        """Return a warning for each name that was also written with other blanks."""
+        written = {
+            text for column in NAMES for text in map(_plain, self.table.texts(column).distinct)
+        }
+        return [
+            f"{self.table.source}: {quoted(text)} is read as {quoted(' '.join(text.split()))}"
+            for text in sorted(written)
+            if " ".join(text.split()) not in ("", text) and " ".join(text.split()) in written
+        ]
+
+    def _keep(self, name: str, column: Values) -> None:
+        self.values[name] = column.values
+        self.good &= column.good
+
+    def _names(self, name: str) -> Values:
+        def meaning(text: str) -> int | None:
+            clean = " ".join(_plain(text).split())
+            controls = any(unicodedata.category(letter) == "Cc" for letter in clean)
+            return None if controls else self.numbers[clean]
+
+        return read_cells(
+            self.table,
+            name,
+            meaning,
+            wanted="a name that can be printed",
+            remedy="write the player's name",
+            dtype=np.int64,
+            empty=0,
+        )
+
+    def _dates(self) -> Values:
+        return read_cells(
+            self.table,
+            "date",
+            _date,
+            wanted="a date",
+            remedy="write year-month-day, such as 2024-09-03, or leave it empty",
+            dtype="datetime64[D]",
+            empty=np.datetime64("NaT"),
+            may_be_empty=True,
+        )
+
+    def _words(self, name: str, words: dict[str, Any], choices: str, empty: Any) -> Values:
+        return read_cells(
+            self.table,
+            name,
+            lambda text: words.get(_letters(text)),
+            wanted=choices,
+            remedy=f"write {choices}, or leave it empty",
+            dtype=type(empty),
+            empty=empty,
+            may_be_empty=True,
+        )
+
+    def _formats(self) -> Values:
+        words = {form + tail: code for code, form in enumerate(FORMATS) for tail in ("", "breaks")}
+        words |= {"alternating": words["alternate"], "alternatingbreaks": words["alternate"]}
+        del words[""], words["breaks"]
+        return self._words("break_format", words, "winner, loser, alternate, a or b", 0)
+
+    def _refuse_empty_score(self, name: str) -> None:
+        if name not in self.table:
+            return
+        distinct, codes = self.table.texts(name)
+        empty = np.array([not text for text in distinct], dtype=bool)[codes]
+        if "forfeit" in self.values:
+            empty &= ~self.values["forfeit"]
+        self._refuse(
+            empty,
+            lambda _: (
+                f"{name} is empty; write the games won, or mark a forfeit, or leave out a "
+                "match that was not played"
+            ),
+        )
+
+    def _sides(self, name: str) -> Values:
+        """Read a column that names one of the two players, as a, b or by name."""
+        distinct, codes = self.table.texts(name)
+        folded = {player.casefold(): code for player, code in reversed(self.numbers.items())}
+        cleaned = [" ".join(_plain(text).split()) for text in distinct]
+        exact = [self.numbers.get(text, -1) for text in cleaned]
+        sides = [_SIDES.get(_letters(text), 0) for text in distinct]
+        loose = [folded.get(text.casefold(), -1) for text in cleaned]
+        a, b = self.values["player_a"], self.values["player_b"]
+
+        def side(named: list[int]) -> NDArray[np.int8]:
+            code = np.array(named, dtype=np.int64)[codes]
+            return np.where(code == a, 1, np.where(code == b, 2, 0)).astype(np.int8)
+
+        # A player may be called A or B: a name as written means the player before the letter does.
+        letter = np.array(sides, dtype=np.int8)[codes]
+        values = side(exact)
+        for weaker in (letter, side(loose)):
+            values = np.where(values > 0, values, weaker)
+        stated = np.array([bool(text) for text in distinct], dtype=bool)[codes]
+        # Whether a name fits cannot be told where a player's own name could not be read.
+        unknown = stated & (values == 0) & self.named
+        self._refuse(
+            unknown,
+            lambda row: (
+                f"{name} {quoted(distinct[codes[row]])} is neither of the two players; "
+                "write a, b or a name of this row, or leave it empty"
+            ),
+        )
+        return Values(values, np.ones(len(self.table), dtype=bool))
+
+    def _refuse(self, bad: NDArray[np.bool_], message: Any) -> None:
+        self.table.problems.add_rows(self.table.lines, np.flatnonzero(bad), message)
+        self.good &= ~bad
+
+
+def _plain(text: str) -> str:
+    return unicodedata.normalize("NFC", text)
+
+
+def _letters(text: str) -> str:
+    return "".join(letter for letter in text.casefold() if letter.isalnum())
+
+
+def _racks(text: str) -> str:
+    return "".join(text.casefold().split())
+
+
+def _date(text: str) -> np.datetime64 | None:
+    match = _DATE.fullmatch(text)
+    try:
+        return np.datetime64(date(*map(int, match.groups()[:3]))) if match else None
+    except ValueError:
+        return None
