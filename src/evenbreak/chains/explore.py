@@ -5,7 +5,7 @@ The rules of a chain:
 - the listed arcs of a state, its self-loop included, sum to 1 within 1e-9;
 - each probability is a number in [0, 1], and no arc is listed twice;
 - an arc of probability zero counts as listed and makes no arc;
-- a listed self-loop becomes what the other arcs leave over. Where none is listed none
+- a listed self-loop (not of zero) becomes what the other arcs leave over. Where none is listed none
   is invented: three float arcs often miss 1 by an ulp, and a self-loop of 1e-16 would
   turn a period of 2 into 1;
 - a state without listed arcs absorbs.
@@ -120,7 +120,7 @@ def chain_from_arrays(
             )
     listed = np.bincount(j, minlength=n)
     _check_sums(states, listed > 0, np.bincount(j, weights=p, minlength=n))
-    loops = i == j
+    loops = (i == j) & (p > 0.0)
     if loops.any():
         others = np.bincount(j, weights=np.where(loops, 0.0, p), minlength=n)
         p = np.where(loops, np.maximum(1.0 - others[j], 0.0), p)
@@ -171,7 +171,7 @@ def _check_sums(states: Sequence[Hashable], listed: NDArray[np.bool_], sums: NDA
     wrong = np.flatnonzero(listed & (np.abs(sums - 1.0) > _SUM_TOLERANCE))
     if wrong.size:
         first = wrong[0]
-        more = f" (and {wrong.size - 1} more states)" if wrong.size > 1 else ""
+        more = f" (and so for {wrong.size - 1} more)" if wrong.size > 1 else ""
         raise ChainError(
             f"the arcs out of state {states[first]!r} sum to {sums[first]:.12g}{more}; "
             "give probabilities that sum to 1 within 1e-9, a self-loop included"
