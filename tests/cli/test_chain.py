@@ -142,6 +142,13 @@ def test_bad_files_end_with_3_and_a_line_for_each_problem(run, arcs, told):
         assert part in line
 
 
+def test_a_thousand_problems_are_shown_as_twenty(run):
+    arcs = HEADER + "".join(f"s{k},t,0.5\n" for k in range(1000))
+    told = run("chain", "-", stdin=arcs).stderr.splitlines()
+    assert told[19].startswith("Error: stdin:21: ")
+    assert told[20:] == ["Error: and 980 more problems"]
+
+
 def test_a_missing_file_ends_with_3(run):
     result = run("chain", "nowhere.csv")
     assert result.exit_code == 3

@@ -27,6 +27,7 @@ COMMANDS = {
 }
 """Each command with its line of help; module and function bear the command's name."""
 
+PROBLEMS_SHOWN = 20
 FAILED, USAGE, BAD_DATA, INTERRUPTED = 1, 2, 3, 130
 
 
@@ -96,7 +97,10 @@ def report_error(error: BaseException) -> int:
 def _lines(error: BaseException) -> Iterator[str]:
     match error:
         case DataError():
-            yield from error.problems
+            yield from error.problems[:PROBLEMS_SHOWN]
+            hidden = len(error.problems) - PROBLEMS_SHOWN
+            if hidden > 0:
+                yield f"and {hidden:,} more problem{'s' if hidden > 1 else ''}"
         case OSError(filename=None):
             yield str(error.strerror or error)
         case OSError():
