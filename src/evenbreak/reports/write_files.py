@@ -1,0 +1,145 @@
+"""Writing several files so that a reader finds the old ones or the new ones, whatever happens.
+
+All files are written under temporary names and forced to the disk before any takes its
+place. A new folder takes its place with all its files in one step (POSIX rename). In a
+folder that is there already each file takes its place in one step, one after the other
+within a fraction of a millisecond, during which requests to end are made to wait. What
+remains: an end that cannot wait (SIGKILL, a power cut) in just that moment leaves whole
+files, some of them old and some new.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+import shutil
+import signal
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from types import FrameType
+
+__all__ = ["write_files"]
+
+LITTER_AGE = 3600.0
+"""Seconds after which a temporary file is taken to be left over from a run that was killed."""
+
+ENDINGS = [
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
+]
+
+
+def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
+    """Write files into a folder, which is made if need be: all of them, or none.
+
+    Parameters
+    ----------
+    folder
+        where to write.
+    files
+        the content of each file, by name; they take their places in this order.
+
+    Raises
+    ------
+    OSError
+        if a file cannot be written; the folder is then as it was.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_files(f"{folder}/sheet", {"a.csv": b"1", "b.csv": b"2"})
+    ...     sorted(path.name for path in Path(folder, "sheet").iterdir())
+    ['a.csv', 'b.csv']
+    """
+    folder = Path(folder)
+    if folder.exists():
+        _write_into(folder, files)
+    else:
+        _write_new(folder, files)
+    _sync(folder)
+
+
+def _write_new(folder: Path, files: Mapping[str, bytes]) -> None:
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    staged = _temporary(folder)
+    try:
+        staged.mkdir()
+        for name, content in files.items():
+            _write(staged / name, content)
+        _sync(staged)
+        staged.rename(folder)
+    finally:
+        shutil.rmtree(staged, ignore_errors=True)
+    _sync(folder.parent)
+
+
+def _write_into(folder: Path, files: Mapping[str, bytes]) -> None:
+    staged: dict[Path, Path] = {}
+    try:
+        for name, content in files.items():
+            place = folder / name
+            if place.is_dir():
+                raise IsADirectoryError(21, "Is a directory", str(place))
+            temporary = _temporary(place)
+            staged[temporary] = place
+            _write(temporary, content)
+        with _undisturbed():
+            for temporary, place in staged.items():
+                temporary.replace(place)
+    finally:
+        for temporary in staged:
+            temporary.unlink(missing_ok=True)
+    _sweep(folder, files)
+
+
+def _temporary(place: Path) -> Path:
+    return place.with_name(f".{place.name}.{secrets.token_hex(8)}.tmp")
+
+
+def _write(path: Path, content: bytes) -> None:
+    with path.open("xb") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+@contextlib.contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Let requests to end wait until the block is done; other threads cannot ask for that."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+
+    def note(number: int, _: FrameType | None) -> None:
+        came.append(number)
+
+    # A mask would not do: a signal may be delivered to any thread, such as those of a BLAS.
+    before = [(number, signal.signal(number, note)) for number in ENDINGS]
+    try:
+        yield
+    finally:
+        for number, handler in before:
+            signal.signal(number, signal.SIG_DFL if handler is None else handler)
+        for number in came:
+            signal.raise_signal(number)
+
+
+def _sync(folder: Path) -> None:
+    """Force the folder's new entries to the disk, where the system lets a folder be opened."""
+    with contextlib.suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+def _sweep(folder: Path, names: Mapping[str, bytes]) -> None:
+    """Remove temporary files that a killed run left, but none that may still be in use."""
+    for name in names:
+        for path in folder.glob(f".{name}.*.tmp"):
+            with contextlib.suppress(OSError):
+                if time.time() - path.stat().st_mtime > LITTER_AGE:
+                    path.unlink()
