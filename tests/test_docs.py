@@ -15,6 +15,7 @@ import click
 import pytest
 
 from evenbreak.cli.base import COMMANDS, main
+from evenbreak.reports.results_columns import OPTIONAL, REQUIRED
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [
@@ -228,3 +229,9 @@ def test_every_public_name_can_be_had() -> None:
         module = importlib.import_module(package)
         for name in getattr(module, "__all__", ()):
             assert getattr(module, name) is not None, f"{package}.{name}"
+
+
+def test_every_column_of_a_results_file_is_described_with_its_other_names() -> None:
+    text = (ROOT / "docs" / "reference" / "files.md").read_text(encoding="utf-8")
+    for column, others in {**REQUIRED, **OPTIONAL}.items():
+        assert f"| `{column}` | {', '.join(others)} |" in text

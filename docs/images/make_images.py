@@ -36,7 +36,7 @@ def report_rows() -> tuple[list[dict[str, str]], list[dict[str, str]]]:
     """Run `evenbreak report` on the demo league; return the rows of ratings and matchups."""
     with tempfile.TemporaryDirectory() as folder:
         program = [sys.executable, "-m", "evenbreak", "report", str(RESULTS), "--out", folder]
-        subprocess.run([*program, "--top", str(PAIRED)], check=True, capture_output=True)
+        subprocess.run([*program, "--top", str(PAIRED)], check=True, capture_output=True)  # noqa: S603
         ratings, matchups = (
             list(csv.DictReader((Path(folder) / name).read_text(encoding="utf-8").splitlines()))
             for name in ("ratings.csv", "matchups.csv")
