@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from types import ModuleType
 from typing import Any
 
 __all__ = ["attach"]
@@ -27,6 +28,16 @@ def attach(
     'InputError'
     """
     home = {name: module for module, listed in names.items() for name in listed}
+
+    class Package(ModuleType):
+        def __setattr__(self, name: str, value: Any) -> None:
+            # Importing the module draw sets draw in its package, which would hide the
+            # function draw: the public name wins, whatever was imported first.
+            if isinstance(value, ModuleType) and home.get(name) == name:
+                value = getattr(value, name)
+            super().__setattr__(name, value)
+
+    sys.modules[package].__class__ = Package
 
     def load(name: str) -> Any:
         if name not in home:
