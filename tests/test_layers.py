@@ -28,7 +28,8 @@ LAYERS: tuple[frozenset[str], ...] = tuple(
         "handicaps",
         "league",
         "reports",
-        "cli __main__",
+        "cli",
+        "__main__",
     )
 )
 DEPTH = {room: depth for depth, row in enumerate(LAYERS) for room in row}
@@ -63,7 +64,8 @@ def own_imports(tree: ast.AST, package: tuple[str, ...]) -> Iterator[tuple[int, 
             if len(base) > 1:
                 yield node.lineno, base[1]
             else:
-                yield from ((node.lineno, alias.name) for alias in node.names)
+                names = (alias.name for alias in node.names if alias.name != "__version__")
+                yield from ((node.lineno, name) for name in names)
 
 
 def broken_directions(source: str, room: str, package: tuple[str, ...]) -> list[str]:
@@ -142,7 +144,7 @@ def test_checker_sees_a_wrong_direction(room: str, source: str) -> None:
     ("room", "source"),
     [
         ("games", "from evenbreak.games.race import Race\nfrom .race import Race"),
-        ("cli", "from evenbreak.reports import to_csv\nfrom evenbreak import errors"),
+        ("cli", "from evenbreak.reports import to_csv\nfrom evenbreak import errors, __version__"),
         ("matches", "from ..chains import Chain\nfrom evenbreak.games import Race\nimport numpy"),
         ("games", "import networkx.exception\nfrom games import evenbreak"),
     ],

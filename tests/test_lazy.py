@@ -17,7 +17,7 @@ def test_a_function_wins_over_the_module_of_its_name(first: str) -> None:
 
 
 def test_unknown_names_are_refused_by_name() -> None:
-    with pytest.raises(AttributeError, match="'evenbreak.reports' has no attribute 'nothing'"):
+    with pytest.raises(AttributeError, match=r"'evenbreak\.reports' has no attribute 'nothing'"):
         reports.nothing  # noqa: B018
 
 

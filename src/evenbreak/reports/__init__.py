@@ -8,7 +8,7 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
-        "draw": ["draw"],
+        "draw": ["draw", "image_bytes"],
         "problems": ["Problems"],
         "read_table": ["Table", "read_table"],
     },
