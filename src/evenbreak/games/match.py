@@ -73,12 +73,24 @@ class Match:
 
     def _check_score(self, a: int, b: int) -> None:
         object.__setattr__(self, "score", (a, b))
-        for player, before in ((1, (a - 1, b)), (2, (a, b - 1))):
-            if self.decided(a, b) == player and (min(before) < 0 or self.decided(*before)):
-                raise InputError(
-                    f"score is {a}:{b}, which cannot be reached: {type(self).__name__} "
-                    f"{self.m}:{self.n} is over before it"
-                )
+        before = self._played_from(a, b)
+        last_winner = self.decided(a, b)
+        if last_winner is not None:
+            only = (a - 1, b) if last_winner == 1 else (a, b - 1)
+            before = [x for x in before if x == only and (x == (0, 0) or self._played_from(*x))]
+        if not before and (a, b) != (0, 0):
+            raise InputError(
+                f"score is {a}:{b}, which cannot be reached: {type(self).__name__} "
+                f"{self.m}:{self.n} is over before it"
+            )
+
+    def _played_from(self, a: int, b: int) -> list[Score]:
+        """Return the scores one rack before a:b at which the match goes on."""
+        return [
+            (x, y)
+            for x, y in ((a - 1, b), (a, b - 1))
+            if min(x, y) >= 0 and self.decided(x, y) is None
+        ]
 
     def decided(self, a: int, b: int) -> int | None:
         """Return who has won at the score a:b: 1, 2, or None while the match goes on."""

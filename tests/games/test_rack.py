@@ -1,0 +1,46 @@
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.games import Rack
+
+
+def test_the_break_does_not_matter() -> None:
+    rack = Rack(0.6)
+    assert not rack.break_matters
+    assert [rack.chance(1, breaker) for breaker in (1, 2)] == [0.6, 0.6]
+    assert [rack.chance(2, breaker) for breaker in (1, 2)] == [0.4, 0.4]
+
+
+def test_the_break_matters() -> None:
+    rack = Rack(0.75, 0.625)
+    assert rack.break_matters
+    assert [rack.chance(1, breaker) for breaker in (1, 2)] == [0.75, 0.375]
+    assert [rack.chance(2, breaker) for breaker in (1, 2)] == [0.25, 0.625]
+
+
+def test_small_chances_are_kept() -> None:
+    assert Rack(1e-300).chance(1) == 1e-300
+    assert Rack(0.5, 1e-300).chance(2, breaker=2) == 1e-300
+
+
+def test_arrays_are_kept_as_arrays() -> None:
+    assert Rack([0.25, 0.5]).chance(2).tolist() == [0.75, 0.5]
+    assert isinstance(Rack(np.float64(0.5)).p1, float)
+
+
+@pytest.mark.parametrize("p", [-0.1, 1.1, float("nan"), float("inf"), "half", None, [0.5, 2]])
+def test_no_probability(p: object) -> None:
+    with pytest.raises(InputError, match="p1"):
+        Rack(p)
+    if p is not None:
+        with pytest.raises(InputError, match="p2"):
+            Rack(0.5, p)
+
+
+@pytest.mark.parametrize("who", [0, 3, None])
+def test_no_player(who: object) -> None:
+    with pytest.raises(InputError, match="player is"):
+        Rack(0.5).chance(who)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="breaker is"):
+        Rack(0.5).chance(1, who)  # type: ignore[arg-type]
