@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.chains.arcs import Arcs, arcs_of
+from evenbreak.chains.line import Line, line_of
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
@@ -60,6 +61,11 @@ class Chain:
         return arcs_of(self.matrix)
 
     @cached_property
+    def line(self) -> Line | None:
+        """The chain as a line of states, where each moves to its neighbours only."""
+        return line_of(self.matrix)
+
+    @cached_property
     def structure(self) -> Structure:
         """The communicating classes: which are closed, their kinds and periods."""
         return structure_of(self.arcs, self.matrix.diagonal() > 0.0)
@@ -85,13 +91,11 @@ class Chain:
             within 1e-9.
         """
         if start is None:
-            start = self.start
-            if start is None:
-                raise ChainError("the chain has no start of its own; give a start state")
+            start = self._own_start()
         v = np.zeros(len(self))
         if isinstance(start, Mapping):
             for state, chance in start.items():
-                v[self.index(state)] = chance
+                v[self.position[state] if state in self.position else self.index(state)] = chance
         elif isinstance(start, np.ndarray):
             if start.shape != v.shape:
                 raise ChainError(f"the start density has shape {start.shape}; give {v.shape}")
@@ -105,11 +109,25 @@ class Chain:
             )
         return v
 
+    def _own_start(self) -> Hashable:
+        if self.start is None:
+            raise ChainError("the chain has no start of its own; give a start state")
+        return self.start
+
+    def start_index(self, start: Any = None) -> int | None:
+        """Return the position of the state that `start` is, or None for a whole density."""
+        if start is None:
+            start = self._own_start()
+        return None if isinstance(start, (Mapping, np.ndarray)) else self.index(start)
+
     def index(self, state: Hashable) -> int:
         """Return the position of `state` in the matrix."""
         try:
-            return self.position[state]
-        except (KeyError, TypeError):
+            # One search is cheaper than a dictionary of all states, which many ask for.
+            if "position" in self.__dict__:
+                return self.position[state]
+            return self.states.index(state)
+        except (KeyError, TypeError, ValueError):
             raise ChainError(
                 f"state {state!r} is not in the chain; its states begin "
                 + ", ".join(repr(known) for known in self.states[:5])

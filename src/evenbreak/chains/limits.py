@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,8 +39,8 @@ class Limit:
 
     Parameters
     ----------
-    states
-        the states of the chain.
+    chain
+        the chain.
     probability
         shape (n,): the limit of each state, given the start.
     period
@@ -50,11 +50,15 @@ class Limit:
         states; otherwise the largest entry by which the answer misses what was solved.
     """
 
-    states: Sequence[Hashable]
+    chain: Chain
     probability: NDArray[np.float64]
     period: int = 1
     residual: float | None = None
-    _position: dict[Hashable, int] = field(default_factory=dict, repr=False)
+
+    @property
+    def states(self) -> Sequence[Hashable]:
+        """The states of the chain."""
+        return self.chain.states
 
     @property
     def is_cesaro(self) -> bool:
@@ -62,7 +66,7 @@ class Limit:
         return self.period > 1
 
     def __getitem__(self, state: Hashable) -> float:
-        return float(self.probability[self._position[state]])
+        return float(self.probability[self.chain.index(state)])
 
     def to_dict(self) -> dict[Hashable, float]:
         """Return the probability of each state."""
@@ -131,11 +135,15 @@ def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
 
 def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     """Return the stochastic limit of the chain, given the start."""
+    at = chain.start_index(start)
+    if at is not None and chain.line is not None:
+        probability, period = chain.line.limit(at)
+        return Limit(chain, probability, period)
     structure = chain.structure
     mass = absorption(chain, start)
     law = stationary_laws(chain) * mass[structure.label]
     period = math.lcm(*structure.periods[mass > 0.0].tolist())
-    return Limit(chain.states, law, period, None, chain.position)
+    return Limit(chain, law, period)
 
 
 def limit_matrix(chain: Chain) -> csc_array:
