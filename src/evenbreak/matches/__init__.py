@@ -9,6 +9,6 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
-        "race_law": ["RaceLaw", "race_law"],
+        "scalar": ["Odds", "RaceLaw", "match_odds", "race_law"],
     },
 )

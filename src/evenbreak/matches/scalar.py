@@ -2,6 +2,190 @@
 
 from __future__ import annotations
 
-from evenbreak.matches.race_law import RaceLaw, race_law
+import math
+from dataclasses import dataclass
+from typing import Any
 
-__all__ = ["RaceLaw", "race_law"]
+from evenbreak.errors import InputError
+from evenbreak.games.match import Match
+from evenbreak.games.race import Race
+from evenbreak.games.rack import Rack
+from evenbreak.matches.outcomes import outcomes_of
+from evenbreak.matches.quantiles import quantile_of
+from evenbreak.matches.race_law import RaceLaw, race_law
+from evenbreak.matches.slow_ends import MOST_STATES, quantiles_by_doubling
+
+__all__ = ["Odds", "RaceLaw", "match_odds", "race_law"]
+
+
+@dataclass(frozen=True)
+class Odds:
+    """What there is to know about one match before its next rack.
+
+    Everything is conditional on the match's start score and first breaker.
+
+    Parameters
+    ----------
+    p_win_1, p_win_2
+        P(player 1, 2 wins).
+    p_never_ends
+        P(the match goes on for ever).
+    mean_games, sd_games
+        mean and standard deviation of the racks still to be played, sets included rack
+        by rack; None if the match may never end.
+    games_p50, games_p90
+        the smallest number of racks within which the match ends with chance .5, .9;
+        None if it never reaches that chance.
+    p_hill_hill
+        P(the last possible rack decides); None where no rack is the last possible one
+        (n-ahead, win by 2 or more) and in sets.
+    p_shutout_1, p_shutout_2
+        P(player 1, 2 wins and the other wins no rack from the start score on); None for
+        n-ahead matches and sets.
+    """
+
+    p_win_1: float
+    p_win_2: float
+    p_never_ends: float
+    mean_games: float | None
+    sd_games: float | None
+    games_p50: int | None
+    games_p90: int | None
+    p_hill_hill: float | None
+    p_shutout_1: float | None
+    p_shutout_2: float | None
+
+
+def match_odds(match: Match) -> Odds:
+    """Return the odds of `match`: who wins, how long it takes, how close it gets.
+
+    Parameters
+    ----------
+    match
+        a race or an n-ahead match, of racks or of sets, with plain numbers as chances.
+
+    Raises
+    ------
+    InputError
+        if the chances are arrays.
+
+    Notes
+    -----
+    Source: problems P5.5 (races), P5.8 (sets), P5.24 (break formats), P5.27 (n-ahead).
+
+    >>> from evenbreak.games import Race, Rack
+    >>> odds = match_odds(Race(2, 2, Rack(0.5)))
+    >>> odds.p_win_1, odds.mean_games, odds.games_p50, odds.p_hill_hill, odds.p_shutout_1
+    (0.5, 2.5, 2, 0.5, 0.25)
+    """
+    rack = _innermost(match)
+    if not isinstance(rack.p1, float) or not isinstance(rack.p2, float | None):
+        raise InputError("match holds arrays; use win_probability and match_length for those")
+    if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
+        law = race_law(
+            match.m, match.n, rack.p1, rack.p2, match.breaks, match.first_breaker, match.score
+        )
+        return Odds(
+            p_win_1=law.p_win_1,
+            p_win_2=law.p_win_2,
+            p_never_ends=0.0,
+            mean_games=law.mean,
+            sd_games=law.sd,
+            games_p50=law.quantile(0.5),
+            games_p90=law.quantile(0.9),
+            p_hill_hill=law.p_hill_hill,
+            p_shutout_1=law.p_shutout_1,
+            p_shutout_2=law.p_shutout_2,
+        )
+    outcomes = outcomes_of(match)
+    ends = outcomes.never == 0.0
+    length = outcomes.length
+    p50, p90 = _quantiles(match, length.chance, (0.5, 0.9))
+    shutout_1, shutout_2 = _shutouts(match)
+    return Odds(
+        p_win_1=outcomes.p_win(1),
+        p_win_2=outcomes.p_win(2),
+        p_never_ends=outcomes.never,
+        mean_games=length.mean if ends else None,
+        sd_games=math.sqrt(length.variance) if ends else None,
+        games_p50=p50,
+        games_p90=p90,
+        p_hill_hill=None,
+        p_shutout_1=shutout_1,
+        p_shutout_2=shutout_2,
+    )
+
+
+def _innermost(match: Match) -> Rack:
+    rack = match.rack
+    return rack if isinstance(rack, Rack) else _innermost(rack)
+
+
+def _shutouts(match: Match) -> tuple[float | None, float | None]:
+    """Return the chance of a run of racks that wins before the other player has any."""
+    rack = match.rack
+    if not isinstance(match, Race) or not isinstance(rack, Rack):
+        return None, None
+    chances = []
+    for player in (1, 2):
+        (a, b), breaker, chance = match.score, match.first_breaker, 1.0
+        while match.decided(a, b) is None:
+            chance *= rack.chance(player, breaker)
+            breaker = match.breaks(breaker, player) if match.breaks else breaker
+            a, b = (a + 1, b) if player == 1 else (a, b + 1)
+        chances.append(chance if match.decided(a, b) == player else 0.0)
+    return chances[0], chances[1]
+
+
+def _quantiles(match: Match, ends: float, levels: tuple[float, float]) -> list[int | None]:
+    """Return the quantiles of the length; `ends` is the chance that the match ends at all."""
+    wanted = [q for q in levels if q <= ends * (1.0 + _ROUNDING)]
+    walk = _Walk(match)
+    while wanted and walk.ended < wanted[-1] * (1.0 + _ROUNDING) and walk.mass:
+        walk.play_a_rack()
+        if walk.steps > _PATIENCE and len(walk.moves) <= MOST_STATES:
+            found: list[int | None] = list(quantiles_by_doubling(walk.moves, match.start, wanted))
+            return found + [None] * (len(levels) - len(found))
+    beyond = max(0.0, 1.0 - walk.ended)
+    return [quantile_of(walk.chances, q, beyond=beyond) if q in wanted else None for q in levels]
+
+
+_ROUNDING = 1e-9
+_PATIENCE = 200_000
+
+
+class _Walk:
+    """Play of a match rack by rack, all its courses at once."""
+
+    def __init__(self, match: Match) -> None:
+        self.moves = _all_moves(match)
+        self.mass: dict[Any, float] = {}
+        self.chances: list[float] = []
+        self.ended = 0.0
+        self.steps = 0
+        self._settle({match.start: 1.0})
+
+    def play_a_rack(self) -> None:
+        """Move the mass on by one rack; what is over is taken off."""
+        after: dict[Any, float] = {}
+        for state, held in self.mass.items():
+            for target, chance in self.moves[state]:
+                after[target] = after.get(target, 0.0) + held * chance
+        self.steps += len(self.mass)
+        self._settle(after)
+
+    def _settle(self, mass: dict[Any, float]) -> None:
+        self.mass = {state: held for state, held in mass.items() if self.moves[state]}
+        over = math.fsum(held for state, held in mass.items() if not self.moves[state])
+        self.chances.append(over)
+        self.ended += over
+
+
+def _all_moves(match: Match) -> dict[Any, list[tuple[Any, float]]]:
+    moves: dict[Any, list[tuple[Any, float]]] = {}
+    queue = [match.start]
+    for state in queue:
+        if state not in moves:
+            moves[state] = list(match.moves(state).items())
+            queue.extend(target for target, _ in moves[state])
+    return moves

@@ -1,0 +1,194 @@
+"""How a match comes out, from how its racks (or sets) come out.
+
+A unit, rack or set, begun by a breaker comes out as (winner, next breaker), each
+outcome with its chance and the mean and variance of the racks it takes. The score
+after each unit is a small Markov chain; absorbing it gives the outcomes of the match
+in the same form, so that a match is a unit of a longer match. Floats and arrays of
+one shape are treated alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from evenbreak.games.match import Match, Score
+from evenbreak.games.rack import Rack
+from evenbreak.matches.elimination import NEVER, Elimination, ratio
+
+__all__ = ["Outcome", "Outcomes", "outcomes_of", "unit_outcomes"]
+
+
+class Outcome(NamedTuple):
+    """The chance of one outcome; mean and variance of its length in racks, given it."""
+
+    chance: Any
+    mean: Any
+    variance: Any
+
+
+@dataclass(frozen=True)
+class Outcomes:
+    """All outcomes of a match from one start.
+
+    Parameters
+    ----------
+    by_result
+        the `Outcome` of each (winner, next breaker).
+    never
+        P(the match never ends).
+    """
+
+    by_result: dict[tuple[int, int], Outcome]
+    never: Any
+
+    def p_win(self, player: int) -> Any:
+        """P(`player` wins the match)."""
+        return sum((o.chance for (winner, _), o in self.by_result.items() if winner == player), 0.0)
+
+    @property
+    def length(self) -> Outcome:
+        """Chance that the match ends, and mean and variance of its racks if it does."""
+        return _mixture(list(self.by_result.values()))
+
+
+def outcomes_of(match: Match, *, lengths: bool = True) -> Outcomes:
+    """Return the outcomes of `match` from its start score and first breaker.
+
+    Parameters
+    ----------
+    match
+        a race or an n-ahead match, of racks or of sets to any depth; floats or arrays.
+    lengths
+        whether means and variances are wanted too; they are 0 if not.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> round(outcomes_of(Race(3, 1, Race(3, 3, Rack(2 / 3)))).p_win(1), 12)
+    0.493270184273
+    """
+    return _absorb(match, match.score, _first_breaker(match), lengths=lengths)
+
+
+def unit_outcomes(match: Match, *, lengths: bool = True) -> dict[int, Outcomes]:
+    """Return the outcomes of one rack or set of `match`, by who breaks first in it.
+
+    Where the break does not matter, breaker 1 stands for both.
+    """
+    breakers = (1, 2) if match.break_matters else (1,)
+    return {breaker: _unit(match, breaker, lengths=lengths) for breaker in breakers}
+
+
+def _first_breaker(match: Match) -> int:
+    return match.first_breaker if match.break_matters else 1
+
+
+def _unit(match: Match, breaker: int, *, lengths: bool) -> Outcomes:
+    rack = match.rack
+    if isinstance(rack, Rack):
+        inside: dict[tuple[int, int], Outcome] = {
+            (winner, breaker): Outcome(rack.chance(winner, breaker), 1.0, 0.0) for winner in (1, 2)
+        }
+        never = 0.0
+    else:
+        law = _absorb(rack, rack.score, breaker, lengths=lengths)
+        inside, never = law.by_result, law.never
+    grouped: dict[tuple[int, int], list[Outcome]] = {}
+    for (winner, carried), outcome in inside.items():
+        after = match.breaks(breaker, winner) if match.breaks is not None else carried
+        grouped.setdefault((winner, after if match.break_matters else 1), []).append(outcome)
+    return Outcomes({result: _mixture(parts) for result, parts in grouped.items()}, never)
+
+
+def _mixture(parts: list[Outcome]) -> Outcome:
+    """Return the outcome 'one of these', by the law of total variance."""
+    if len(parts) == 1:
+        return parts[0]
+    chance = sum((part.chance for part in parts), 0.0)
+    mean = ratio(sum((part.chance * part.mean for part in parts), 0.0), chance)
+    spread = sum((part.chance * (part.variance + (part.mean - mean) ** 2) for part in parts), 0.0)
+    return Outcome(chance, mean, ratio(spread, chance))
+
+
+def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outcomes:
+    start = (*match.fold(*score), breaker)
+    units = unit_outcomes(match, lengths=lengths)
+    winner = match.decided(*score)
+    if winner is not None:
+        return Outcomes({(winner, breaker): Outcome(1.0, 0.0, 0.0)}, 0.0)
+    arcs, results = _score_chain(match, start, units)
+    chain = Elimination(
+        {
+            state: {target: outcome.chance for target, outcome in row.items()}
+            | {NEVER: units[state[2]].never}
+            for state, row in arcs.items()
+        }
+    )
+    by_result = {}
+    for result in sorted(set(results.values())):
+        ends: dict[Hashable, Any] = {end: 1.0 for end, known in results.items() if known == result}
+        reach = chain.solve(ends)
+        by_result[result] = (
+            _with_length(chain, arcs, reach, start) if lengths else Outcome(reach[start], 0.0, 0.0)
+        )
+    return Outcomes(by_result, chain.solve({NEVER: 1.0})[start])
+
+
+_State = tuple[int, int, int]
+_Arcs = dict[_State, dict[_State, Outcome]]
+
+
+def _score_chain(
+    match: Match, start: _State, units: dict[int, Outcomes]
+) -> tuple[_Arcs, dict[_State, tuple[int, int]]]:
+    """Return the arcs between (a, b, breaker) and the result of each final state."""
+    arcs: _Arcs = {}
+    results: dict[_State, tuple[int, int]] = {}
+    queue = [start]
+    for state in queue:
+        if state in arcs or state in results:
+            continue
+        a, b, breaker = state
+        winner = match.decided(a, b)
+        if winner is not None:
+            results[state] = (winner, breaker)
+            continue
+        arcs[state] = {
+            (*match.fold(a + (won == 1), b + (won == 2)), after): outcome
+            for (won, after), outcome in units[breaker].by_result.items()
+        }
+        queue.extend(arcs[state])
+    return arcs, results
+
+
+def _with_length(
+    chain: Elimination, arcs: _Arcs, reach: dict[Hashable, Any], start: _State
+) -> Outcome:
+    """Return the outcome whose chance from each state is `reach`, with its length.
+
+    Every reward is weighted with the chance that this outcome follows, which makes
+    the sums those of the chain given the outcome. The variance adds up squared
+    surprises (how far each unit moves the mean), so it is right when it is tiny.
+    """
+
+    def mean_reward(state: Any) -> Any:
+        return sum(
+            (o.chance * reach.get(target, 0.0) * o.mean for target, o in arcs[state].items()), 0.0
+        )
+
+    weighted = chain.solve(reward=mean_reward)
+    mean = {state: ratio(weighted[state], reach[state]) for state in arcs}
+
+    def variance_reward(state: Any) -> Any:
+        return sum(
+            (
+                o.chance
+                * reach.get(target, 0.0)
+                * (o.variance + (o.mean + mean.get(target, 0.0) - mean[state]) ** 2)
+                for target, o in arcs[state].items()
+            ),
+            0.0,
+        )
+
+    spread = chain.solve(reward=variance_reward)[start]
+    return Outcome(reach[start], mean[start], ratio(spread, reach[start]))
