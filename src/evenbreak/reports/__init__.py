@@ -9,7 +9,14 @@ __getattr__, __dir__, __all__ = attach(
     __name__,
     {
         "draw": ["draw", "image_bytes"],
+        "frames": ["ratings_frame", "summary_frame"],
+        "matchups": ["RaceLimits", "find_players", "matchups_frame", "most_active"],
         "problems": ["Problems"],
+        "read_arcs": ["ArcsFile", "read_arcs"],
+        "read_results": ["ResultsFile", "read_results"],
         "read_table": ["Table", "read_table"],
+        "sheet": ["sheet_text"],
+        "to_csv": ["to_csv"],
+        "write_files": ["write_files"],
     },
 )

@@ -17,12 +17,11 @@ from evenbreak.reports.cells import Values, read_cells, whole_numbers
 from evenbreak.reports.problems import quoted
 from evenbreak.reports.read_table import Table
 
-__all__ = ["OPTIONAL", "REQUIRED", "ResultsColumns"]
+__all__ = ["OPTIONAL", "REQUIRED", "ResultsColumns", "clean_name"]
 
 NAMES = ("player_a", "player_b")
 
 REQUIRED = {
-    "date": ("day", "match date", "played", "played on"),
     "player_a": ("player 1", "player a name", "home", "home player", "a"),
     "player_b": ("player 2", "player b name", "away", "away player", "b"),
     "score_a": ("score 1", "games a", "games 1", "home score", "frames a", "racks won a"),
@@ -31,6 +30,7 @@ REQUIRED = {
 """The columns that a results file must have, with their other names."""
 
 OPTIONAL = {
+    "date": ("day", "match date", "played", "played on"),
     "race_a": ("race 1", "race to a", "needs a", "home race"),
     "race_b": ("race 2", "race to b", "needs b", "away race"),
     "winner": ("won by", "match winner"),
@@ -70,7 +70,8 @@ class ResultsColumns:
         for name in NAMES:
             self._keep(name, self._names(name))
         self.named = self.good.copy()
-        self._keep("date", self._dates())
+        if "date" in self.table:
+            self._keep("date", self._dates())
         if "forfeit" in self.table:
             self._keep("forfeit", self._words("forfeit", _FORFEIT, "yes or no", False))
         for name in ("score_a", "score_b"):
@@ -121,9 +122,9 @@ class ResultsColumns:
             text for column in NAMES for text in map(_plain, self.table.texts(column).distinct)
         }
         return [
-            f"{self.table.source}: {quoted(text)} is read as {quoted(' '.join(text.split()))}"
+            f"{self.table.source}: {quoted(text)} is read as {quoted(clean_name(text))}"
             for text in sorted(written)
-            if " ".join(text.split()) not in ("", text) and " ".join(text.split()) in written
+            if clean_name(text) not in ("", text) and clean_name(text) in written
         ]
 
     def _keep(self, name: str, column: Values) -> None:
@@ -132,7 +133,7 @@ class ResultsColumns:
 
     def _names(self, name: str) -> Values:
         def meaning(text: str) -> int | None:
-            clean = " ".join(_plain(text).split())
+            clean = clean_name(text)
             controls = any(unicodedata.category(letter) == "Cc" for letter in clean)
             return None if controls else self.numbers[clean]
 
@@ -195,7 +196,7 @@ class ResultsColumns:
         """Read a column that names one of the two players, as a, b or by name."""
         distinct, codes = self.table.texts(name)
         folded = {player.casefold(): code for player, code in reversed(self.numbers.items())}
-        cleaned = [" ".join(_plain(text).split()) for text in distinct]
+        cleaned = [clean_name(text) for text in distinct]
         exact = [self.numbers.get(text, -1) for text in cleaned]
         sides = [_SIDES.get(_letters(text), 0) for text in distinct]
         loose = [folded.get(text.casefold(), -1) for text in cleaned]
@@ -225,6 +226,15 @@ class ResultsColumns:
     def _refuse(self, bad: NDArray[np.bool_], message: Any) -> None:
         self.table.problems.add_rows(self.table.lines, np.flatnonzero(bad), message)
         self.good &= ~bad
+
+
+def clean_name(text: str) -> str:
+    r"""Return a name without blanks around and double blanks inside, in Unicode's form NFC.
+
+    >>> clean_name(" Zoe\u0308  Kestleman ")
+    'Zoë Kestleman'
+    """
+    return " ".join(_plain(text).split())
 
 
 def _plain(text: str) -> str:

@@ -42,16 +42,19 @@ def to_csv(
     >>> to_csv(frame)
     b"player,p_win_a\nAnn,0.500000\n'=1+1,0.000000\n"
     """
-    places = {column: (decimals or {}).get(column, DECIMALS) for column in frame.columns}
     columns = [
-        [_cell(value, places[column]) for value in frame[column].tolist()]
-        for column in frame.columns
+        _cells(column, (decimals or {}).get(str(name), DECIMALS)) for name, column in frame.items()
     ]
     out = io.StringIO(newline="")
     writer = csv.writer(out, lineterminator="\r\n" if excel else "\n")
     writer.writerow(map(_defused, frame.columns))
     writer.writerows(zip(*columns, strict=True))
     return out.getvalue().encode("utf-8-sig" if excel else "utf-8")
+
+
+def _cells(column: pd.Series[Any], decimals: int) -> list[str]:
+    values = column.astype(object).where(column.notna(), None)
+    return [_cell(value, decimals) for value in values]
 
 
 def _cell(value: Any, decimals: int) -> str:
@@ -62,8 +65,7 @@ def _cell(value: Any, decimals: int) -> str:
     if isinstance(value, float):
         return _number(value, decimals)
     if hasattr(value, "date"):
-        # pandas' missing date is not equal to itself.
-        return str(value.date()) if value == value else ""
+        return str(value.date())
     return str(value)
 
 

@@ -1,0 +1,143 @@
+"""`evenbreak report`: from a results file to the fair-race sheet."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Collection, Sequence
+from pathlib import Path
+
+import click
+
+from evenbreak.cli.options import LONGEST, refuse, span
+from evenbreak.errors import DataError
+
+__all__ = ["report"]
+
+TOP = 10
+RACE_TO = 7
+
+EXAMPLES = """\b
+Examples:
+  evenbreak report season.csv --out sheet
+  evenbreak report season.csv --out sheet --scale fargo --race-to 9
+  evenbreak report season.csv --out sheet --games 7..13 --players "Ann Lee,Bo Diaz"
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("results", metavar="RESULTS.csv")
+@click.option(
+    "--out",
+    required=True,
+    metavar="DIR",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Where ratings.csv, matchups.csv and summary.csv go; made if it is not there.",
+)
+@click.option(
+    "--scale",
+    "scale_name",
+    default="npl",
+    show_default=True,
+    metavar="npl|fargo|elo|POINTS",
+    help="The scale of the ratings: POINTS of difference double the odds of a game.",
+)
+@click.option(
+    "--games",
+    metavar="LO..HI",
+    callback=span,
+    help="Offer races of which the longest possible match has so many games.",
+)
+@click.option(
+    "--race-to",
+    type=click.IntRange(1, LONGEST),
+    metavar="N",
+    help="Offer races in which the stronger player needs N games.  "
+    f"[default: {RACE_TO}, without --games]",
+)
+@click.option(
+    "--players",
+    multiple=True,
+    metavar="NAMES",
+    help="Whom to pair: names with commas between them; may be given again.",
+)
+@click.option(
+    "--top",
+    type=click.IntRange(2),
+    metavar="N",
+    help=f"Pair the N players with the most games.  [default: {TOP}, without --players]",
+)
+@click.option("--excel", is_flag=True, help="Write the files as Excel likes them: BOM and CRLF.")
+def report(
+    results: str,
+    out: Path,
+    scale_name: str,
+    games: tuple[int, int] | None,
+    race_to: int | None,
+    players: tuple[str, ...],
+    top: int | None,
+    excel: bool,
+) -> None:
+    """Make the fair-race sheet of a league from its results file.
+
+    RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a,
+    score_b and, if you like, date, race_a, race_b, winner, first_break, break_format,
+    racks, event and forfeit; - reads standard input. The sheet says how strong each
+    player is and which race is nearest to even for each pair.
+    """
+    if games is not None and race_to is not None:
+        refuse("--games and --race-to exclude each other; leave one out")
+    if players and top is not None:
+        refuse("--players and --top exclude each other; leave one out")
+    from evenbreak.ratings.fit import fit
+    from evenbreak.ratings.scale import scale_of
+    from evenbreak.reports.frames import decimals_of, ratings_frame, summary_frame
+    from evenbreak.reports.matchups import RaceLimits, find_players, matchups_frame, most_active
+    from evenbreak.reports.read_results import read_results
+    from evenbreak.reports.sheet import sheet_text
+    from evenbreak.reports.to_csv import to_csv
+    from evenbreak.reports.write_files import write_files
+
+    scale = scale_of(scale_name)
+    limits = RaceLimits(games, RACE_TO if games is None and race_to is None else race_to)
+    _say(f"Reading {results}")
+    file = read_results(results)
+    for warning in file.warnings:
+        _say(f"Warning: {warning}")
+    _say(f"Rating {len(file.results.players):,} players")
+    ratings = fit(file.results, scale=scale)
+    if not ratings.matches:
+        raise DataError([f"{file.source}: no match in it was played; add matches with games"])
+    if players:
+        chosen = find_players(ratings, _names(players, ratings.players))
+    else:
+        chosen = most_active(ratings, TOP if top is None else top)
+    if len(chosen) < 2:
+        refuse("--players names one player; name two or more")
+    _say(f"Finding fair races for {len(chosen) * (len(chosen) - 1) // 2:,} pairs")
+    rated = ratings_frame(ratings)
+    paired = matchups_frame(ratings, chosen, limits)
+    told = summary_frame(file, ratings, paired, limits)
+    decimals = dict.fromkeys(("rating", "standard_error"), decimals_of(scale))
+    files = {
+        "ratings.csv": to_csv(rated, decimals=decimals, excel=excel),
+        "matchups.csv": to_csv(paired, decimals={"mean_games": 3}, excel=excel),
+        "summary.csv": to_csv(told, excel=excel),
+    }
+    write_files(out, files)
+    _say(f"Wrote {', '.join(files)} to {out}")
+    text = sheet_text(file, ratings, limits, rated, paired)
+    # Names may have letters that the terminal's encoding lacks.
+    click.echo(text.encode(sys.stdout.encoding or "utf-8", "replace"), nl=False)
+
+
+def _say(message: str) -> None:
+    click.echo(message, err=True)
+
+
+def _names(given: Sequence[str], players: Collection[str]) -> list[str]:
+    """Return the names that --players lists; a name that itself has a comma is given alone."""
+    names = []
+    for text in given:
+        parts = [text] if text.strip() in players else text.split(",")
+        names += [" ".join(part.split()) for part in parts if part.strip()]
+    return names

@@ -1,0 +1,119 @@
+"""From ratings to the tables that a report consists of."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak import __version__
+from evenbreak.ratings.fit import Ratings
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.scale import Scale
+from evenbreak.reports.matchups import RaceLimits
+from evenbreak.reports.read_results import ResultsFile
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+__all__ = ["dates_of", "decimals_of", "ratings_frame", "scale_text", "summary_frame"]
+
+
+def scale_text(scale: Scale) -> str:
+    """Return what to call a scale: like one that has a name, but never that one itself.
+
+    >>> from evenbreak.ratings.scale import scale_of
+    >>> scale_text(scale_of("fargo"))
+    'a Fargo-like scale (100 points double the odds of a game)'
+    >>> scale_text(scale_of(50))
+    'a scale of its own (50 points double the odds of a game)'
+    """
+    names = {"npl": "an NPL-like scale", "fargo": "a Fargo-like scale", "elo": "an Elo-like scale"}
+    name = names.get(scale.name, "a scale of its own")
+    return f"{name} ({scale.points_per_doubling:.6g} points double the odds of a game)"
+
+
+def decimals_of(scale: Scale) -> int:
+    """Return how many decimals of a rating give a game probability to four digits or more.
+
+    >>> from evenbreak.ratings.scale import scale_of
+    >>> decimals_of(scale_of("npl")), decimals_of(scale_of(0.5))
+    (2, 4)
+    """
+    return max(2, 3 - math.floor(math.log10(scale.points_per_doubling)))
+
+
+def ratings_frame(ratings: Ratings) -> pd.DataFrame:
+    """Return every player's rating, the strongest first.
+
+    Returns
+    -------
+    pandas.DataFrame
+        player; rating and standard_error in points of the scale; games, won and lost in
+        the matches that were used; component: players with the same number are linked by
+        a chain of opponents, and only their ratings can be compared.
+    """
+    import pandas as pd
+
+    order = sorted(
+        range(len(ratings.players)), key=lambda k: (-round(float(ratings.rating[k]), 9), k)
+    )
+    columns = ("rating", "standard_error", "games", "won", "lost", "component")
+    return pd.DataFrame(
+        {
+            "player": [ratings.players[k] for k in order],
+            **{name: np.asarray(getattr(ratings, name))[order] for name in columns},
+        }
+    )
+
+
+def summary_frame(
+    file: ResultsFile, ratings: Ratings, matchups: pd.DataFrame, limits: RaceLimits
+) -> pd.DataFrame:
+    """Return what a report was made of and how, as rows of key and value.
+
+    `anchor` is the mean rating of each component; the standard deviation of the prior
+    is given in natural log-odds and in points of the scale.
+    """
+    import pandas as pd
+
+    scale = ratings.scale
+    first, last = dates_of(file.results)
+    rows: dict[str, object] = {
+        "results_file": file.source.replace("\\", "/").rpartition("/")[2],
+        "results_sha256": file.sha256,
+        "matches_read": len(file.results),
+        "matches_used": ratings.matches,
+        "forfeits_left_out": ratings.forfeits,
+        "empty_left_out": ratings.empty,
+        "first_date": first,
+        "last_date": last,
+        "games": int(ratings.won.sum()),
+        "players": len(ratings.players),
+        "components": int(ratings.component.max()),
+        "groups_of_similar_names": len(file.similar_names),
+        "scale": f"{scale_text(scale)}; not an official rating",
+        "points_per_doubling": scale.points_per_doubling,
+        "anchor": ratings.anchor,
+        "prior_sd_log_odds": ratings.prior_sd,
+        "prior_sd_points": float(scale.points(ratings.prior_sd)),
+        "race_to": limits.race_to,
+        "games_lo": limits.games[0] if limits.games else None,
+        "games_hi": limits.games[1] if limits.games else None,
+        "pairs": len(matchups),
+        "pairs_without_race": int(matchups["race_a"].isna().sum()),
+        "evenbreak_version": __version__,
+    }
+    return pd.DataFrame(
+        {"key": list(rows), "value": pd.Series(list(rows.values()), dtype="object")}
+    )
+
+
+def dates_of(results: Results) -> tuple[str, str]:
+    """Return the first and the last day on which a match was played, '' where none is stated."""
+    played = results.played().results
+    if played.date is None:
+        return "", ""
+    days = played.date[~np.isnat(played.date)]
+    return (str(days.min()), str(days.max())) if len(days) else ("", "")
