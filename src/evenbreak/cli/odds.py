@@ -16,7 +16,6 @@ from evenbreak.cli.output import (
     to_terminal,
 )
 from evenbreak.cli.players import Players, player_options
-from evenbreak.games.ahead import Ahead
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 
@@ -136,6 +135,8 @@ def match_of(
         rack = Race(set_[0], set_[1], rack, breaks=breaks, first_breaker=first)
         breaks = None
     if ahead is not None:
+        from evenbreak.games.ahead import Ahead
+
         return Ahead(ahead[0], ahead[1], rack, breaks=breaks, first_breaker=first, score=start)
     if race is None:
         refuse("what is played is missing; give --race M:N or --ahead M:N")

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING
 
 from evenbreak.checks import whole
-from evenbreak.game import ArcArrays
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
+
+if TYPE_CHECKING:
+    from evenbreak.game import ArcArrays
 
 __all__ = ["Race"]
 

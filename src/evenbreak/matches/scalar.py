@@ -10,10 +10,8 @@ from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
-from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.quantiles import quantile_of
 from evenbreak.matches.race_law import RaceLaw, race_law
-from evenbreak.matches.slow_ends import MOST_STATES, quantiles_by_doubling
 
 __all__ = ["Odds", "RaceLaw", "match_odds", "race_law"]
 
@@ -97,6 +95,9 @@ def match_odds(match: Match) -> Odds:
             p_shutout_1=law.p_shutout_1,
             p_shutout_2=law.p_shutout_2,
         )
+    # A plain race, the commonest question by far, is answered without loading what follows.
+    from evenbreak.matches.outcomes import outcomes_of
+
     outcomes = outcomes_of(match)
     ends = outcomes.never == 0.0
     length = outcomes.length
@@ -139,6 +140,8 @@ def _shutouts(match: Match) -> tuple[float | None, float | None]:
 
 def _quantiles(match: Match, ends: float, levels: tuple[float, float]) -> list[int | None]:
     """Return the quantiles of the length; `ends` is the chance that the match ends at all."""
+    from evenbreak.matches.slow_ends import MOST_STATES, quantiles_by_doubling
+
     wanted = [q for q in levels if q <= ends * (1.0 + _ROUNDING)]
     walk = _Walk(match)
     while wanted and walk.ended < wanted[-1] * (1.0 + _ROUNDING) and walk.mass:
