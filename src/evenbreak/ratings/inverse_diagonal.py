@@ -1,0 +1,175 @@
+"""The diagonal of the inverse of a sparse symmetric positive definite matrix, exactly.
+
+Selected inversion: eliminate block by block, then come back. With the pivots of a block
+first, H = [F11 F21ᵀ; F21 F22], G = F21 F11⁻¹ and the Schur complement S = F22 - G F21ᵀ,
+
+    H⁻¹ = [F11⁻¹ + Gᵀ S⁻¹ G    -Gᵀ S⁻¹;   -S⁻¹ G    S⁻¹]
+
+and of S⁻¹ only the entries that the block touches are needed (Takahashi, Fagan & Chen
+1973; Erisman & Tinney 1975). The blocks are the dense fronts of the multifrontal method
+(Duff & Reid 1983). A matrix that fills in altogether is one front.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.linalg import lapack
+
+from evenbreak.errors import AccuracyError
+from evenbreak.ratings.fronts import Front, fronts_of
+
+__all__ = ["inverse_diagonal"]
+
+Floats = NDArray[np.float64]
+
+_SINGLE_PRECISION_FROM = 2000
+"""Dense matrices of this size go to single precision where their condition allows it."""
+
+
+def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
+    """Return the diagonal of the inverse of a diagonally dominant M-matrix.
+
+    Parameters
+    ----------
+    matrix
+        symmetric, positive on the diagonal, nowhere positive off it, shape (n, n).
+    row_sum
+        what every row sums to, above zero.
+
+    Returns
+    -------
+    numpy.ndarray
+        n values, with a relative error near rounding; 1e-4 at most (1e-6 as a rule)
+        where a matrix of thousands of rows fills in so that single precision is used.
+
+    Raises
+    ------
+    AccuracyError
+        if the matrix is not positive definite in floating point.
+
+    >>> path = sparse.csc_array([[2.0, -1.0, 0.0], [-1.0, 3.0, -1.0], [0.0, -1.0, 2.0]])
+    >>> inverse_diagonal(path, 1.0)
+    array([0.625, 0.5  , 0.625])
+    """
+    fronts = fronts_of(matrix)
+    if len(fronts) == 1 and len(fronts[0].rows) == 0:
+        return _dense(matrix, row_sum)
+    return _come_back(fronts, *_eliminate(matrix, fronts))
+
+
+def _eliminate(matrix: sparse.csc_array, fronts: list[Front]) -> tuple[list[Floats], list[Floats]]:
+    """Return F11⁻¹ and G of every front, children before parents."""
+    size = matrix.shape[0]
+    position = np.zeros(size, dtype=np.intp)
+    done = np.zeros(size, dtype=bool)
+    updates: dict[int, Floats] = {}
+    inverses, links = [], []
+    for number, front in enumerate(fronts):
+        index = np.concatenate((front.pivots, front.rows))
+        position[index] = np.arange(len(index))
+        block = np.zeros((len(index), len(index)))
+        for k, pivot in enumerate(front.pivots):
+            column = slice(matrix.indptr[pivot], matrix.indptr[pivot + 1])
+            live = ~done[matrix.indices[column]]
+            at = position[matrix.indices[column][live]]
+            block[at, k] = block[k, at] = matrix.data[column][live]
+        for child in front.children:
+            at = position[fronts[child].rows]
+            block[np.ix_(at, at)] += updates.pop(child)
+        done[front.pivots] = True
+        own = len(front.pivots)
+        inverse = _inverse(block[:own, :own])
+        link = block[own:, :own] @ inverse
+        updates[number] = block[own:, own:] - link @ block[:own, own:]
+        inverses.append(inverse)
+        links.append(link)
+    return inverses, links
+
+
+def _come_back(fronts: list[Front], inverses: list[Floats], links: list[Floats]) -> Floats:
+    """Return the diagonal of the inverse, parents before children."""
+    diagonal = np.zeros(sum(len(front.pivots) for front in fronts))
+    position = np.zeros(len(diagonal), dtype=np.intp)
+    known: dict[int, Floats] = {}
+    for number in range(len(fronts) - 1, -1, -1):
+        front, link = fronts[number], links[number]
+        inverse = inverses[number]
+        whole = inverse
+        if len(front.rows):
+            outer = known.pop(number)
+            cross = -outer @ link
+            inverse = inverse - link.T @ cross
+            whole = np.block([[inverse, cross.T], [cross, outer]]) if front.children else inverse
+        diagonal[front.pivots] = np.diagonal(inverse)
+        position[front.pivots] = np.arange(len(front.pivots))
+        position[front.rows] = len(front.pivots) + np.arange(len(front.rows))
+        for child in front.children:
+            at = position[fronts[child].rows]
+            known[child] = whole[np.ix_(at, at)]
+    return diagonal
+
+
+def _inverse(block: Floats) -> Floats:
+    if len(block) == 1:
+        return np.asarray(1.0 / block)
+    factor, failed = lapack.dpotrf(block, lower=1)
+    if failed:
+        raise _not_definite()
+    inverse, _ = lapack.dpotri(factor, lower=1, overwrite_c=1)
+    return np.asarray(np.tril(inverse) + np.tril(inverse, -1).T)
+
+
+def _dense(matrix: sparse.csc_array, row_sum: float) -> Floats:
+    """Return the diagonal for a matrix that is one front."""
+    if matrix.shape[0] >= _SINGLE_PRECISION_FROM:
+        diagonal = _dense_single(matrix, row_sum)
+        if diagonal is not None:
+            return diagonal
+    factor, failed = lapack.dpotrf(matrix.toarray(order="F"), lower=1, overwrite_a=1)
+    if failed:
+        raise _not_definite()
+    inverse, _ = lapack.dtrtri(factor, lower=1, overwrite_c=1)
+    return _square_sums(inverse)
+
+
+def _dense_single(matrix: sparse.csc_array, row_sum: float) -> Floats | None:
+    """Return the diagonal by single precision, or None if that is not sure to be enough.
+
+    All rows sum to τ, so 1/τ is the eigenvalue of H⁻¹ for the constant vector and, with
+    a weak prior, its largest by far. It is put aside exactly: with u constant,
+    diag H⁻¹ = diag (H + αuuᵀ)⁻¹ + α / (τ² + ατn), and what is left of a well-mixed
+    league has a small condition number.
+    """
+    size = matrix.shape[0]
+    degree = matrix.diagonal()
+    alpha = float(degree.mean()) / size
+    scale = 1.0 / np.sqrt(degree + alpha)
+    scale_single = scale.astype(np.float32)
+    block = np.multiply.outer(np.float32(alpha) * scale_single, scale_single).T
+    column = np.repeat(np.arange(size), np.diff(matrix.indptr))
+    block[matrix.indices, column] += (matrix.data * scale[matrix.indices] * scale[column]).astype(
+        np.float32
+    )
+    norm = float(np.abs(block).sum(axis=0).max())
+    factor, failed = lapack.spotrf(block, lower=1, overwrite_a=1)
+    if failed:
+        return None
+    reciprocal_condition, _ = lapack.spocon(factor, norm, uplo="L")
+    if reciprocal_condition < 1e-3:
+        return None
+    inverse, _ = lapack.strtri(factor, lower=1, overwrite_c=1)
+    return _square_sums(inverse) * scale**2 + alpha / (row_sum * (row_sum + alpha * size))
+
+
+def _square_sums(lower: NDArray[Any]) -> Floats:
+    """Return the sum of the squares of every column of a lower triangle."""
+    columns = (lower[k:, k] for k in range(len(lower)))
+    return np.array([column @ column for column in columns], dtype=np.float64)
+
+
+def _not_definite() -> AccuracyError:
+    return AccuracyError("the posterior's Hessian is singular to rounding; give a smaller prior_sd")
