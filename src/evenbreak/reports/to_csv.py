@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import unicodedata
 from collections.abc import Mapping
@@ -45,11 +43,10 @@ def to_csv(
     columns = [
         _cells(column, (decimals or {}).get(str(name), DECIMALS)) for name, column in frame.items()
     ]
-    out = io.StringIO(newline="")
-    writer = csv.writer(out, lineterminator="\r\n" if excel else "\n")
-    writer.writerow(map(_defused, frame.columns))
-    writer.writerows(zip(*columns, strict=True))
-    return out.getvalue().encode("utf-8-sig" if excel else "utf-8")
+    header = [_quoted(_defused(str(name))) for name in frame.columns]
+    lines = [",".join(row) for row in (header, *zip(*columns, strict=True))]
+    end = "\r\n" if excel else "\n"
+    return "".join(f"{line}{end}" for line in lines).encode("utf-8-sig" if excel else "utf-8")
 
 
 def _cells(column: pd.Series[Any], decimals: int) -> list[str]:
@@ -61,7 +58,7 @@ def _cell(value: Any, decimals: int) -> str:
     if value is None:
         return ""
     if isinstance(value, str):
-        return _defused(value)
+        return _quoted(_defused(value))
     if isinstance(value, float):
         return _number(value, decimals)
     if hasattr(value, "date"):
@@ -85,3 +82,8 @@ def _defused(text: str) -> str:
     """
     harmful = text.startswith(FORMULA_STARTS) or unicodedata.category(text[:1] or "x") == "Cc"
     return f"'{text}" if harmful else text
+
+
+def _quoted(text: str) -> str:
+    # The csv module would leave a lone CR bare, where readers of CSV end a line.
+    return '"' + text.replace('"', '""') + '"' if set(text) & set(',"\r\n') else text
