@@ -36,5 +36,9 @@ __getattr__, __dir__, __all__ = attach(
         "games.series": ["Series"],
         "games.drill": ["Drill"],
         "chains.explore": ["chain_of"],
+        "matches.win": ["race_win_probability", "win_probability"],
+        "matches.length": ["match_length"],
+        "matches.scores": ["final_scores"],
+        "matches.scalar": ["match_odds"],
     },
 )

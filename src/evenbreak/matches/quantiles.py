@@ -11,9 +11,9 @@ from collections.abc import Sequence
 
 from evenbreak.checks import probability as checked
 
-__all__ = ["quantile_of"]
+__all__ = ["TIE", "quantile_of"]
 
-_TIE = 1e-12
+TIE = 1e-12
 
 
 def quantile_of(probability: Sequence[float], q: float, *, beyond: float = 0.0) -> int | None:
@@ -46,11 +46,11 @@ def quantile_of(probability: Sequence[float], q: float, *, beyond: float = 0.0) 
         reached = 0.0
         for k, chance in enumerate(probability):
             reached += chance
-            if chance > 0.0 and reached >= q * (1.0 - _TIE):
+            if chance > 0.0 and reached >= q * (1.0 - TIE):
                 return k
         return None
     # The upper levels are read off the tail, which is a small sum of small terms there.
-    allowed = (1.0 - q) * (1.0 + _TIE)
+    allowed = (1.0 - q) * (1.0 + TIE)
     tail, found = beyond, None
     for k in range(len(probability) - 1, -1, -1):
         if tail > allowed:

@@ -1,0 +1,192 @@
+"""With what score a match ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from evenbreak.checks import one_of, probability
+from evenbreak.games.ahead import Ahead
+from evenbreak.games.match import Match, Score
+from evenbreak.games.race import Race
+from evenbreak.games.rack import Rack
+from evenbreak.matches.endings import endings_of, is_bounded
+from evenbreak.matches.outcomes import outcomes_of, unit_outcomes
+from evenbreak.matches.parameters import at_score, broadcast, plain
+
+__all__ = [
+    "FinalScores",
+    "final_scores",
+    "hill_hill_probability",
+    "shutout_probability",
+]
+
+_MOST_SETS = 10_000
+
+
+@dataclass(frozen=True, eq=False)
+class FinalScores:
+    """The distribution of the final score of a match.
+
+    Parameters
+    ----------
+    probability
+        P(the match ends a:b) by (a, b): racks, or sets for a match of sets. The wins of
+        player 1 come first, then those of player 2, the shortest matches first.
+    p_never_ends
+        P(the match goes on for ever).
+    tail_mass
+        P(the match ends with a score that is not listed); 0 where it has a longest
+        length.
+    span
+        the racks (or sets) up to which final scores are listed, from the start score on.
+    """
+
+    probability: dict[Score, Any]
+    p_never_ends: Any
+    tail_mass: Any
+    span: int
+
+
+def final_scores(match: Match, score: Score | None = None, *, tail: float = 1e-12) -> FinalScores:
+    """Return the distribution of the final score of `match`.
+
+    Parameters
+    ----------
+    match
+        a race or an n-ahead match, of racks or of sets; p1 and p2 may be arrays, and
+        each probability is then an array of their shape.
+    score
+        the score now (see `win_probability`); None: the match's own start score.
+    tail
+        how much mass of a match without a longest length may be left out.
+
+    Raises
+    ------
+    InputError
+        if the score cannot be reached or `tail` is not a probability.
+
+    Notes
+    -----
+    Source: problems P5.4 (P(p; m, n), the chance of each final score), P5.5.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> final_scores(Race(2, 1, Rack(0.5))).probability
+    {(2, 0): 0.25, (0, 1): 0.5, (1, 1): 0.25}
+    """
+    match, shape = broadcast(at_score(match, score))
+    tail = probability(tail, "tail")
+    bounded = is_bounded(match)
+    never = 0.0 if bounded else outcomes_of(match, lengths=False).never
+    if isinstance(match.rack, Rack):
+        by_length = endings_of(match, never, tail)
+        span = len(by_length.win_1) - 1
+        ends = {
+            _final(match, player, k): chance[k]
+            for player, chance in zip((1, 2), by_length, strict=True)
+            for k in range(span + 1)
+            if chance[k].any()
+        }
+    else:
+        ends, span = _by_sets(match, never, None if bounded else tail)
+    left = 0.0 if bounded else np.maximum(1.0 - never - sum(ends.values(), 0.0), 0.0)
+    return FinalScores(
+        probability={at: plain(chance, shape) for at, chance in ends.items()},
+        p_never_ends=plain(never, shape),
+        tail_mass=plain(left, shape),
+        span=span,
+    )
+
+
+def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
+    """Return P(the last possible rack decides): the race m:n comes to m - 1 : n - 1.
+
+    None for n-ahead matches and races won by 2 or more, where no rack is the last
+    possible one. In a match of sets the last possible set is meant.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> hill_hill_probability(Race(2, 2, Rack(0.5)))
+    0.5
+    """
+    if not isinstance(match, Race) or match.win_by > 1:
+        return None
+    _, shape = broadcast(match)
+    ends = final_scores(match, score).probability
+    decider = match.m + match.n - 1
+    return plain(sum((chance for (a, b), chance in ends.items() if a + b == decider), 0.0), shape)
+
+
+def shutout_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
+    """Return P(`player` wins and the other scores nothing from the start score on).
+
+    None for n-ahead matches, where it would only say that the lead was never lost.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> shutout_probability(Race(2, 2, Rack(0.5)), player=2)
+    0.25
+    """
+    one_of(player, "player", (1, 2))
+    if not isinstance(match, Race):
+        return None
+    match, shape = broadcast(at_score(match, score))
+    ends = final_scores(match).probability
+    other = 2 - player
+    return plain(
+        sum(
+            (
+                chance
+                for end, chance in ends.items()
+                if match.decided(*end) == player and end[other] == match.score[other]
+            ),
+            0.0,
+        ),
+        shape,
+    )
+
+
+def _final(match: Match, player: int, k: int) -> Score:
+    """Return the score at which `player` wins after k racks; there is one such score."""
+    played = sum(match.score) + k
+    if isinstance(match, Ahead):
+        mine = played + (match.m if player == 1 else match.n)
+        won = mine // 2
+    else:
+        needs = (match.m, match.n) if player == 1 else (match.n, match.m)
+        by = match.win_by if isinstance(match, Race) else 1
+        won = max(needs[0], -((played + by + needs[0] - needs[1]) // -2))
+    if not k:
+        return match.score
+    return (won, played - won) if player == 1 else (played - won, won)
+
+
+def _by_sets(match: Match, never: Any, tail: float | None) -> tuple[dict[Score, Any], int]:
+    """Return the final scores of a match of sets, and the sets up to which they are listed.
+
+    With `tail` None the match is followed until its longest possible length.
+    """
+    units = unit_outcomes(match, lengths=False)
+    breaker = match.first_breaker if match.break_matters else 1
+    mass: dict[tuple[int, int, int], Any] = {(*match.score, breaker): 1.0}
+    ends: dict[int, dict[Score, Any]] = {1: {}, 2: {}}
+    ended: Any = 0.0
+    sets = -1
+    while mass and sets < _MOST_SETS and not _settled(ended + never, tail):
+        sets += 1
+        after: dict[tuple[int, int, int], Any] = {}
+        for (a, b, breaker), held in mass.items():
+            winner = match.decided(a, b)
+            if winner is not None:
+                ends[winner][a, b] = ends[winner].get((a, b), 0.0) + held
+                ended = ended + held
+                continue
+            for (won, then), outcome in units[breaker].by_result.items():
+                target = (a + (won == 1), b + (won == 2), then)
+                after[target] = after.get(target, 0.0) + held * outcome.chance
+        mass = after
+    return ends[1] | ends[2], sets
+
+
+def _settled(known: Any, tail: float | None) -> bool:
+    return tail is not None and bool(np.all(1.0 - known <= tail))
