@@ -18,6 +18,8 @@ __getattr__, __dir__, __all__ = attach(
         "transient": ["TransientPart"],
         "explore": ["chain_from_arrays", "chain_of"],
         "steps": ["Passage", "first_passage", "propagate", "steps_to_absorption"],
+        "rewards": ["long_run_reward", "total_reward"],
+        "sensitivity": ["Sensitivity", "sensitivity"],
         "symbolic": ["symbolic_limit"],
     },
 )

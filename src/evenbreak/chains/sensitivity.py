@@ -1,0 +1,233 @@
+"""How the stochastic limit answers to small changes of the chances.
+
+F = c . P v is a weighted sum of the limit's entries, P being the projection on the
+eigenvalue 1. If M changes by dM (columns summing to 0, no class opened or joined),
+
+    dF = c . (P dM A + A dM P) v,    A = (I - M)^# the group inverse,
+
+so dF is the sum over arcs j -> i of dM_ij G_ij with
+
+    G_ij = x_j a_i   for transient j:  x the expected visits, a_i = F if started from i;
+    G_ij = pi_j h_i  for recurrent j:  pi the limit, (I - M^T) h = c - a on its class.
+
+One solve forwards (x, pi) and one backwards (a, h) serve all arcs at once.
+
+References: Meyer 1975 and Schweitzer 1968 for the group inverse; Kato, Perturbation Theory,
+ch. II for dP; Caswell 2019 for compensation in proportion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from evenbreak.chains.limits import stationary_laws, stochastic_limit
+from evenbreak.chains.transient import TransientPart
+from evenbreak.errors import ChainError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.chains.chain import Chain
+
+__all__ = ["Sensitivity", "sensitivity"]
+
+
+@dataclass(frozen=True, eq=False)
+class _Slopes:
+    """G of the module's head, up to a constant for each source, which no change notices."""
+
+    recurrent: NDArray[np.bool_]
+    forward: NDArray[np.float64]
+    ends: NDArray[np.float64]
+    relative: NDArray[np.float64]
+
+    def __call__(self, j: Any, i: Any) -> NDArray[np.float64]:
+        backward = np.where(self.recurrent[j], self.relative[i], self.ends[i])
+        return np.asarray(self.forward[j] * backward)
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivity:
+    """The derivatives of a weighted sum of a stochastic limit.
+
+    Parameters
+    ----------
+    chain
+        the chain.
+    value
+        the weighted sum itself.
+    matrix
+        shape (n, n), sparse, with the arcs of the chain: entry [i, j] is the derivative of
+        `value` to the probability of the arc from j to i, its mass taken from the other
+        arcs of j in proportion; 0 where j has no other arc.
+    """
+
+    chain: Chain
+    value: float
+    matrix: csc_array
+    _slopes: _Slopes = field(repr=False)
+
+    def __getitem__(self, arc: tuple[Hashable, Hashable]) -> float:
+        j, i = (self.chain.index(state) for state in arc)
+        if self.chain.matrix[i, j] == 0.0:
+            raise ChainError(f"there is no arc {arc[0]!r} -> {arc[1]!r} in the chain")
+        return float(self.matrix[i, j])
+
+    def to_dict(self) -> dict[tuple[Hashable, Hashable], float]:
+        """Return the derivative to each arc, by (source, target)."""
+        states, entries = self.chain.states, self.matrix.tocoo()
+        return {
+            (states[j], states[i]): derivative
+            for i, j, derivative in zip(
+                entries.row.tolist(), entries.col.tolist(), entries.data.tolist(), strict=True
+            )
+        }
+
+    def along(self, change: Mapping[tuple[Hashable, Hashable], float]) -> float:
+        """Return the derivative to a parameter that several arcs share.
+
+        Parameters
+        ----------
+        change
+            the derivative of each arc's probability to the parameter, by (source, target);
+            those of a source sum to 0. At an edge (an arc of probability 0 about to open)
+            it is the one-sided derivative.
+
+        Raises
+        ------
+        ChainError
+            if a state is unknown, the changes of a source do not sum to 0, or an arc
+            leads out of a closed class: the limit would jump.
+
+        >>> from evenbreak.chains import chain_of
+        >>> duel = chain_of([("S1", "W", 0.5), ("S1", "S2", 0.5),
+        ...                  ("S2", "L", 0.5), ("S2", "S1", 0.5)])
+        >>> won = sensitivity(duel, "W", "S1")
+        >>> round(won.along({("S1", "W"): 1, ("S1", "S2"): -1}), 12)
+        0.888888888889
+        """
+        label, recurrent = self.chain.structure.label, self.chain.structure.recurrent
+        derivative = 0.0
+        total = np.zeros(len(self.chain))
+        scale = np.zeros(len(self.chain))
+        for (source, target), slope in change.items():
+            j, i = self.chain.index(source), self.chain.index(target)
+            if recurrent[j] and label[i] != label[j] and slope:
+                raise ChainError(
+                    f"the arc {source!r} -> {target!r} leads out of a closed class; the limit "
+                    "jumps there and has no derivative"
+                )
+            total[j] += slope
+            scale[j] += abs(slope)
+            derivative += slope * float(self._slopes(j, i))
+        off = np.flatnonzero(~(np.abs(total) <= 1e-9 * scale))
+        if len(off):
+            raise ChainError(
+                f"the changes of the arcs out of {self.chain.states[off[0]]!r} sum to "
+                f"{total[off[0]]:.6g}; give changes that sum to 0"
+            )
+        return float(derivative)
+
+
+def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
+    """Return the derivatives of a weighted sum of the limit to every arc, given the start.
+
+    Parameters
+    ----------
+    chain
+        the chain, n states.
+    weights
+        what is summed: a state (its limit probability), a mapping from states to weights
+        (0 for those not named), or an array of shape (n,).
+    start
+        as in `stochastic_limit`; it does not change.
+
+    Raises
+    ------
+    ChainError
+        if a state is unknown or a weight is not finite.
+
+    Notes
+    -----
+    Holds where the chain is periodic too, for the long-run average. A derivative is a
+    difference of nonnegative sums, so it may lose digits where these nearly cancel.
+
+    >>> from evenbreak.chains import chain_of
+    >>> winner_breaks = chain_of([(1, 1, 0.75), (1, 2, 0.25), (2, 1, 0.5), (2, 2, 0.5)])
+    >>> share = sensitivity(winner_breaks, 1, 1)
+    >>> round(share.value, 12), round(share[1, 1], 12)
+    (0.666666666667, 0.888888888889)
+    """
+    c = _weights(chain, weights)
+    structure, part = chain.structure, chain.transient
+    recurrent = structure.recurrent
+    limit = stochastic_limit(chain, start).probability
+
+    mean = np.bincount(structure.label, stationary_laws(chain) * c, structure.count)
+    ends = np.where(recurrent, mean[structure.label], 0.0)
+    ends[part.states] = _signed_values(part, (chain.arcs.matrix().T @ ends)[part.states])
+    forward = limit.copy()
+    forward[part.states] = part.visits(chain.density(start)[part.states])
+    relative = _relative_values(chain, np.where(recurrent, c - ends, 0.0))
+    slopes = _Slopes(recurrent, forward, ends, relative)
+    return Sensitivity(chain, float(limit @ c), _in_proportion(chain, slopes), slopes)
+
+
+def _weights(chain: Chain, weights: Any) -> NDArray[np.float64]:
+    c = np.zeros(len(chain))
+    if isinstance(weights, np.ndarray):
+        if weights.shape != c.shape:
+            raise ChainError(f"weights has shape {weights.shape}; give {c.shape}")
+        c += weights
+    elif isinstance(weights, Mapping):
+        for state, weight in weights.items():
+            c[chain.index(state)] = weight
+    else:
+        c[chain.index(weights)] = 1.0
+    if not np.all(np.isfinite(c)):
+        raise ChainError("a weight is not finite; give finite numbers")
+    return c
+
+
+def _signed_values(part: TransientPart, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the expected sum of r over the visits, r of either sign."""
+    return np.asarray(part.values(np.maximum(r, 0.0)) - part.values(np.maximum(-r, 0.0)))
+
+
+def _relative_values(chain: Chain, surplus: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return h with (I - M^T) h = surplus on each closed class, 0 in its first state."""
+    structure = chain.structure
+    rest = structure.recurrent.copy()
+    rest[structure.order[structure.offsets[:-1][structure.closed]]] = False
+    states = np.flatnonzero(rest)
+    h = np.zeros(len(chain))
+    h[states] = _signed_values(TransientPart(chain.arcs, states), surplus[states])
+    return h
+
+
+def _in_proportion(chain: Chain, slopes: _Slopes) -> csc_array:
+    """Return the derivative to each arc, its mass taken from the other arcs in proportion.
+
+    Per source it is G_i - sum_{k != i} p_k G_k / sum_{k != i} p_k. The sums without the
+    largest arc are taken without it, those without another by subtraction, which is safe.
+    """
+    M = chain.matrix
+    n = len(chain)
+    j, i, p = np.repeat(np.arange(n), np.diff(M.indptr)), M.indices, M.data
+    G = slopes(j, i)
+    first = np.lexsort((-p, j))[M.indptr[:-1]]
+    small = p.copy()
+    small[first] = 0.0
+    rest, rest_slope = np.bincount(j, small, n), np.bincount(j, small * G, n)
+    top, top_slope = p[first], (p * G)[first]
+    others = top[j] + rest[j] - p
+    others_slope = top_slope[j] + rest_slope[j] - p * G
+    others[first], others_slope[first] = rest, rest_slope
+    alone = others <= 0.0
+    derivative = np.where(alone, 0.0, G - others_slope / np.where(alone, 1.0, others))
+    return csc_array((derivative, M.indices, M.indptr), shape=M.shape)
