@@ -89,7 +89,6 @@ def sheet() -> Figure:
     left, right = figure.subplots(1, 2, width_ratios=[1, 1.15])
     draw_ratings(left, ratings)
     draw_races(right, matchups, [row["player"] for row in ratings if row["player"] in paired])
-    left.set_title("How strong", loc="left", fontweight="bold")
     right.set_xlabel("the fairest race: games that the player on the left needs : the one above")
     return figure
 
