@@ -11,6 +11,7 @@ files, some of them old and some new.
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import secrets
 import shutil
@@ -53,10 +54,14 @@ def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
     ['a.csv', 'b.csv']
     """
     folder = Path(folder)
-    if folder.exists():
-        _write_into(folder, files)
-    else:
-        _write_new(folder, files)
+    try:
+        if folder.exists():
+            _write_into(folder, files)
+        else:
+            _write_new(folder, files)
+    except OSError as error:
+        # The temporary name that the system complains of would tell a person nothing.
+        raise OSError(error.errno, error.strerror, str(folder)) from error
     _sync(folder)
 
 
@@ -80,7 +85,7 @@ def _write_into(folder: Path, files: Mapping[str, bytes]) -> None:
         for name, content in files.items():
             place = folder / name
             if place.is_dir():
-                raise IsADirectoryError(21, "Is a directory", str(place))
+                raise IsADirectoryError(errno.EISDIR, f"{name} in it is a folder")
             temporary = _temporary(place)
             staged[temporary] = place
             _write(temporary, content)
