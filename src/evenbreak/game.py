@@ -84,8 +84,12 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     >>> arcs = arcs_of(Race(2, 1, Rack(0.75)))
     >>> list(arcs.states)
     [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0)]
-    >>> arcs.sources, arcs.targets, arcs.probabilities
-    (array([0, 0, 2, 2]), array([1, 2, 3, 4]), array([0.25, 0.75, 0.25, 0.75]))
+    >>> for arc in zip(arcs.sources, arcs.targets, arcs.probabilities):
+    ...     print(*arc)
+    0 1 0.25
+    0 2 0.75
+    2 3 0.25
+    2 4 0.75
     """
     offer = getattr(game, "arcs", None)
     if offer is not None and (start is None or start == game.start):

@@ -86,7 +86,8 @@ def test_a_format_that_names_no_player() -> None:
 
 
 def test_states_are_made_when_asked_for() -> None:
-    states = ScoreStates(np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1]), np.array([1, 2, 1, 2]))
+    cells = np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1])
+    states = ScoreStates(*cells, np.array([0, 3, 4, 7]), with_breaker=True)
     listed = [(0, 0, 1), (0, 1, 2), (1, 0, 1), (1, 1, 2)]
     assert list(states) == listed
     assert len(states) == 4

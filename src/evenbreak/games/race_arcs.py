@@ -7,6 +7,7 @@ of scores, sorted by the number of racks played, so every arc leads to a later s
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,23 +25,38 @@ __all__ = ["ScoreStates", "race_arcs"]
 
 
 class ScoreStates(Sequence[tuple[int, ...]]):
-    """States (a, b) or (a, b, breaker) that are kept as columns and made when asked for.
+    """States (a, b) or (a, b, breaker) that are made when asked for.
 
     Parameters
     ----------
-    columns
-        one integer array for each entry of a state, all of one length.
+    a, b
+        one score a cell.
+    place
+        the number of each state: its cell, or 2 cell + breaker - 1 with breakers.
+    with_breaker
+        whether the breaker is part of a state.
 
-    >>> states = ScoreStates(np.array([0, 0, 1]), np.array([0, 1, 0]))
-    >>> states[-1], states.index((0, 1)), (2, 2) in states
-    ((1, 0), 1, False)
+    >>> cells = np.array([0, 0, 1]), np.array([0, 1, 0])
+    >>> states = ScoreStates(*cells, np.array([0, 1, 3, 4]), with_breaker=True)
+    >>> states[-1], states.index((0, 1, 2)), (1, 0, 2) in states
+    ((1, 0, 1), 2, False)
     """
 
-    def __init__(self, *columns: NDArray[np.integer[Any]]) -> None:
-        self._columns = columns
+    def __init__(
+        self, a: NDArray[Any], b: NDArray[Any], place: NDArray[Any], *, with_breaker: bool
+    ) -> None:
+        self._cells = a, b
+        self._place = place
+        self._with_breaker = with_breaker
+
+    @cached_property
+    def _columns(self) -> list[NDArray[Any]]:
+        cell, late = np.divmod(self._place, 2) if self._with_breaker else (self._place, None)
+        columns = [column[cell] for column in self._cells]
+        return columns if late is None else [*columns, late + 1]
 
     def __len__(self) -> int:
-        return len(self._columns[0])
+        return self._place.size
 
     def __iter__(self) -> Iterator[tuple[int, ...]]:
         return zip(*(column.tolist() for column in self._columns), strict=True)
@@ -55,7 +71,7 @@ class ScoreStates(Sequence[tuple[int, ...]]):
     def __getitem__(self, key: Any) -> Any:
         """Return one state, or a list of them for a slice."""
         if isinstance(key, slice):
-            return list(ScoreStates(*(column[key] for column in self._columns)))
+            return list(zip(*(column[key].tolist() for column in self._columns), strict=True))
         return tuple(int(column[key]) for column in self._columns)
 
     def index(self, value: Any, start: int = 0, stop: int | None = None) -> int:
@@ -99,69 +115,82 @@ def race_arcs(
     ([(0, 0, 2), (0, 1, 2), (1, 0, 1)], array([0.5, 0.5]))
     """
     breakers = (1, 2) if rack.break_matters else (1,)
-    a, b, cell = _cells(need, score)
-    on = np.flatnonzero((a < need[0]) & (b < need[1]))
-    # One row a cell, one column for each breaker and winner. Player 2's win first: at
-    # a+1 racks the smaller score of player 1 comes first, so the arcs come out sorted.
-    targets = np.empty((on.size, len(breakers), 2), dtype=np.intp)
-    chances = np.empty((len(breakers), 2))
+    count = len(breakers)
+    a, b, after_loss = _cells(need[0] - score[0], need[1] - score[1])
+    on = np.flatnonzero((a < need[0] - score[0]) & (b < need[1] - score[1])).astype(a.dtype)
+    # One row a state, one column for each winner. Player 2's win first: at one rack more
+    # the smaller score of player 1 comes first, so the arcs come out sorted.
+    targets = np.empty((on.size, count, 2), dtype=on.dtype)
+    chances = np.empty((count, 2))
     for j, breaker in enumerate(breakers):
         for k, winner in enumerate((2, 1)):
             nxt = breaks(breaker, winner) if breaks and rack.break_matters else 1
             one_of(nxt, "the next breaker by the break format", (1, 2))
-            row, column = a[on] - score[0], b[on] - score[1]
-            to = cell[row + 1, column] if winner == 1 else cell[row, column + 1]
-            targets[:, j, k] = to * len(breakers) + (nxt - 1)
+            targets[:, j, k] = after_loss[on] * count + (k * count + nxt - 1)
             chances[j, k] = rack.chance(winner, breaker)
-    sources = (on[:, None] * len(breakers) + np.arange(len(breakers))).repeat(2)
-    probabilities = np.broadcast_to(chances, targets.shape).ravel()
-    possible = probabilities > 0.0
-    columns = [np.repeat(a, len(breakers)), np.repeat(b, len(breakers))]
-    if rack.break_matters:
-        columns.append(np.tile(np.array(breakers), a.size))
-    return _reached(
-        columns,
-        sources[possible],
-        targets.ravel()[possible],
-        probabilities[possible],
+    reached, sources, targets, probabilities = _reached(
+        a.size * count,
+        (on[:, None] * count + np.arange(count, dtype=on.dtype)).ravel(),
+        targets.reshape(-1, 2),
+        np.tile(chances, (on.size, 1)),
         start=first_breaker - 1 if rack.break_matters else 0,
     )
+    states = ScoreStates(
+        a + score[0], b + score[1], np.flatnonzero(reached), with_breaker=rack.break_matters
+    )
+    return ArcArrays(states, sources, targets, probabilities)
 
 
-def _cells(need: Score, score: Score) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-    """Return a and b of each score sorted by a + b, and the place of each score there."""
-    rows, columns = need[0] - score[0] + 1, need[1] - score[1] + 1
-    if rows == 1 or columns == 1:  # it is over before it begins
-        rows = columns = 1
-    played = np.add.outer(np.arange(rows), np.arange(columns)).ravel()
-    order = np.argsort(played, kind="stable")
-    cell = np.empty(played.size, dtype=np.intp)
-    cell[order] = np.arange(played.size)
-    # The last one is the score at which both have won.
-    a, b = np.divmod(order[:-1] if order.size > 1 else order, columns)
-    return a + score[0], b + score[1], cell.reshape(rows, columns)
+def _cells(m: int, n: int) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+    """Return the scores a, b of a race m:n from 0:0, sorted by a + b, then by a.
+
+    The third array is the position of (a, b+1); that of (a+1, b) is the next one. Both
+    mean nothing where the race is over.
+    """
+    index_type = np.int32 if 2 * (m + 1) * (n + 1) < 2**31 else np.int64
+    if m == 0 or n == 0:  # it is over before it begins
+        zero = np.zeros(1, dtype=index_type)
+        return zero, zero, zero
+    racks = np.arange(m + n + 1, dtype=index_type)
+    least = np.maximum(racks - n, 0)  # the smallest a on each diagonal
+    length = np.minimum(racks, m) - least + 1
+    offset = np.cumsum(length, dtype=index_type) - length - least  # position less a
+    # The last diagonal is the score at which both have won.
+    racks, length, step = racks[:-1], length[:-1], np.diff(offset)
+    place = np.arange(length.sum(), dtype=index_type)
+    a = place - np.repeat(offset[:-1], length)
+    return a, np.repeat(racks, length) - a, place + np.repeat(step, length)
 
 
 def _reached(
-    columns: list[NDArray[Any]],
+    size: int,
     sources: NDArray[Any],
     targets: NDArray[Any],
     probabilities: NDArray[Any],
     start: int,
-) -> ArcArrays:
-    """Leave out what cannot be reached: the other first breaker, a breaker nobody becomes."""
+) -> tuple[NDArray[np.bool_], NDArray[Any], NDArray[Any], NDArray[Any]]:
+    """Return which states can be reached, and the arcs between them by their new positions.
+
+    Out of reach are the other first breaker and a breaker that nobody becomes. Row k of
+    `targets` and `probabilities` holds the two arcs out of state `sources[k]`.
+    """
     from scipy.sparse import csr_array
     from scipy.sparse.csgraph import breadth_first_order
 
-    size = columns[0].size
-    ends = np.cumsum(np.bincount(sources, minlength=size))
-    graph = csr_array((probabilities, targets, np.concatenate([[0], ends])), shape=(size, size))
+    possible = probabilities > 0.0
+    ends = np.zeros(size + 1, dtype=sources.dtype)
+    ends[sources + 1] = np.add(*possible.T, dtype=sources.dtype)
+    graph = csr_array(
+        (probabilities[possible], targets[possible], np.cumsum(ends, out=ends)), shape=(size, size)
+    )
     reached = np.zeros(size, dtype=bool)
     reached[breadth_first_order(graph, start, return_predecessors=False)] = True
-    if not reached.all():
-        new = np.cumsum(reached) - 1
-        kept = reached[sources]
-        sources, targets = new[sources[kept]], new[targets[kept]]
-        probabilities = probabilities[kept]
-        columns = [column[reached] for column in columns]
-    return ArcArrays(ScoreStates(*columns), sources, targets, probabilities)
+    new = np.cumsum(reached, dtype=sources.dtype) - 1
+    # Flat masks: numpy picks single entries ten times as fast as rows of two.
+    kept = (possible & reached[sources][:, np.newaxis]).ravel()
+    return (
+        reached,
+        new[np.repeat(sources, 2)[kept]],
+        new[targets.ravel()[kept]],
+        probabilities.ravel()[kept],
+    )

@@ -1,0 +1,80 @@
+"""Diagrams of games, made by a walk or from the game's own arrays."""
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import GameError
+from evenbreak.game import ArcArrays, Game, arcs_of, graph_of
+from evenbreak.games import OneBall, OneBallLookAhead, Race, Rack
+
+
+class Coin:
+    """Toss until heads; the game may offer arrays of its own."""
+
+    start = "toss"
+
+    def __init__(self, arcs: ArcArrays | None = None) -> None:
+        self._arcs = arcs
+        self.asked = 0
+
+    def moves(self, state: str) -> dict[str, float]:
+        self.asked += 1
+        return {"toss": 0.5, "heads": 0.5} if state == "toss" else {}
+
+    def winner(self, state: str) -> int | None:
+        return 1 if state == "heads" else None
+
+    def arcs(self) -> ArcArrays | None:
+        return self._arcs
+
+
+def test_what_is_a_game() -> None:
+    assert isinstance(Coin(), Game)
+    assert not isinstance("a string", Game)
+
+
+def test_a_diagram() -> None:
+    graph = graph_of(Coin())
+    assert dict(graph.nodes(data=True)) == {
+        "toss": {"kind": "start", "winner": None},
+        "heads": {"kind": "terminal", "winner": 1},
+    }
+    assert list(graph.edges(data="probability")) == [
+        ("toss", "toss", 0.5),
+        ("toss", "heads", 0.5),
+    ]
+
+
+def test_the_games_own_arrays_are_taken() -> None:
+    arrays = ArcArrays(["toss", "heads"], np.array([0, 0]), np.array([0, 1]), np.array([0.5, 0.5]))
+    game = Coin(arrays)
+    assert arcs_of(game) is arrays
+    assert list(graph_of(game)["toss"]) == ["toss", "heads"]
+    assert game.asked == 0
+
+
+def test_a_game_that_declines_to_give_arrays_is_walked() -> None:
+    game = Coin()
+    assert list(arcs_of(game).states) == ["toss", "heads"]
+    assert game.asked == 2
+
+
+def test_another_start_is_walked() -> None:
+    assert list(arcs_of(Race(2, 2, Rack(0.5)), start=(1, 1)).states) == [(1, 1), (2, 1), (1, 2)]
+
+
+def test_moves_of_probability_zero_are_left_out() -> None:
+    assert list(graph_of(OneBall(0, 1)).edges) == [("S1", "S2"), ("S2", "L")]
+    assert "W1" not in graph_of(OneBallLookAhead([0.0, 0.5]))
+
+
+def test_a_game_that_is_over_has_one_terminal_state() -> None:
+    graph = graph_of(Race(3, 2, Rack(0.5), score=(1, 2)))
+    assert dict(graph.nodes(data=True)) == {(1, 2): {"kind": "terminal", "winner": 2}}
+
+
+def test_the_most_states() -> None:
+    race = Race(3, 3, Rack(0.5))
+    assert len(graph_of(race, max_states=15)) == 15
+    with pytest.raises(GameError, match="more than 14 states; is its graph finite"):
+        graph_of(race, max_states=14)
