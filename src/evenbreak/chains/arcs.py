@@ -49,7 +49,24 @@ class Arcs:
     @cached_property
     def outflow(self) -> NDArray[np.float64]:
         """The probability to leave each state in a step: the sum of its arcs, shape (n,)."""
-        return np.bincount(self.sources, self.chances, self.size)
+        return _sums(self.sources, self.chances, self.size)
+
+    def among(self, states: NDArray[np.intp]) -> tuple[Arcs, NDArray[np.float64]]:
+        """Return the arcs among some states, renumbered, and each one's chance to leave them.
+
+        Parameters
+        ----------
+        states
+            positions of the states, increasing; shape (m,).
+        """
+        place = np.full(self.size, -1, dtype=np.int32)
+        place[states] = np.arange(len(states), dtype=np.int32)
+        sources, targets = place[self.sources], place[self.targets]
+        own = sources >= 0
+        inner = own & (targets >= 0)
+        leaving = own & ~inner
+        leak = _sums(sources[leaving], self.chances[leaving], len(states))
+        return _arcs(len(states), sources[inner], targets[inner], self.chances[inner]), leak
 
     def matrix(self) -> csc_array:
         """Return the arcs as a sparse matrix: entry [i, j] is the arc from j to i."""
@@ -74,6 +91,19 @@ def arcs_of(matrix: csc_array) -> Arcs:
     keep = (sources != targets) & (chances > 0.0)
     if not keep.all():
         sources, targets, chances = sources[keep], targets[keep], chances[keep]
+    return _arcs(size, sources, targets, chances)
+
+
+def _arcs(
+    size: int,
+    sources: NDArray[np.int32],
+    targets: NDArray[np.int32],
+    chances: NDArray[np.float64],
+) -> Arcs:
     indptr = np.zeros(size + 1, dtype=np.int32)
     np.cumsum(np.bincount(sources, minlength=size), out=indptr[1:])
     return Arcs(size, indptr, sources, targets, chances)
+
+
+def _sums(place: NDArray[np.int32], chances: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+    return np.bincount(place, chances, size).astype(np.float64, copy=False)

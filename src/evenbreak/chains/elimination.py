@@ -12,8 +12,11 @@ References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993; Alfa, Xue and Ye
 from __future__ import annotations
 
 import heapq
+import math
 from collections.abc import Sequence
 from typing import Any
+
+from evenbreak.errors import AccuracyError
 
 __all__ = ["Elimination"]
 
@@ -27,9 +30,18 @@ class Elimination:
         `arcs[j][i]`: the probability of i, given j, for i other than j. Used up.
     leaks
         `leaks[j]`: the probability to leave for good, given j.
+    most
+        the most arcs to make before giving up.
+
+    Raises
+    ------
+    AccuracyError
+        if more arcs than `most` have to be made.
     """
 
-    def __init__(self, arcs: Sequence[dict[int, Any]], leaks: Sequence[Any]) -> None:
+    def __init__(
+        self, arcs: Sequence[dict[int, Any]], leaks: Sequence[Any], most: float = math.inf
+    ) -> None:
         into: list[dict[int, Any]] = [{} for _ in arcs]
         for j, row in enumerate(arcs):
             for i, chance in row.items():
@@ -49,6 +61,12 @@ class Elimination:
                 heapq.heappush(heap, (len(out) * len(back), k))
                 continue
             done[k] = True
+            most -= cost
+            if most < 0:
+                raise AccuracyError(
+                    f"these {len(leak)} states span more decades than floats do, and are too "
+                    "many to eliminate in wider numbers; split the chain or scale its arcs"
+                )
             pivot = sum(out.values(), leak[k])
             self.steps.append((k, pivot, out, back))
             for i in out:
@@ -61,6 +79,14 @@ class Elimination:
                 for i, onward in out.items():
                     if i != j:
                         row[i] = into[i][j] = row.get(i, 0) + share * onward
+
+    @property
+    def pivots(self) -> list[Any]:
+        """The pivot of each state."""
+        pivots = [0] * len(self.steps)
+        for k, pivot, _, _ in self.steps:
+            pivots[k] = pivot
+        return pivots
 
     def visits(self, b: Sequence[Any]) -> list[Any]:
         """Return x = (I - T)^-1 b: the expected visits to each state from the density b."""

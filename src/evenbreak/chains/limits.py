@@ -16,11 +16,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
+from evenbreak.chains.factorisation import path_order
+from evenbreak.chains.line import line_law
 from evenbreak.chains.transient import TransientPart
+from evenbreak.chains.wide import wide_law
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.chains.arcs import Arcs
     from evenbreak.chains.chain import Chain
 
 __all__ = [
@@ -73,25 +77,73 @@ class Limit:
         return dict(zip(self.states, self.probability.tolist(), strict=True))
 
 
-def stationary_laws(chain: Chain) -> NDArray[np.float64]:
+def stationary_laws(chain: Chain, classes: NDArray[np.bool_] | None = None) -> NDArray[np.float64]:
     """Return the stationary law of each closed class, side by side; shape (n,).
 
     Each entry is conditional on being in the closed class of its state: the entries of a
     class sum to 1. Transient states have 0.
+
+    Parameters
+    ----------
+    chain
+        the chain.
+    classes
+        shape (classes,): which classes are wanted; the others have 0. All if not given.
+
+    Raises
+    ------
+    AccuracyError
+        if a law cannot be vouched for: it spans more decades than floats do, and its class
+        is too large for wider numbers, or its class is too large and too slow to mix.
+    """
+    return _stationary(chain, chain.structure.closed if classes is None else classes)[0]
+
+
+def _stationary(
+    chain: Chain, classes: NDArray[np.bool_]
+) -> tuple[NDArray[np.float64], float | None]:
+    """Return the laws of the closed ones of `classes`, and the residual of the solve if any.
+
+    One state of each class is cut out; the visits to the others between two visits to it
+    are proportional to the law.
     """
     structure = chain.structure
+    wanted = classes & structure.closed
     law = np.zeros(len(chain))
-    cut = structure.order[structure.offsets[:-1][structure.closed]]
+    cut = structure.order[structure.offsets[:-1][wanted]]
     law[cut] = 1.0
-    rest = structure.recurrent.copy()
+    inside = wanted[structure.label]
+    rest = inside.copy()
     rest[cut] = False
-    others = np.flatnonzero(rest)
-    if len(others):
-        inflow = chain.arcs.matrix() @ law
-        part = TransientPart(chain.arcs, others)
-        law[others] = part.visits(inflow[others])
-    total = np.bincount(structure.label, law, structure.count)
-    return np.divide(law, total[structure.label], out=law, where=structure.recurrent)
+    residual = None
+    if rest.any():
+        states = np.flatnonzero(rest)
+        part = TransientPart(chain.arcs, states)
+        x, doubtful = part.attempt((chain.arcs.matrix() @ law)[states, None])
+        law[states] = x[:, 0]
+        residual = part.residual
+        for label in np.unique(structure.label[states[doubtful[:, 0]]]):
+            members = structure.members(label)
+            law[members] = _law_of(chain.arcs.among(members)[0])
+    # The largest of a class is 1 before the sum, which might overflow.
+    top = np.zeros(structure.count)
+    np.maximum.at(top, structure.label[inside], law[inside])
+    law[inside] /= top[structure.label[inside]]
+    total = np.bincount(structure.label[inside], law[inside], structure.count)
+    law[inside] /= total[structure.label[inside]]
+    return law, residual
+
+
+def _law_of(arcs: Arcs) -> NDArray[np.float64]:
+    """Return the law of a closed class that spans more decades than floats do."""
+    T = arcs.matrix()
+    order = path_order(T)
+    if order is None:
+        return wide_law(arcs)
+    line = csc_array(T[:, order])[order]
+    law = np.empty(arcs.size)
+    law[order] = line_law(line.diagonal(-1), line.diagonal(1))
+    return law
 
 
 def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -141,9 +193,14 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
         return Limit(chain, probability, period)
     structure = chain.structure
     mass = absorption(chain, start)
-    law = stationary_laws(chain) * mass[structure.label]
+    law, residual = _stationary(chain, mass > 0.0)
+    law *= mass[structure.label]
     period = math.lcm(*structure.periods[mass > 0.0].tolist())
-    return Limit(chain, law, period)
+    return Limit(chain, law, period, _largest(chain.transient.residual, residual))
+
+
+def _largest(*residuals: float | None) -> float | None:
+    return max((r for r in residuals if r is not None), default=None)
 
 
 def limit_matrix(chain: Chain) -> csc_array:

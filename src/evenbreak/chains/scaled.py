@@ -12,6 +12,7 @@ root of n.
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING
 
@@ -60,7 +61,7 @@ def prefix_products(
     rows = np.empty((_BLOCK, 2, count))
     _fill(rows[:, 0], numerators)
     _fill(rows[:, 1], denominators)
-    for before, row in zip(rows[:-1], rows[1:], strict=True):
+    for before, row in itertools.pairwise(rows):
         np.multiply(before, row, out=row)
     block, shift = _prefix_of_blocks(rows[-1])
     quotients = rows[:, 0]

@@ -51,7 +51,14 @@ class Structure:
     @cached_property
     def order(self) -> NDArray[np.intp]:
         """The positions of the states, grouped by class, upstream first; shape (n,)."""
+        if self.in_order:
+            return np.arange(len(self.label))
         return np.argsort(self.label, kind="stable")
+
+    @cached_property
+    def in_order(self) -> bool:
+        """Whether the states already stand class by class, upstream first."""
+        return bool((self.label[:-1] <= self.label[1:]).all())
 
     @cached_property
     def offsets(self) -> NDArray[np.intp]:
@@ -128,7 +135,7 @@ class Structure:
         return depth[:n]
 
 
-def structure_of(arcs: Arcs, loops: NDArray[np.bool_]) -> Structure:
+def structure_of(arcs: Arcs, loops: NDArray[np.bool_] | None = None) -> Structure:
     """Return the communicating classes of the graph that `arcs` make.
 
     Cost is linear in the number of arcs. Where the arcs all lead forward in the given
@@ -142,6 +149,8 @@ def structure_of(arcs: Arcs, loops: NDArray[np.bool_]) -> Structure:
         shape (n,): whether the state has a self-loop, which only the periods ask.
     """
     n = arcs.size
+    if loops is None:
+        loops = np.zeros(n, dtype=bool)
     forward = arcs.sources < arcs.targets
     if forward.all():
         return Structure(np.arange(n), n, arcs, loops)
@@ -149,5 +158,5 @@ def structure_of(arcs: Arcs, loops: NDArray[np.bool_]) -> Structure:
         return Structure(np.arange(n)[::-1].copy(), n, arcs, loops)
     graph = csr_array((arcs.chances, arcs.targets, arcs.indptr), shape=(n, n))
     count, label = csgraph.connected_components(graph, directed=True, connection="strong")
-    # Pearce's algorithm numbers a class after all that are downstream of it.
-    return Structure(count - 1 - label.astype(np.intp), count, arcs, loops)
+    label = count - 1 - label.astype(np.intp)
+    return Structure(label, count, arcs, loops)

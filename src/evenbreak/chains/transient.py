@@ -5,17 +5,24 @@ With T the arcs among the transient states (T[i, j] = P(j -> i)):
 - visits: x = (I - T)^-1 b, the expected number of visits to each state from the density b;
 - values: y = (I - T)^-T r, the expected sum of r over all visits, from each state.
 
-Both are free of subtraction for nonnegative b and r. A right-hand side with both signs is
-to be split in its positive and its negative part by who asks.
+Both are free of subtraction for nonnegative b and r; a right-hand side with both signs is
+to be split in its positive and its negative part by who asks. The states are taken class by
+class, upstream first, and each class by the method that suits it: see `factorisation`. An
+answer that over- or underflow may have touched is worked out again in wider numbers.
 """
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.sparse import csgraph, csr_array
 
 from evenbreak.chains.elimination import Elimination
+from evenbreak.chains.factorisation import Factorisation
+from evenbreak.chains.wide import rows_of, wide_solve
+from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -23,6 +30,8 @@ if TYPE_CHECKING:
     from evenbreak.chains.arcs import Arcs
 
 __all__ = ["TransientPart"]
+
+_FEW_STATES, _FEW_ARCS = 100, 300
 
 
 class TransientPart:
@@ -34,36 +43,140 @@ class TransientPart:
         the arcs of the whole chain.
     states
         positions of the states, increasing; shape (m,).
+
+    >>> from scipy.sparse import csc_array
+    >>> from evenbreak.chains import Chain
+    >>> chain = Chain("ab", csc_array([[0.75, 0.0], [0.25, 1.0]]))
+    >>> chain.transient.visits(np.array([1.0]))
+    array([4.])
     """
 
     def __init__(self, arcs: Arcs, states: NDArray[np.intp]) -> None:
         self.states = states
-        place = np.full(arcs.size, -1)
-        place[states] = np.arange(len(states))
-        source, target = place[arcs.sources], place[arcs.targets]
-        leaves = (source >= 0) & (target < 0)
-        stays = (source >= 0) & (target >= 0)
-        leak = np.bincount(source[leaves], arcs.chances[leaves], len(states))
-        rows: list[dict[int, float]] = [{} for _ in states]
-        for j, i, chance in zip(
-            source[stays].tolist(),
-            target[stays].tolist(),
-            arcs.chances[stays].tolist(),
-            strict=True,
-        ):
-            rows[j][i] = chance
-        self._factor = Elimination(rows, leak.tolist())
+        self._arcs, self._leak = arcs.among(states)
+        self._outflow = arcs.outflow[states]
+
+    @cached_property
+    def _factor(self) -> _InPlainPython | Factorisation:
+        if len(self.states) <= _FEW_STATES and len(self._arcs.chances) <= _FEW_ARCS:
+            return _InPlainPython(self._arcs, self._leak)
+        return Factorisation(self._arcs, self._leak, self._outflow)
+
+    @property
+    def residual(self) -> float | None:
+        """None where each entry of the answers so far is right to about machine precision.
+
+        Otherwise, after a large class without a narrow band: the largest entry of
+        b - (I - T) x, in units of the largest of b, where no better could be certified.
+        """
+        factor = self.__dict__.get("_factor")
+        return None if factor is None else factor.residual
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return (I - T)^-1 b for b >= 0 of shape (m,) or (m, k), in the order of `states`."""
-        return self._columns(self._factor.visits, b)
+        """Return (I - T)^-1 b: the expected visits to each state, given the start density b.
+
+        Parameters
+        ----------
+        b
+            shape (m,) or (m, k), in the order of `states`; nonnegative, but need not be a
+            density.
+
+        Raises
+        ------
+        AccuracyError
+            if an entry is larger than any float, or cannot be vouched for.
+        """
+        return self._vouched(b, transposed=False)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return (I - T)^-T r for r >= 0 of shape (m,) or (m, k), in the order of `states`."""
-        return self._columns(self._factor.values, r)
+        """Return (I - T)^-T r: the expected sum of r over all visits, given each start state.
 
-    def _columns(self, solve, b):  # type: ignore[no-untyped-def]
-        b = np.asarray(b, dtype=float)
-        if b.ndim == 1:
-            return np.array(solve(b.tolist()))
-        return np.array([solve(column) for column in b.T.tolist()]).reshape(b.T.shape).T
+        Parameters
+        ----------
+        r
+            shape (m,) or (m, k), in the order of `states`; nonnegative.
+
+        Raises
+        ------
+        AccuracyError
+            if an entry is larger than any float, or cannot be vouched for.
+        """
+        return self._vouched(r, transposed=True)
+
+    def attempt(
+        self, b: NDArray[np.float64], *, transposed: bool = False
+    ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """Return the visits (or values), and where under- or overflow may have touched them.
+
+        Both have the shape (m, k) of `b`.
+        """
+        with np.errstate(all="ignore"):
+            x = self._factor.values(b) if transposed else self._factor.visits(b)
+            doubtful = _doubtful(x, self._factor.pivots)
+        for k in np.flatnonzero(doubtful.any(axis=0)):
+            doubtful[:, k] &= self._reached(b[:, k], transposed=transposed)
+        return x, doubtful
+
+    def _vouched(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
+        given = np.asarray(b, dtype=np.float64)
+        columns = given.reshape(len(self.states), -1)
+        if not columns.size:
+            return given.copy()
+        x, doubtful = self.attempt(columns, transposed=transposed)
+        for k in np.flatnonzero(doubtful.any(axis=0)):
+            x[:, k] = wide_solve(self._arcs, self._leak, columns[:, k], transposed=transposed)
+        if not np.isfinite(x).all():
+            raise AccuracyError(
+                "an expected number of visits, or a sum over them, is larger than any float; "
+                "the chain leaves some states too rarely"
+            )
+        return x.reshape(given.shape)
+
+    def _reached(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.bool_]:
+        """Return the states that the graph joins to those where b is not 0."""
+        m = len(self.states)
+        near, far = self._arcs.sources, self._arcs.targets
+        if transposed:
+            near, far = far, near
+        roots = np.flatnonzero(b)
+        near = np.concatenate((near, np.full(len(roots), m)))
+        far = np.concatenate((far, roots))
+        graph = csr_array((np.ones(len(near)), (near, far)), shape=(m + 1, m + 1))
+        reached = np.zeros(m + 1, dtype=bool)
+        reached[csgraph.breadth_first_order(graph, m, return_predecessors=False)] = True
+        return reached[:m]
+
+
+class _InPlainPython:
+    """Elimination with a dictionary for each state: the fastest for some dozen states."""
+
+    residual = None
+
+    def __init__(self, arcs: Arcs, leak: NDArray[np.float64]) -> None:
+        self._elimination = Elimination(rows_of(arcs), leak.tolist())
+        self.pivots = np.array(self._elimination.pivots)
+
+    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.array([self._elimination.visits(column) for column in b.T.tolist()]).T
+
+    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.array([self._elimination.values(column) for column in r.T.tolist()]).T
+
+
+def _doubtful(x: NDArray[np.float64], pivots: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return where underflow may show in x, of shape (m, k); all where x has overflowed.
+
+    What underflows is lost by at most 2^-1074 a term, before it is divided by the pivot of
+    its state. That matters where it is not small beside x, unless x is below all normal
+    floats anyway.
+    """
+    top = x.max()
+    if not top < np.inf:
+        return np.ones(x.shape, dtype=bool)
+    flow = x * pivots[:, None]
+    low = flow < 1e-290 * max(1.0, top)
+    if low.any():
+        # All scaled by 2^600, so that the smallest numbers can be compared.
+        lost = len(x) * max(1.0, top) * 2.0**-474 / pivots[:, None]
+        low &= lost > np.maximum(1e-14 * (x * 2.0**600), 2.0**-422)
+    return low

@@ -1,0 +1,70 @@
+"""Elimination within many small classes at once.
+
+Classes of the same size s are stacked into one array, and each step of the elimination of
+Grassmann, Taksar and Heyman is one vector operation over the whole stack: no Python loop
+runs per class. What comes out are the arcs of a larger graph without cycles in which each
+state of such a class stands twice, as it is entered and as it is left; a flow through the
+classes is then found by one forward substitution (see `transient`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+__all__ = ["Factors", "eliminate_stack", "stacks"]
+
+_ENTRIES = 2_000_000
+
+
+class Factors(NamedTuple):
+    """The factors of a stack of classes, as arrays of (later or earlier) states by number.
+
+    A flow that enters state k goes on with `onward` to states eliminated later, and is
+    turned into visits by 1 / `pivot`; visits to a state bring visits with `back` to states
+    eliminated earlier.
+    """
+
+    pivot: NDArray[np.float64]
+    onward: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]
+    back: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]
+
+
+def stacks(sizes: NDArray[np.intp]) -> Iterator[tuple[int, NDArray[np.intp]]]:
+    """Yield (size, classes) for sizes above 1, not more classes at once than memory allows."""
+    for size in np.unique(sizes[sizes > 1]).tolist():
+        members = np.flatnonzero(sizes == size)
+        step = max(1, _ENTRIES // (size * size))
+        for first in range(0, len(members), step):
+            yield size, members[first : first + step]
+
+
+def eliminate_stack(W: NDArray[np.float64], first: NDArray[np.intp]) -> Factors:
+    """Return the factors of a stack of classes; `W` is used up.
+
+    Parameters
+    ----------
+    W
+        shape (classes, s + 1, s): W[c, i, j] is the arc from the j-th to the i-th state of
+        class c; row s is the leak out of the class.
+    first
+        shape (classes,): the number of the first state of each class.
+    """
+    count, _, size = W.shape
+    pivot = np.empty((count, size))
+    for k in range(size):
+        pivot[:, k] = W[:, k + 1 :, k].sum(axis=1)
+        W[:, k, k + 1 :] /= pivot[:, k, None]
+        W[:, k + 1 :, k + 1 :] += W[:, k + 1 :, k, None] * W[:, k, None, k + 1 :]
+    square = W[:, :size]
+    lower = np.tril(np.ones((size, size), dtype=bool), -1)
+    c, i, j = np.nonzero(square * lower)
+    onward = (first[c] + j, first[c] + i, square[c, i, j] / pivot[c, j])
+    c, i, j = np.nonzero(square * lower.T)
+    return Factors(pivot.reshape(-1), onward, (first[c] + j, first[c] + i, square[c, i, j]))

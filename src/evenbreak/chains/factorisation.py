@@ -1,0 +1,214 @@
+"""I - P factored class by class: each class by the method that suits its graph.
+
+| class | method | time, memory |
+|---|---|---|
+| one state, or up to 64 | forward substitution over all of them (`flow`) | linear |
+| a line of states | cyclic reduction (`path`) | linear |
+| narrow band, or up to some 6,000 states | blocked elimination (`banded`) | n w^2, n w |
+| larger | sparse factorisation, certified or with its residual (`sparse_lu`) | as SuperLU |
+
+P is the jump chain: self-loops are gone and the arcs out of a state, with the leak, sum
+to 1. Consecutive small classes are solved together.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from scipy.sparse import csc_array, csgraph
+
+from evenbreak.chains.banded import BandedElimination, band_order
+from evenbreak.chains.flow import Flow
+from evenbreak.chains.path import PathElimination
+from evenbreak.chains.sparse_lu import SparseFactorisation
+from evenbreak.chains.structure import structure_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Arcs
+
+__all__ = ["Factorisation", "path_order"]
+
+SMALL = 64
+_MOST_ENTRIES = 40_000_000
+
+
+class _Solver(Protocol):
+    pivots: NDArray[np.float64]
+
+    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+
+class _Piece:
+    """Consecutive classes, numbered first..last - 1, with the arcs out of their states."""
+
+    def __init__(
+        self,
+        offsets: NDArray[np.intp],
+        arcs: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]],
+        leak: NDArray[np.float64],
+    ) -> None:
+        self.first, self.last = int(offsets[0]), int(offsets[-1])
+        self._offsets = offsets - self.first
+        sources, targets, chances = arcs
+        inner = targets < self.last
+        self._inner = sources[inner] - self.first, targets[inner] - self.first, chances[inner]
+        self.sources, self.targets = sources[~inner], targets[~inner]
+        self.chances = chances[~inner]
+        self._leak = leak[self.first : self.last]
+
+    @cached_property
+    def solver(self) -> _Solver:
+        """The factors of the piece, made when they are first asked for."""
+        size = self.last - self.first
+        leak = self._leak
+        if len(self.chances):
+            leak = leak + np.bincount(self.sources - self.first, self.chances, size)
+        if len(self._offsets) > 2 or size <= SMALL:
+            return Flow(*self._inner, leak, self._offsets)
+        sources, targets, chances = self._inner
+        T = csc_array((chances, (targets, sources)), shape=(size, size))
+        order = path_order(T)
+        if order is not None:
+            return _Path(T, leak, order)
+        order, width = band_order(T)
+        if size * min(size, 3 * width) <= _MOST_ENTRIES:
+            return BandedElimination(T, leak, order, width)
+        return SparseFactorisation(T, leak)
+
+
+class _Path:
+    """A line of states that are numbered in another order."""
+
+    def __init__(self, T: csc_array, leak: NDArray[np.float64], order: NDArray[np.intp]) -> None:
+        line = csc_array(T[:, order])[order]
+        path = PathElimination(line.diagonal(-1), line.diagonal(1), leak[order])
+        self._path = path
+        self._order = order
+        self.pivots = self._restored(path.pivots)
+
+    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self._restored(self._path.visits(b[self._order]))
+
+    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self._restored(self._path.values(r[self._order]))
+
+    def _restored(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        y = np.empty_like(x)
+        y[self._order] = x
+        return y
+
+
+class Factorisation:
+    """I - P factored, where P is the jump chain of `arcs` and `leak`.
+
+    Parameters
+    ----------
+    arcs
+        the arcs among m states.
+    leak
+        shape (m,): the probability to leave them, given the state. From each state a state
+        that leaks can be reached.
+    outflow
+        shape (m,): the sum of all arcs out of each state and its leak.
+    """
+
+    def __init__(self, arcs: Arcs, leak: NDArray[np.float64], outflow: NDArray[np.float64]) -> None:
+        structure = structure_of(arcs)
+        self.outflow = outflow
+        self.order: NDArray[np.intp] | None = None
+        chances = arcs.chances / outflow[arcs.sources]
+        jump = leak / outflow
+        sources, targets = arcs.sources, arcs.targets
+        if not structure.in_order:
+            self.order = structure.order
+            place = np.empty(arcs.size, dtype=np.int32)
+            place[self.order] = np.arange(arcs.size, dtype=np.int32)
+            by_source = csc_array(
+                (chances, (place[targets], place[sources])), shape=(arcs.size,) * 2
+            )
+            chances, targets, jump = by_source.data, by_source.indices, jump[self.order]
+            indptr = by_source.indptr
+            sources = np.repeat(np.arange(arcs.size, dtype=np.int32), np.diff(indptr))
+        else:
+            indptr = arcs.indptr
+        self._pieces = []
+        for offsets in _runs(structure.offsets):
+            span = slice(indptr[offsets[0]], indptr[offsets[-1]])
+            piece = _Piece(offsets, (sources[span], targets[span], chances[span]), jump)
+            self._pieces.append(piece)
+
+    @property
+    def residual(self) -> float | None:
+        """The largest residual of an answer so far that could not be certified, or None."""
+        solvers = (p.__dict__.get("solver") for p in self._pieces)
+        residuals = [s.residual for s in solvers if isinstance(s, SparseFactorisation)]
+        return max((r for r in residuals if r is not None), default=None)
+
+    @property
+    def pivots(self) -> NDArray[np.float64]:
+        """What each state is left with when it is eliminated, in the units of the outflow."""
+        pivots = np.ones(len(self.outflow))
+        for piece in self._pieces:
+            if "solver" in piece.__dict__:
+                pivots[piece.first : piece.last] = piece.solver.pivots
+        return self._restored(pivots) * self.outflow
+
+    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the visits to each state from b >= 0, shape (m, k): (I - T)^-1 b."""
+        f = b.copy() if self.order is None else b[self.order]
+        for piece in self._pieces:
+            part = f[piece.first : piece.last]
+            if part.any():
+                part[:] = piece.solver.visits(part)
+                np.add.at(f, piece.targets, f[piece.sources] * piece.chances[:, None])
+        return self._restored(f) / self.outflow[:, None]
+
+    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the sum of r >= 0, shape (m, k), over the visits from each: (I - T)^-T r."""
+        y = r / self.outflow[:, None]
+        if self.order is not None:
+            y = y[self.order]
+        for piece in reversed(self._pieces):
+            np.add.at(y, piece.sources, y[piece.targets] * piece.chances[:, None])
+            part = y[piece.first : piece.last]
+            if part.any():
+                part[:] = piece.solver.values(part)
+        return self._restored(y)
+
+    def _restored(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        if self.order is None:
+            return x
+        y = np.empty_like(x)
+        y[self.order] = x
+        return y
+
+
+def _runs(offsets: NDArray[np.intp]) -> list[NDArray[np.intp]]:
+    """Cut the classes into runs: each large class alone, small ones between them together."""
+    large = np.flatnonzero(np.diff(offsets) > SMALL)
+    if not len(large):
+        return [offsets]
+    marks = np.unique(np.concatenate(([0, len(offsets) - 1], large, large + 1)))
+    return [offsets[a : b + 1] for a, b in pairwise(marks)]
+
+
+def path_order(T: csc_array) -> NDArray[np.intp] | None:
+    """Return the order in which the states of a class stand in a line, or None."""
+    size = T.shape[0]
+    if T.nnz != 2 * (size - 1):
+        return None
+    ends = np.flatnonzero(np.diff(T.indptr) == 1)
+    if len(ends) != 2:
+        return None
+    order = csgraph.breadth_first_order(T, ends[0], return_predecessors=False)
+    place = np.empty(size, dtype=np.intp)
+    place[order] = np.arange(size)
+    sources = np.repeat(place, np.diff(T.indptr))
+    return order if (np.abs(place[T.indices] - sources) == 1).all() else None

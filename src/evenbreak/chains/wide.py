@@ -1,0 +1,80 @@
+"""Elimination in decimal numbers of 40 digits and all but unbounded exponents.
+
+The way out where a law spans more decades than floats do: some 300 below 1, beyond which
+intermediate results would vanish or overflow and take digits of the answer with them. It
+is slow (some microseconds an arc), and refuses what would take it longer than seconds.
+"""
+
+from __future__ import annotations
+
+from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.chains.elimination import Elimination
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Arcs
+
+__all__ = ["rows_of", "wide_law", "wide_solve"]
+
+_CONTEXT = Context(prec=40, Emax=MAX_EMAX, Emin=MIN_EMIN)
+_MOST_ARCS = 3e6
+
+
+def rows_of(arcs: Arcs) -> list[dict[int, float]]:
+    """Return the arcs as a dictionary for each source: target to chance."""
+    rows: list[dict[int, float]] = [{} for _ in range(arcs.size)]
+    for j, i, chance in zip(
+        arcs.sources.tolist(), arcs.targets.tolist(), arcs.chances.tolist(), strict=True
+    ):
+        rows[j][i] = chance
+    return rows
+
+
+def wide_solve(
+    arcs: Arcs, leak: NDArray[np.float64], b: NDArray[np.float64], *, transposed: bool
+) -> NDArray[np.float64]:
+    """Return (I - T)^-1 b, or (I - T)^-T b, for b >= 0 of shape (m,); inf beyond all floats.
+
+    Raises
+    ------
+    AccuracyError
+        if the elimination would take too long.
+    """
+    with localcontext(_CONTEXT):
+        factor = _factor(arcs, leak)
+        given = [Decimal(value) for value in b.tolist()]
+        x = factor.values(given) if transposed else factor.visits(given)
+        return np.array([float(value) for value in x])
+
+
+def wide_law(arcs: Arcs) -> NDArray[np.float64]:
+    """Return the stationary law of one closed class, whose arcs these are; shape (m,).
+
+    Raises
+    ------
+    AccuracyError
+        if the elimination would take too long.
+    """
+    rest = np.arange(1, arcs.size)
+    inner, leak = arcs.among(rest)
+    with localcontext(_CONTEXT):
+        b = [Decimal(0)] * (arcs.size - 1)
+        for i, chance in zip(
+            arcs.targets[: arcs.indptr[1]].tolist(),
+            arcs.chances[: arcs.indptr[1]].tolist(),
+            strict=True,
+        ):
+            b[i - 1] = Decimal(chance)
+        law = [Decimal(1), *_factor(inner, leak).visits(b)]
+        total = sum(law)
+        return np.array([float(value / total) for value in law])
+
+
+def _factor(arcs: Arcs, leak: NDArray[np.float64]) -> Elimination:
+    rows = [{i: Decimal(chance) for i, chance in row.items()} for row in rows_of(arcs)]
+    return Elimination(rows, [Decimal(value) for value in leak.tolist()], _MOST_ARCS)
