@@ -11,7 +11,7 @@ from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.quantiles import quantile_of
-from evenbreak.matches.race_law import RaceLaw, race_law
+from evenbreak.matches.races import RaceLaw, race_law
 
 __all__ = ["Odds", "RaceLaw", "match_odds", "race_law"]
 

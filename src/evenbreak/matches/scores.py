@@ -70,7 +70,7 @@ def final_scores(match: Match, score: Score | None = None, *, tail: float = 1e-1
 
     Notes
     -----
-    Source: problems P5.4 (P(p; m, n), the chance of each final score), P5.5.
+    Source: problem P5.5, where W is the sum of the chances of the final scores.
 
     >>> from evenbreak.games import Race, Rack
     >>> final_scores(Race(2, 1, Rack(0.5))).probability

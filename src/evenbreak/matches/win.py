@@ -104,7 +104,7 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
 
     Notes
     -----
-    Source: problems P5.4 and P5.5.
+    Source: problems P5.5 and P5.6.
 
     >>> race_win_probability(0.5, [1, 2, 3], 2)
     array([0.75  , 0.5   , 0.3125])

@@ -113,7 +113,7 @@ def race_law(
 
     Notes
     -----
-    Source: problems P5.4, P5.5 (the race), P5.24 (break formats).
+    Source: problems P5.5 and P5.6 (the race), P5.24 (break formats).
 
     >>> law = race_law(3, 2, 2 / 3)
     >>> round(law.p_win_1, 12), law.games
