@@ -33,12 +33,19 @@ html_title = f"evenbreak {release}"
 html_static_path: list[str] = []
 
 
-def keep_colons(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
-    """Begin docstrings of attributes with a comment: napoleon would take `a: b` for a type."""
+def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
+    """Rewrite a docstring where napoleon would misread it.
+
+    It takes `a: b` in the first line of an attribute for a type, and examples that follow a
+    section for a part of that section.
+    """
     if what in {"attribute", "data", "property"}:
         lines[:0] = ["..", ""]
+    examples = next((i for i, line in enumerate(lines) if line.startswith(">>>")), None)
+    if examples and any(line.startswith("---") for line in lines[:examples]):
+        lines[examples:examples] = ["Examples", "--------"]
 
 
 def setup(app) -> None:
     """Run before napoleon does, whose priority is 500."""
-    app.connect("autodoc-process-docstring", keep_colons, priority=100)
+    app.connect("autodoc-process-docstring", prepare, priority=100)

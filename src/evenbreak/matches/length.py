@@ -28,7 +28,7 @@ class MatchLength:
     games
         lengths in racks, ascending, shape (k,).
     probability
-        P(the match takes exactly games[i] racks), shape (*parameters, k).
+        P(the match takes exactly games[i] racks), shape `(*parameters, k)`.
     mean, sd
         mean and standard deviation in racks, right also where `games` leaves out a
         tail; None (NaN in arrays) where the match may never end.
