@@ -1,0 +1,146 @@
+"""Selected inversion against the dense inverse and against exact fractions."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import sparse
+
+from evenbreak.errors import AccuracyError
+from evenbreak.ratings import inverse_diagonal as module
+from evenbreak.ratings.fronts import fronts_of
+from evenbreak.ratings.inverse_diagonal import inverse_diagonal
+
+
+def laplacian(players, low, high, weight, row_sum):
+    """Return the Hessian of a league in which the pairs low-high weigh so much."""
+    pairs = sparse.coo_array((weight, (low, high)), shape=(players, players))
+    pairs = (pairs + pairs.T).tocsc()
+    return sparse.csc_array(sparse.diags_array(pairs.sum(axis=0) + row_sum) - pairs)
+
+
+def random_pairs(rng, players, pairs):
+    low = rng.integers(0, players, pairs)
+    return low, (low + rng.integers(1, players, pairs)) % players
+
+
+def mixed(rng, players=700):
+    return random_pairs(rng, players, 30 * players)
+
+
+def divisions(rng, players=1200, size=60, bridges=40):
+    low = rng.integers(0, players, 20 * players)
+    high = low - low % size + (low % size + rng.integers(1, size, len(low))) % size
+    across = random_pairs(rng, players, bridges)
+    return np.concatenate((low, across[0])), np.concatenate((high, across[1]))
+
+
+def thin(rng, players=1000):
+    return random_pairs(rng, players, 1300)
+
+
+def star(_, players=900):
+    return np.zeros(players - 1, dtype=int), np.arange(1, players)
+
+
+def path(_, players=900):
+    return np.arange(players - 1), np.arange(1, players)
+
+
+def islands(_, players=1000):
+    return np.arange(0, players // 2, 2), np.arange(1, players // 2, 2)
+
+
+LEAGUES = [mixed, divisions, thin, star, path, islands]
+
+
+@pytest.mark.parametrize("league", LEAGUES)
+@pytest.mark.parametrize("row_sum", [1e-2, 1.0, 30.0])
+def test_every_kind_of_league_equals_the_dense_inverse(league, row_sum):
+    rng = np.random.default_rng(5)
+    players = league.__defaults__[0]
+    low, high = league(rng)
+    matrix = laplacian(players, low, high, rng.uniform(0.05, 3, len(low)), row_sum)
+    dense = np.diagonal(np.linalg.inv(matrix.toarray()))
+    np.testing.assert_allclose(inverse_diagonal(matrix, row_sum), dense, rtol=1e-9)
+
+
+@given(st.integers(2, 9), st.integers(0, 12), st.integers(0, 10**6))
+def test_small_leagues_equal_exact_fractions(players, pairs, seed):
+    rng = np.random.default_rng(seed)
+    low, high = random_pairs(rng, players, pairs)
+    matrix = laplacian(players, low, high, rng.integers(1, 9, pairs) / 8, 0.125)
+    exact = exact_inverse_diagonal(matrix.toarray())
+    np.testing.assert_allclose(inverse_diagonal(matrix, 0.125), exact, rtol=1e-12)
+
+
+def exact_inverse_diagonal(matrix):
+    """Gauss and Jordan, with fractions."""
+    size = len(matrix)
+    rows = [
+        [Fraction(float(x)) for x in row] + [Fraction(int(i == k)) for k in range(size)]
+        for i, row in enumerate(matrix)
+    ]
+    for k in range(size):
+        rows[k] = [x / rows[k][k] for x in rows[k]]
+        for i in range(size):
+            if i != k:
+                rows[i] = [x - rows[i][k] * y for x, y in zip(rows[i], rows[k], strict=True)]
+    return [float(rows[k][size + k]) for k in range(size)]
+
+
+@pytest.mark.parametrize("league", LEAGUES)
+def test_fronts_eliminate_every_player_once_and_children_first(league):
+    rng = np.random.default_rng(5)
+    players = league.__defaults__[0]
+    low, high = league(rng)
+    fronts = fronts_of(laplacian(players, low, high, np.ones(len(low)), 1.0))
+    assert sorted(np.concatenate([front.pivots for front in fronts])) == list(range(players))
+    for number, front in enumerate(fronts):
+        own = {*front.pivots.tolist(), *front.rows.tolist()}
+        for child in front.children:
+            assert child < number
+            assert set(fronts[child].rows.tolist()) <= own
+
+
+def test_a_league_in_divisions_is_cut_up_and_a_mixed_one_is_not():
+    rng = np.random.default_rng(5)
+    low, high = divisions(rng)
+    cut = fronts_of(laplacian(1200, low, high, np.ones(len(low)), 1.0))
+    assert max(len(front.pivots) + len(front.rows) for front in cut) < 200
+    low, high = mixed(rng)
+    assert len(fronts_of(laplacian(700, low, high, np.ones(len(low)), 1.0))) == 1
+
+
+@pytest.mark.parametrize("row_sum", [1e-6, 1.0])
+def test_single_precision_keeps_six_digits_whatever_the_prior(monkeypatch, row_sum):
+    rng = np.random.default_rng(5)
+    low, high = mixed(rng)
+    matrix = laplacian(700, low, high, rng.uniform(0.05, 3, len(low)), row_sum)
+    double = inverse_diagonal(matrix, row_sum)
+    monkeypatch.setattr(module, "_SINGLE_PRECISION_FROM", 100)
+    single = inverse_diagonal(matrix, row_sum)
+    assert (single != double).any()
+    np.testing.assert_allclose(single, double, rtol=1e-5)
+
+
+def test_single_precision_is_not_used_where_the_condition_forbids_it(monkeypatch):
+    # Two halves that hardly met: without a prior their difference is all but unknown.
+    rng = np.random.default_rng(5)
+    low, high = random_pairs(rng, 200, 4000)
+    low, high = np.concatenate((low, low + 200, [0])), np.concatenate((high, high + 200, [200]))
+    weight = np.ones(len(low))
+    weight[-1] = 1e-3
+    matrix = laplacian(400, low, high, weight, 1e-4)
+    double = np.diagonal(np.linalg.inv(matrix.toarray()))
+    monkeypatch.setattr(module, "_SINGLE_PRECISION_FROM", 100)
+    assert module._dense_single(matrix, 1e-4) is None
+    np.testing.assert_allclose(module._dense(matrix, 1e-4), double, rtol=1e-9)
+
+
+@pytest.mark.parametrize("size", [1, 2, 5])
+def test_a_matrix_that_is_not_definite_is_refused(size):
+    with pytest.raises(AccuracyError, match="smaller prior_sd"):
+        inverse_diagonal(sparse.csc_array(-np.eye(size)), -1.0)

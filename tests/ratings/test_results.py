@@ -1,0 +1,83 @@
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.ratings import Results
+
+
+def season(**columns):
+    return Results.from_names(
+        ["Ann", "Bo", "Cy", "Bo"], ["Bo", "Cy", "Ann", "Ann"], [7, 0, 3, 0], [5, 0, 7, 0], **columns
+    )
+
+
+def test_names_become_positions_in_the_order_of_the_names():
+    results = season()
+    assert results.players == ("Ann", "Bo", "Cy")
+    assert results.player_a.tolist() == [0, 1, 2, 1]
+    assert results.player_b.tolist() == [1, 2, 0, 0]
+    assert len(results) == 4
+
+
+def test_forfeits_and_empty_rows_are_left_out_and_counted_apart():
+    played = season(forfeit=[False, True, False, False]).played()
+    assert (len(played.results), played.forfeits, played.empty) == (2, 1, 1)
+    assert played.results.score_b.tolist() == [5, 7]
+    assert played.results.players == ("Ann", "Bo", "Cy")
+
+
+def test_a_forfeit_is_left_out_whatever_its_score():
+    played = season(forfeit=[True, False, False, False]).played()
+    assert (len(played.results), played.forfeits, played.empty) == (1, 1, 2)
+
+
+def test_selection_takes_every_column_along():
+    results = season(
+        racks=["aaaaaaabbbbb", "", "", ""], race_a=[7, 7, 7, 7], date=["2026-01-02"] * 4
+    )
+    first = results.select(np.array([0]))
+    assert (first.racks.tolist(), first.race_a.tolist()) == (["aaaaaaabbbbb"], [7])
+    assert str(first.date[0]) == "2026-01-02"
+    assert first.event is None
+
+
+def test_columns_are_copies_that_cannot_be_written():
+    scores = np.array([7, 0, 3, 0])
+    results = Results(("Ann", "Bo"), [0, 1, 0, 1], [1, 0, 1, 0], scores, scores)
+    scores[0] = 99
+    assert results.score_a[0] == 7
+    with pytest.raises(ValueError, match="read-only"):
+        results.score_a[0] = 1
+    with pytest.raises(AttributeError):
+        results.players = ()
+
+
+def test_no_rows_are_results_too():
+    results = Results.from_names([], [], [], [])
+    assert (len(results), results.players, results.played().empty) == (0, (), 0)
+
+
+def test_columns_of_other_lengths_are_refused():
+    with pytest.raises(
+        InputError, match=r"forfeit has the shape \(1,\); give one value for each of 4"
+    ):
+        season(forfeit=[True])
+
+
+@pytest.mark.parametrize(
+    ("column", "values"),
+    [("winner", [3, 0, 0, 0]), ("first_break", [-1, 0, 0, 0]), ("break_format", [6, 0, 0, 0])],
+)
+def test_codes_out_of_range_are_refused(column, values):
+    with pytest.raises(InputError, match=f"{column} holds a code outside"):
+        season(**{column: values})
+
+
+def test_players_out_of_range_are_refused():
+    with pytest.raises(InputError, match=r"player_b holds a code outside 0\.\.1"):
+        Results(("Ann", "Bo"), [0], [2], [1], [0])
+
+
+def test_a_name_is_listed_once():
+    with pytest.raises(InputError, match="players holds a name twice"):
+        Results(("Ann", "Ann"), [0], [1], [1], [0])
