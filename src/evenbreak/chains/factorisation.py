@@ -24,7 +24,7 @@ from evenbreak.chains.banded import BandedElimination, band_order
 from evenbreak.chains.flow import Flow
 from evenbreak.chains.path import PathElimination
 from evenbreak.chains.sparse_lu import SparseFactorisation
-from evenbreak.chains.structure import structure_of
+from evenbreak.chains.structure import Structure, structure_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -58,7 +58,9 @@ class _Piece:
         self._offsets = offsets - self.first
         sources, targets, chances = arcs
         inner = targets < self.last
-        self._inner = sources[inner] - self.first, targets[inner] - self.first, chances[inner]
+        # Where the piece is all there is, its arcs are not copied.
+        own: slice | NDArray[np.bool_] = slice(None) if inner.all() else inner
+        self._inner = sources[own] - self.first, targets[own] - self.first, chances[own]
         self.sources, self.targets = sources[~inner], targets[~inner]
         self.chances = chances[~inner]
         self._leak = leak[self.first : self.last]
@@ -117,10 +119,18 @@ class Factorisation:
         that leaks can be reached.
     outflow
         shape (m,): the sum of all arcs out of each state and its leak.
+    structure
+        the classes of the arcs, where they are known already.
     """
 
-    def __init__(self, arcs: Arcs, leak: NDArray[np.float64], outflow: NDArray[np.float64]) -> None:
-        structure = structure_of(arcs)
+    def __init__(
+        self,
+        arcs: Arcs,
+        leak: NDArray[np.float64],
+        outflow: NDArray[np.float64],
+        structure: Structure | None = None,
+    ) -> None:
+        structure = structure or structure_of(arcs)
         self.outflow = outflow
         self.order: NDArray[np.intp] | None = None
         chances = arcs.chances / outflow[arcs.sources]

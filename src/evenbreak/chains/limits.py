@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.chains.factorisation import path_order
+from evenbreak.chains.factorisation import Factorisation, path_order
 from evenbreak.chains.line import line_law
 from evenbreak.chains.transient import TransientPart
 from evenbreak.chains.wide import wide_law
@@ -148,6 +148,8 @@ def _law_of(arcs: Arcs) -> NDArray[np.float64]:
 
 def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the probability to enter the recurrent states at each one; shape (n,)."""
+    if chain.structure.is_acyclic:
+        return _ends(chain, v)
     states = chain.transient.states
     arrivals = v.copy()
     arrivals[states] = 0.0
@@ -158,6 +160,16 @@ def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
         flow[states] = 0.0
         arrivals += flow
     return arrivals
+
+
+def _ends(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the probability of each end of a chain without cycles, in one substitution."""
+    end = chain.structure.recurrent
+    outflow = np.where(end, 1.0, chain.arcs.outflow)
+    flow = Factorisation(chain.arcs, end.astype(float), outflow, chain.structure)
+    # Visits to other states may overflow or underflow; the flow into the ends does not.
+    with np.errstate(all="ignore"):
+        return np.where(end, flow.visits(v[:, None])[:, 0], 0.0)
 
 
 def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
@@ -192,11 +204,17 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
         probability, period = chain.line.limit(at)
         return Limit(chain, probability, period)
     structure = chain.structure
+    if structure.is_acyclic:
+        return Limit(chain, _ends(chain, chain.density(start)))
     mass = absorption(chain, start)
     law, residual = _stationary(chain, mass > 0.0)
     law *= mass[structure.label]
     period = math.lcm(*structure.periods[mass > 0.0].tolist())
-    return Limit(chain, law, period, _largest(chain.transient.residual, residual))
+    return Limit(chain, law, period, _largest(_residual(chain), residual))
+
+
+def _residual(chain: Chain) -> float | None:
+    return chain.transient.residual if "transient" in chain.__dict__ else None
 
 
 def _largest(*residuals: float | None) -> float | None:

@@ -55,6 +55,11 @@ class Structure:
             return np.arange(len(self.label))
         return np.argsort(self.label, kind="stable")
 
+    @property
+    def is_acyclic(self) -> bool:
+        """Whether each state is alone in its class."""
+        return self.count == len(self.label)
+
     @cached_property
     def in_order(self) -> bool:
         """Whether the states already stand class by class, upstream first."""
@@ -63,12 +68,16 @@ class Structure:
     @cached_property
     def offsets(self) -> NDArray[np.intp]:
         """Class c holds the states `order[offsets[c]:offsets[c + 1]]`; shape (k + 1,)."""
+        if self.is_acyclic:
+            return np.arange(self.count + 1)
         sizes = np.bincount(self.label, minlength=self.count)
         return np.concatenate(([0], np.cumsum(sizes)))
 
     @cached_property
     def closed(self) -> NDArray[np.bool_]:
         """Whether each class is never left; shape (k,)."""
+        if self.is_acyclic:
+            return self.arcs.outflow[self.order] == 0.0
         source, target = self.label[self.arcs.sources], self.label[self.arcs.targets]
         closed = np.ones(self.count, dtype=bool)
         closed[source[source != target]] = False
