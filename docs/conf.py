@@ -33,17 +33,29 @@ html_title = f"evenbreak {release}"
 html_static_path: list[str] = []
 
 
+FIELDS = {"Parameters", "Attributes", "Returns", "Yields", "Raises"}
+
+
 def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
     """Rewrite a docstring where napoleon would misread it.
 
-    It takes `a: b` in the first line of an attribute for a type, and examples that follow a
-    section for a part of that section.
+    It takes `a: b` in the first line of an attribute for a type, and a paragraph or examples that
+    follow a section of fields for one more field.
     """
     if what in {"attribute", "data", "property"}:
         lines[:0] = ["..", ""]
-    examples = next((i for i, line in enumerate(lines) if line.startswith(">>>")), None)
-    if examples and any(line.startswith("---") for line in lines[:examples]):
-        lines[examples:examples] = ["Examples", "--------"]
+    section, result = "", []
+    for before, line, after in zip(["", *lines], lines, [*lines[1:], ""], strict=False):
+        if after.startswith("---"):
+            section = line
+        elif section in FIELDS and line[:1].strip() and not before and not after.startswith(" "):
+            section = "Examples" if line.startswith(">>>") else "Notes"
+            result += [section, "-" * len(section)]
+        elif section in {"Notes", *FIELDS} and line.startswith(">>>") and not before:
+            section = "Examples"
+            result += [section, "-" * len(section)]
+        result.append(line)
+    lines[:] = result
 
 
 def setup(app) -> None:
