@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from rich.cells import cell_len
 from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
@@ -142,9 +143,9 @@ def _race_tables(ratings: pd.DataFrame, matchups: pd.DataFrame, width: int) -> I
     players = [
         (str(place), name) for place, name in zip(ratings.index + 1, ratings["player"], strict=True)
     ]
-    widest = max((len(text) for text in races.values()), default=len(NO_RACE))
-    longest = min(max(len(name) for _, name in players), LONGEST_NAME)
-    label = len(players[-1][0]) + longest + 2 * GAP
+    widest = max(len(text) for text in (*races.values(), NO_RACE, *(place for place, _ in players)))
+    longest = min(max(cell_len(name) for _, name in players), LONGEST_NAME)
+    label = max(len(place) for place, _ in players) + longest + 2 * GAP
     fitting = max(1, (width - label + GAP) // (widest + GAP))
     tables = math.ceil(len(players) / fitting)
     at_a_time = math.ceil(len(players) / tables)

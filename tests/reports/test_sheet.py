@@ -1,0 +1,111 @@
+import re
+
+import pytest
+
+from evenbreak.ratings.fit import fit
+from evenbreak.ratings.results import Results
+from evenbreak.reports.frames import ratings_frame
+from evenbreak.reports.matchups import RaceLimits, matchups_frame, most_active
+from evenbreak.reports.read_results import ResultsFile
+from evenbreak.reports.sheet import sheet_text
+
+
+@pytest.fixture(autouse=True)
+def line_of_80(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+
+
+def text_of(season, *, limits=None, top=10, scale="npl"):
+    limits = limits or RaceLimits(race_to=7)
+    ratings = fit(season, prior_sd=1.0, scale=scale)
+    paired = matchups_frame(ratings, most_active(ratings, top), limits)
+    file = ResultsFile(season, "r.csv", (), (), "")
+    return sheet_text(file, ratings, limits, ratings_frame(ratings), paired)
+
+
+def league(players, name="Player {}"):
+    names = [name.format(k) for k in range(players)]
+    pairs = [(a, b) for a in range(players) for b in range(a + 1, players)]
+    return Results.from_names(
+        [names[a] for a, _ in pairs],
+        [names[b] for _, b in pairs],
+        [7] * len(pairs),
+        [(a + 2 * b) % 7 for a, b in pairs],
+    )
+
+
+def test_a_small_league_to_the_letter():
+    season = Results.from_names(
+        ["Ann", "Bo", "Cy"],
+        ["Bo", "Cy", "Ann"],
+        [7, 7, 3],
+        [4, 5, 7],
+        date=["2024-09-03", "2024-09-10", "2024-09-17"],
+    )
+    assert text_of(season, scale="fargo") == (
+        "3 matches of 3 players, 33 games, 2024-09-03 to 2024-09-17.\n"
+        "Ratings on a Fargo-like scale (100 points double the odds of a game), mean 500,\n"
+        "with their standard errors. They are nobody's official ratings.\n"
+        "\n"
+        "#  player  rating     ±  games  won  lost\n"
+        "1  Ann      559.3  93.0     21   14     7\n"
+        "2  Bo       490.8  91.8     23   11    12\n"
+        "3  Cy       449.9  92.5     22    8    14\n"
+        "\n"
+        "The fairest races in which the stronger player needs 7 games.\n"
+        "Row: you. Column: your opponent. 7:4: you need 7 games, your opponent 4.\n"
+        "\n"
+        "          1    2    3\n"
+        "1  Ann       7:4  7:3\n"
+        "2  Bo   4:7       7:5\n"
+        "3  Cy   3:7  5:7\n"
+        "\n"
+        "The stronger player wins these with a chance of 0.413 to 0.451.\n"
+        "The longest of them lasts 9.2 games on average; 9 of 10 end within 11.\n"
+    )
+
+
+@pytest.mark.parametrize("players", [2, 9, 12, 30])
+@pytest.mark.parametrize("name", ["P{}", "A Player With A Name Far Too Long To Print {}", "選手{}"])
+def test_no_line_is_longer_than_a_page_and_no_name_cut_short_without_need(players, name):
+    text = text_of(league(players, name), top=players)
+    assert all(len(line) <= 80 for line in text.splitlines())
+    if len(name) < 5:
+        assert "…" not in text
+
+
+def test_every_pair_is_printed_once_from_each_side():
+    players = 23
+    text = text_of(league(players), top=players)
+    races = re.findall(r"(?<![\d:])\d+:\d+(?=\s)", text)
+    assert len(races) == players * (players - 1)
+
+
+def test_a_long_list_is_cut_and_said_to_be():
+    text = text_of(league(34), top=33)
+    assert "3 more players are paired in matchups.csv." in text
+    assert "1 more players are rated in ratings.csv" in text
+
+
+def test_square_brackets_in_names_are_no_markup():
+    assert "[red]Ann[/red]" in text_of(Results.from_names(["[red]Ann[/red]"], ["Bo"], [7], [5]))
+
+
+def test_pairs_that_cannot_be_compared_are_told_apart():
+    text = text_of(Results.from_names(["Ann", "Cy"], ["Bo", "Di"], [7, 7], [5, 4]))
+    assert "2 groups of players never met; ratings compare only within a group." in text
+    assert "lost  group" in text
+    assert "(4 such pairs)" in text
+    assert "group" not in text_of(Results.from_names(["Ann"], ["Bo"], [7], [5]))
+
+
+def test_what_was_left_out_is_told():
+    season = Results.from_names(
+        ["Ann"] * 3, ["Bo"] * 3, [7, 0, 7], [5, 0, 0], forfeit=[False, False, True]
+    )
+    assert "Left out: 1 forfeited and 1 at 0-0." in text_of(season)
+
+
+def test_races_by_length_are_announced_as_such():
+    text = text_of(league(3), limits=RaceLimits((7, 13)))
+    assert "The fairest races whose longest possible match has 7 to 13 games." in text
