@@ -29,15 +29,18 @@ WORDS = {
     "p_win_a": "A wins the match",
     "p_win_b": "B wins the match",
     "p_never_ends": "the match never ends",
-    "mean_games": "games, mean",
-    "sd_games": "games, standard deviation",
-    "games_p50": "games, half of the matches within",
-    "games_p90": "games, 9 of 10 matches within",
-    "p_hill_hill": "hill-hill: the last possible game decides",
+    "mean_games": "racks, mean",
+    "sd_games": "racks, standard deviation",
+    "games_p50": "racks, half of the matches within",
+    "games_p90": "racks, 9 of 10 matches within",
+    "p_hill_hill": "hill-hill: the last possible rack decides",
     "p_shutout_a": "A wins without losing a game",
     "p_shutout_b": "B wins without losing a game",
 }
 """What each quantity is called on a terminal."""
+
+LONGEST_LEAD, MOST_SCORES = 200, 20_000
+"""Limits on matches other than the plain race, so that no answer takes more than some seconds."""
 
 EXAMPLES = """\b
 Examples:
@@ -85,6 +88,7 @@ def odds(
 
     players = Players.of(**who)
     match = match_of(players, race=race, ahead=ahead, set_=set_, score=score, win_by=win_by)
+    _refuse_giants(match)
     result = match_odds(match)
     answer = {
         "p_game_a": players.p_game_a,
@@ -107,8 +111,12 @@ def odds(
     elif to_terminal():
         click.echo(players.description)
         click.echo(match_text(match))
-        rows = [[WORDS[key], _text(key, answer[key])] for key in WORDS if answer[key] is not None]
-        click.echo("\n" + aligned(rows), nl=False)
+        shown = [key for key in WORDS if answer[key] is not None]
+        if not result.p_never_ends:
+            shown.remove("p_never_ends")
+        click.echo(
+            "\n" + aligned([[WORDS[key], _text(key, answer[key])] for key in shown]), nl=False
+        )
     else:
         rows_out = [*answer.items(), ("scale", scale)]
         click.echo(csv_text(["quantity", "value"], rows_out), nl=False)
@@ -142,6 +150,21 @@ def match_of(
         refuse("what is played is missing; give --race M:N or --ahead M:N")
     m, n = race
     return Race(m, n, rack, breaks=breaks, first_breaker=first, score=start, win_by=win_by or 1)
+
+
+def _refuse_giants(match: Match) -> None:
+    """Refuse a match that would take minutes."""
+    win_by, inner = getattr(match, "win_by", None), match.rack
+    if win_by == 1 and isinstance(inner, Rack):
+        return
+    scores = match.m + match.n if win_by is None else match.m * match.n
+    if not isinstance(inner, Rack):
+        scores *= inner.m * inner.n
+    if scores > MOST_SCORES or max(match.m, match.n, win_by or 0) > LONGEST_LEAD:
+        refuse(
+            f"the {match_text(match)} is too long to work out here; "
+            f"ask for {LONGEST_LEAD} at the most, and for fewer in sets"
+        )
 
 
 def match_text(match: Match) -> str:

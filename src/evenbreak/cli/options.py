@@ -6,14 +6,12 @@ option and return its value, or None where the option is absent.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from typing import NoReturn
 
 import click
-
-from evenbreak.checks import probability
-from evenbreak.errors import InputError
 
 __all__ = ["LONGEST", "PlainCommand", "chance", "pair", "refuse", "score", "span", "wants_json"]
 
@@ -91,10 +89,11 @@ def chance(ctx: click.Context, param: click.Parameter, value: str | None) -> flo
     """Return a probability."""
     if value is None:
         return None
-    try:
-        return float(probability(value, param.opts[0]))
-    except InputError as error:
-        raise click.BadParameter(str(error), ctx=ctx, param=param) from None
+    number = float(value) if _NUMBER.fullmatch(value.strip()) else math.nan
+    if not 0.0 <= number <= 1.0:
+        message = f"{value!r} is not a probability; give a number from 0 to 1"
+        raise click.BadParameter(message, ctx=ctx, param=param)
+    return number
 
 
 def refuse(message: str) -> NoReturn:
