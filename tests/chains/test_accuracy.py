@@ -7,8 +7,9 @@ import random
 from collections.abc import Iterator
 from decimal import Decimal, localcontext
 from fractions import Fraction
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import comb
+from operator import mul
 
 import numpy as np
 import pytest
@@ -128,15 +129,11 @@ def ladder(up: list[float], down: list[float]) -> Chain:
 
 def law_of_ladder(up: list[float], down: list[float]) -> list[Fraction]:
     """Return its stationary law: what goes up between two neighbours comes down."""
-    weights = [1]
-    for i in range(1, len(up)):
-        rise, fall = Fraction(up[i - 1]), Fraction(down[i])
-        # Integers only: every weight is multiplied by the denominator of each new ratio.
-        over, under = (
-            rise.numerator * fall.denominator,
-            rise.denominator * fall.numerator,
-        )
-        weights = [w * under for w in weights] + [weights[-1] * over]
+    ratios = [Fraction(up[i - 1]) / Fraction(down[i]) for i in range(1, len(up))]
+    # Integers only, and no division: numerators before a state, denominators after it.
+    before = accumulate((x.numerator for x in ratios), mul, initial=1)
+    after = [*accumulate((x.denominator for x in reversed(ratios)), mul, initial=1)]
+    weights = [a * b for a, b in zip(before, reversed(after), strict=True)]
     total = sum(weights)
     return [Fraction(w, total) for w in weights]
 
@@ -393,3 +390,35 @@ def test_hilly_grid(side: int, span: int) -> None:
     weights = [1 << int(heights.max() - h) for h in heights]
     law = [Fraction(w, sum(weights)) for w in weights]
     right_or_refused(chain, 0, in_order(chain, law))
+
+
+def random_tree(
+    draw: random.Random, n: int, decades: float, reach: int
+) -> tuple[Chain, list[Fraction]]:
+    """Return a walk on a tree with arcs of any size, and its law: what goes up comes down.
+
+    With a reach of 1 the tree is a line; the states come in any order.
+    """
+    parent = {k: draw.randrange(max(0, k - reach), k) for k in range(1, n)}
+    weights: list[dict[int, float]] = [{} for _ in range(n)]
+    for k, above in parent.items():
+        weights[k][above] = 10.0 ** -draw.uniform(0.0, decades)
+        weights[above][k] = 10.0 ** -draw.uniform(0.0, decades)
+    columns = [
+        {target: weight / sum(row.values()) for target, weight in row.items()} for row in weights
+    ]
+    law = [ONE]
+    for k, above in parent.items():
+        law.append(law[above] * Fraction(columns[above][k]) / Fraction(columns[k][above]))
+    total = sum(law)
+    chain = chain_of((j, i, columns[j][i]) for j in draw.sample(range(n), n) for i in columns[j])
+    return chain, in_order(chain, [x / total for x in law])
+
+
+@pytest.mark.parametrize("decades", [10, 60, 300])
+@pytest.mark.parametrize("reach", [1, 4], ids=["line", "tree"])
+@pytest.mark.parametrize("n", [40, 150])
+def test_arcs_of_any_size(n: int, reach: int, decades: float) -> None:
+    for seed in range(6):
+        chain, law = random_tree(random.Random(seed), n, decades, reach)
+        right_or_refused(chain, chain.states[seed], law)
