@@ -109,9 +109,15 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     >>> race_win_probability(0.5, [1, 2, 3], 2)
     array([0.75  , 0.5   , 0.3125])
     """
-    chance = betainc(_needs(m, "m"), _needs(n, "n"), probability(p, "p"))
-    if np.isnan(np.sum(chance)):
-        raise InputError("m and n are both 0 somewhere; a race has one winner, give one of them 1")
+    needs_1, needs_2 = _needs(m, "m"), _needs(n, "n")
+    chance = betainc(needs_1, needs_2, probability(p, "p"))
+    if not (needs_1.all() and needs_2.all()):
+        won_1, won_2 = needs_1 == 0, needs_2 == 0
+        if (won_1 & won_2).any():
+            raise InputError(
+                "m and n are both 0 somewhere; one player has won, the other still needs 1 or more"
+            )
+        chance = np.where(won_1, 1.0, np.where(won_2, 0.0, chance))
     return plain(chance, np.shape(chance))
 
 
