@@ -39,6 +39,13 @@ def test_numbers_read_back_exactly(run):
     assert printed == answer(run, ONE_BALL)["limit"]
 
 
+def test_names_are_safe_to_open_in_a_spreadsheet_and_numbers_stay_numbers(run):
+    arcs = HEADER + "-1,=A1,0.5\n-1,+2,0.25\n-1,@x,0.25\n"
+    rows = run("chain", "-", stdin=arcs).stdout.splitlines()
+    assert rows[1:] == ["-1,0.0", "'=A1,0.5", "+2,0.25", "'@x,0.25"]
+    assert run("chain", "-", stdin=HEADER + '"a,""b",c,1\n').stdout.endswith('"a,""b",0.0\nc,1.0\n')
+
+
 def test_steps_print_the_density(run):
     result = run("chain", "-", "--steps", "2", stdin=ONE_BALL)
     assert limits(result.stdout) == pytest.approx({"S1": 0.56, "W": 0.3, "S2": 0, "L": 0.14})

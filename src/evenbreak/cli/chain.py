@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import wants_json
+from evenbreak.cli.options import NUMBER, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, print_json
 from evenbreak.errors import DataError
 
@@ -101,11 +101,9 @@ def _answer(built: Chain, limit: Limit, steps: int | None) -> dict[str, Any]:
 
 def _print_csv(states: list[str], chances: list[float]) -> None:
     """Print each state with its probability, in the shortest text that reads back the same."""
-    import csv
-    import io
+    from evenbreak.reports.to_csv import text_cell
 
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["state", "probability"])
-    writer.writerows(zip(states, map(repr, chances), strict=True))
-    click.echo(text.getvalue().encode(), nl=False)
+    # A state called -1 is a number, as any spreadsheet would read it, and no formula.
+    names = (state if NUMBER.fullmatch(state) else text_cell(state) for state in states)
+    rows = [f"{name},{p!r}\n" for name, p in zip(names, chances, strict=True)]
+    click.echo("".join(["state,probability\n", *rows]).encode(), nl=False)

@@ -13,12 +13,23 @@ from typing import NoReturn
 
 import click
 
-__all__ = ["LONGEST", "PlainCommand", "chance", "pair", "refuse", "score", "span", "wants_json"]
+__all__ = [
+    "LONGEST",
+    "NUMBER",
+    "PlainCommand",
+    "chance",
+    "pair",
+    "refuse",
+    "score",
+    "span",
+    "wants_json",
+]
 
 LONGEST = 1000
 """The most games that a race, a lead or a score can have here."""
 
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
+"""What reads as a finite number."""
 
 
 class PlainCommand(click.Command):
@@ -31,7 +42,7 @@ class PlainCommand(click.Command):
         rest = super().parse_args(ctx, args)
         words: Sequence[str] = ctx.params.get("ratings", ())
         for word in words:
-            if _NUMBER.fullmatch(word):
+            if NUMBER.fullmatch(word):
                 continue
             if word.startswith("-"):
                 known = [name for option in self.params for name in option.opts]
@@ -89,7 +100,7 @@ def chance(ctx: click.Context, param: click.Parameter, value: str | None) -> flo
     """Return a probability."""
     if value is None:
         return None
-    number = float(value) if _NUMBER.fullmatch(value.strip()) else math.nan
+    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
     if not 0.0 <= number <= 1.0:
         message = f"{value!r} is not a probability; give a number from 0 to 1"
         raise click.BadParameter(message, ctx=ctx, param=param)

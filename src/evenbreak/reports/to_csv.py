@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["to_csv"]
+__all__ = ["text_cell", "to_csv"]
 
 DECIMALS = 6
 FORMULA_STARTS = ("=", "+", "-", "@")
@@ -43,7 +43,7 @@ def to_csv(
     columns = [
         _cells(column, (decimals or {}).get(str(name), DECIMALS)) for name, column in frame.items()
     ]
-    header = [_quoted(_defused(str(name))) for name in frame.columns]
+    header = [text_cell(str(name)) for name in frame.columns]
     lines = [",".join(row) for row in (header, *zip(*columns, strict=True))]
     end = "\r\n" if excel else "\n"
     return "".join(f"{line}{end}" for line in lines).encode("utf-8-sig" if excel else "utf-8")
@@ -58,7 +58,7 @@ def _cell(value: Any, decimals: int) -> str:
     if value is None:
         return ""
     if isinstance(value, str):
-        return _quoted(_defused(value))
+        return text_cell(value)
     if isinstance(value, float):
         return _number(value, decimals)
     if hasattr(value, "date"):
@@ -74,16 +74,13 @@ def _number(value: float, decimals: int) -> str:
     return text.removeprefix("-") if float(text) == 0.0 else text
 
 
-def _defused(text: str) -> str:
-    """Return text that no spreadsheet takes for a formula.
+def text_cell(text: str) -> str:
+    """Return text as a cell of CSV that no spreadsheet takes for a formula.
 
-    >>> _defused("@SUM(A1)"), _defused("Ann-Marie")
-    ("'@SUM(A1)", 'Ann-Marie')
+    >>> text_cell("@SUM(A1)"), text_cell("Ann-Marie"), text_cell('5" ball')
+    ("'@SUM(A1)", 'Ann-Marie', '"5"" ball"')
     """
-    harmful = text.startswith(FORMULA_STARTS) or unicodedata.category(text[:1] or "x") == "Cc"
-    return f"'{text}" if harmful else text
-
-
-def _quoted(text: str) -> str:
+    if text.startswith(FORMULA_STARTS) or unicodedata.category(text[:1] or "x") == "Cc":
+        text = f"'{text}"
     # The csv module would leave a lone CR bare, where readers of CSV end a line.
     return '"' + text.replace('"', '""') + '"' if set(text) & set(',"\r\n') else text
