@@ -9,13 +9,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from scipy.sparse import csc_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    Places: TypeAlias = NDArray[np.integer[Any]]
+    """Positions of states, or numbers of classes."""
 
 __all__ = ["Arcs", "arcs_of"]
 
@@ -41,9 +44,9 @@ class Arcs:
     """
 
     size: int
-    indptr: NDArray[np.int32]
-    sources: NDArray[np.int32]
-    targets: NDArray[np.int32]
+    indptr: Places
+    sources: Places
+    targets: Places
     chances: NDArray[np.float64]
 
     @cached_property
@@ -51,7 +54,7 @@ class Arcs:
         """The probability to leave each state in a step: the sum of its arcs, shape (n,)."""
         return _sums(self.sources, self.chances, self.size)
 
-    def among(self, states: NDArray[np.intp]) -> tuple[Arcs, NDArray[np.float64]]:
+    def among(self, states: Places) -> tuple[Arcs, NDArray[np.float64]]:
         """Return the arcs among some states, renumbered, and each one's chance to leave them.
 
         Parameters
@@ -96,8 +99,8 @@ def arcs_of(matrix: csc_array) -> Arcs:
 
 def _arcs(
     size: int,
-    sources: NDArray[np.int32],
-    targets: NDArray[np.int32],
+    sources: Places,
+    targets: Places,
     chances: NDArray[np.float64],
 ) -> Arcs:
     indptr = np.zeros(size + 1, dtype=np.int32)
@@ -105,5 +108,5 @@ def _arcs(
     return Arcs(size, indptr, sources, targets, chances)
 
 
-def _sums(place: NDArray[np.int32], chances: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+def _sums(place: Places, chances: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     return np.bincount(place, chances, size).astype(np.float64, copy=False)

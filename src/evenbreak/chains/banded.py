@@ -15,7 +15,7 @@ Computer Solution of Large Sparse Positive Definite Systems, chapter 4 (the orde
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 from scipy.linalg import solve_triangular
@@ -24,6 +24,8 @@ from scipy.sparse import csc_array, csgraph
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Places
 
 __all__ = ["BandedElimination", "band_order"]
 
@@ -41,7 +43,7 @@ class _Window(NamedTuple):
     back: NDArray[np.float64]
 
 
-def band_order(T: csc_array) -> tuple[NDArray[np.intp], int]:
+def band_order(T: csc_array) -> tuple[Places, int]:
     """Return an order of the states with a narrow band, and the width of the band."""
     order = csgraph.reverse_cuthill_mckee(csc_array(T + T.T), symmetric_mode=True)
     place = np.empty(len(order), dtype=np.intp)
@@ -63,9 +65,7 @@ class BandedElimination:
         the order of elimination, and the largest distance of an arc in it.
     """
 
-    def __init__(
-        self, T: csc_array, leak: NDArray[np.float64], order: NDArray[np.intp], width: int
-    ) -> None:
+    def __init__(self, T: csc_array, leak: NDArray[np.float64], order: Places, width: int) -> None:
         n = len(order)
         self._order = order
         self._windows: list[_Window] = []
@@ -125,7 +125,10 @@ class BandedElimination:
 
 
 def _solve(
-    factor: NDArray[np.float64], b: NDArray[np.float64], part: str, trans: int = 0
+    factor: NDArray[np.float64],
+    b: NDArray[np.float64],
+    part: str,
+    trans: Literal[0, 1] = 0,
 ) -> NDArray[np.float64]:
     """Solve with the lower part (pivots on its diagonal) or the upper (ones on it).
 

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from evenbreak.chains.arcs import Places
+
 __all__ = ["Factors", "eliminate_stack", "stacks"]
 
 _ENTRIES = 2_000_000
@@ -32,11 +34,11 @@ class Factors(NamedTuple):
     """
 
     pivot: NDArray[np.float64]
-    onward: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]
-    back: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]
+    onward: tuple[Places, Places, NDArray[np.float64]]
+    back: tuple[Places, Places, NDArray[np.float64]]
 
 
-def stacks(sizes: NDArray[np.intp]) -> Iterator[tuple[int, NDArray[np.intp]]]:
+def stacks(sizes: Places) -> Iterator[tuple[int, Places]]:
     """Yield (size, classes) for sizes above 1, not more classes at once than memory allows."""
     for size in np.unique(sizes[sizes > 1]).tolist():
         members = np.flatnonzero(sizes == size)
@@ -45,7 +47,7 @@ def stacks(sizes: NDArray[np.intp]) -> Iterator[tuple[int, NDArray[np.intp]]]:
             yield size, members[first : first + step]
 
 
-def eliminate_stack(W: NDArray[np.float64], first: NDArray[np.intp]) -> Factors:
+def eliminate_stack(W: NDArray[np.float64], first: Places) -> Factors:
     """Return the factors of a stack of classes; `W` is used up.
 
     Parameters

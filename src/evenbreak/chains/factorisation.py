@@ -29,7 +29,7 @@ from evenbreak.chains.structure import Structure, structure_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.chains.arcs import Arcs
+    from evenbreak.chains.arcs import Arcs, Places
 
 __all__ = ["Factorisation", "path_order"]
 
@@ -50,8 +50,8 @@ class _Piece:
 
     def __init__(
         self,
-        offsets: NDArray[np.intp],
-        arcs: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]],
+        offsets: Places,
+        arcs: tuple[Places, Places, NDArray[np.float64]],
         leak: NDArray[np.float64],
     ) -> None:
         self.first, self.last = int(offsets[0]), int(offsets[-1])
@@ -88,7 +88,7 @@ class _Piece:
 class _Path:
     """A line of states that are numbered in another order."""
 
-    def __init__(self, T: csc_array, leak: NDArray[np.float64], order: NDArray[np.intp]) -> None:
+    def __init__(self, T: csc_array, leak: NDArray[np.float64], order: Places) -> None:
         line = csc_array(T[:, order])[order]
         path = PathElimination(line.diagonal(-1), line.diagonal(1), leak[order])
         self._path = path
@@ -132,22 +132,20 @@ class Factorisation:
     ) -> None:
         structure = structure or structure_of(arcs)
         self.outflow = outflow
-        self.order: NDArray[np.intp] | None = None
+        self.order: Places | None = None
         chances = arcs.chances / outflow[arcs.sources]
         jump = leak / outflow
-        sources, targets = arcs.sources, arcs.targets
+        sources, targets, indptr = arcs.sources, arcs.targets, arcs.indptr
         if not structure.in_order:
             self.order = structure.order
             place = np.empty(arcs.size, dtype=np.int32)
             place[self.order] = np.arange(arcs.size, dtype=np.int32)
             by_source = csc_array(
-                (chances, (place[targets], place[sources])), shape=(arcs.size,) * 2
+                (chances, (place[targets], place[sources])), shape=(arcs.size, arcs.size)
             )
-            chances, targets, jump = by_source.data, by_source.indices, jump[self.order]
-            indptr = by_source.indptr
+            chances, targets, indptr = by_source.data, by_source.indices, by_source.indptr
             sources = np.repeat(np.arange(arcs.size, dtype=np.int32), np.diff(indptr))
-        else:
-            indptr = arcs.indptr
+            jump = jump[self.order]
         self._pieces = []
         for offsets in _runs(structure.offsets):
             span = slice(indptr[offsets[0]], indptr[offsets[-1]])
@@ -200,7 +198,7 @@ class Factorisation:
         return y
 
 
-def _runs(offsets: NDArray[np.intp]) -> list[NDArray[np.intp]]:
+def _runs(offsets: Places) -> list[Places]:
     """Cut the classes into runs: each large class alone, small ones between them together."""
     large = np.flatnonzero(np.diff(offsets) > SMALL)
     if not len(large):
@@ -209,7 +207,7 @@ def _runs(offsets: NDArray[np.intp]) -> list[NDArray[np.intp]]:
     return [offsets[a : b + 1] for a, b in pairwise(marks)]
 
 
-def path_order(T: csc_array) -> NDArray[np.intp] | None:
+def path_order(T: csc_array) -> Places | None:
     """Return the order in which the states of a class stand in a line, or None."""
     size = T.shape[0]
     if T.nnz != 2 * (size - 1):

@@ -16,13 +16,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 from scipy.sparse.linalg import spsolve_triangular
 
 from evenbreak.chains.blocks import eliminate_stack, stacks
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Places
 
 __all__ = ["Flow"]
 
@@ -43,11 +45,11 @@ class Flow:
 
     def __init__(
         self,
-        sources: NDArray[np.intp],
-        targets: NDArray[np.intp],
+        sources: Places,
+        targets: Places,
         chances: NDArray[np.float64],
         leak: NDArray[np.float64],
-        offsets: NDArray[np.intp],
+        offsets: Places,
     ) -> None:
         m = int(offsets[-1])
         sizes = np.diff(offsets)
@@ -96,10 +98,10 @@ class Flow:
 
     @staticmethod
     def _solve(
-        system: csc_array,
+        system: csc_array | csr_array,
         given: NDArray[np.float64],
-        put: NDArray[np.intp] | None,
-        take: NDArray[np.intp] | None,
+        put: Places | None,
+        take: Places | None,
         *,
         lower: bool,
     ) -> NDArray[np.float64]:
@@ -119,10 +121,10 @@ class _Inner:
 
     def __init__(
         self,
-        sources: NDArray[np.intp],
-        targets: NDArray[np.intp],
+        sources: Places,
+        targets: Places,
         chances: NDArray[np.float64],
-        label: NDArray[np.intp],
+        label: Places,
     ) -> None:
         home = label[sources]
         by_class = np.argsort(home, kind="stable")
@@ -132,8 +134,8 @@ class _Inner:
 
     def stack(
         self,
-        classes: NDArray[np.intp],
-        first: NDArray[np.intp],
+        classes: Places,
+        first: Places,
         size: int,
         leaks: NDArray[np.float64],
     ) -> NDArray[np.float64]:
@@ -152,8 +154,8 @@ class _Inner:
 
 def _unit_lower(
     size: int,
-    columns: NDArray[np.intp],
-    rows: NDArray[np.intp],
+    columns: Places,
+    rows: Places,
     entries: NDArray[np.float64],
 ) -> csc_array:
     """Return I - E for arcs that all lead forward, as SuperLU wants it: sorted, with ones."""

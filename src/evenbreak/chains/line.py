@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from scipy.sparse import csc_array
 
+    from evenbreak.chains.arcs import Places
+
 __all__ = ["Line", "line_law", "line_of"]
 
 
@@ -82,7 +84,7 @@ class Line:
         return limit, period
 
     @cached_property
-    def _cuts(self) -> NDArray[np.intp]:
+    def _cuts(self) -> Places:
         """Where two neighbours are of different classes: between i and i + 1."""
         return np.flatnonzero((self.up == 0.0) | (self.down == 0.0))
 

@@ -21,6 +21,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.chains.arcs import Places
+
 __all__ = ["prefix_products", "shares"]
 
 _BLOCK = 32
@@ -31,7 +33,7 @@ _STRETCH = 900
 
 def prefix_products(
     numerators: NDArray[np.float64], denominators: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+) -> tuple[NDArray[np.float64], Places]:
     """Return the quotients of the products of the first i numerators and denominators.
 
     Parameters
@@ -90,13 +92,13 @@ def _fill(rows: NDArray[np.float64], factors: NDArray[np.float64]) -> None:
     rows[rest:, full:] = 1.0
 
 
-def _cut(exponent: NDArray[np.int64]) -> NDArray[np.int32]:
+def _cut(exponent: Places) -> Places:
     return exponent.clip(-5000).astype(np.int32)
 
 
 def _prefix_of_blocks(
     products: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+) -> tuple[NDArray[np.float64], Places]:
     """Return the quotient of all blocks before each one, as floats near 1 and exponents."""
     significand, exponent = np.frexp(products)
     power = np.cumsum(exponent, axis=1, dtype=np.int64)
@@ -115,9 +117,7 @@ def _prefix_of_blocks(
     return block, shift
 
 
-def shares(
-    value: NDArray[np.float64], exponent: NDArray[np.int32], split: int
-) -> tuple[float, float]:
+def shares(value: NDArray[np.float64], exponent: Places, split: int) -> tuple[float, float]:
     """Return what the first `split` numbers, and the rest, are of the sum of all.
 
     >>> shares(np.full(4, 0.5), np.array([0, 0, -2000, -2000]), 2)
@@ -130,7 +130,7 @@ def shares(
     return a / (a + b), b / (a + b)
 
 
-def _sum(value: NDArray[np.float64], exponent: NDArray[np.int32]) -> tuple[float, int]:
+def _sum(value: NDArray[np.float64], exponent: Places) -> tuple[float, int]:
     significand, more = np.frexp(value)
     more += exponent
     top = int(more.max())

@@ -13,7 +13,7 @@ bounds by M-matrices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from scipy.sparse import csc_array, eye_array
@@ -50,7 +50,7 @@ class SparseFactorisation:
         self.residual: float | None = None
         wide = T.astype(np.longdouble)
         self._arcs = {False: wide.tocsr(), True: csc_array(wide).T}
-        self._diagonal: Wide = np.asarray(wide.sum(axis=0)).reshape(-1) + leak
+        self._diagonal: Wide = np.asarray(wide.sum(axis=0)).reshape(-1) + leak.astype(np.longdouble)
         A = csc_array(eye_array(m, format="csc") * self._diagonal.astype(float) - T)
         try:
             self._lu = splu(
@@ -100,7 +100,8 @@ class SparseFactorisation:
 
     def _refined(self, b: Wide, *, transposed: bool) -> tuple[Wide, Wide]:
         """Return x and b - A x (A transposed on request), after steps of refinement."""
-        arcs, trans = self._arcs[transposed], "T" if transposed else "N"
+        arcs = self._arcs[transposed]
+        trans: Literal["T", "N"] = "T" if transposed else "N"
         x, residual, smallest = np.zeros_like(b), b, np.inf
         best = x, residual
         for _ in range(_ROUNDS):

@@ -22,7 +22,7 @@ from scipy.sparse import csgraph, csr_array
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.chains.arcs import Arcs
+    from evenbreak.chains.arcs import Arcs, Places
 
 __all__ = ["Structure", "structure_of"]
 
@@ -43,13 +43,13 @@ class Structure:
         shape (n,): whether the state has a self-loop.
     """
 
-    label: NDArray[np.intp]
+    label: Places
     count: int
     arcs: Arcs
     loops: NDArray[np.bool_]
 
     @cached_property
-    def order(self) -> NDArray[np.intp]:
+    def order(self) -> Places:
         """The positions of the states, grouped by class, upstream first; shape (n,)."""
         if self.in_order:
             return np.arange(len(self.label))
@@ -66,7 +66,7 @@ class Structure:
         return bool((self.label[:-1] <= self.label[1:]).all())
 
     @cached_property
-    def offsets(self) -> NDArray[np.intp]:
+    def offsets(self) -> Places:
         """Class c holds the states `order[offsets[c]:offsets[c + 1]]`; shape (k + 1,)."""
         if self.is_acyclic:
             return np.arange(self.count + 1)
@@ -77,7 +77,8 @@ class Structure:
     def closed(self) -> NDArray[np.bool_]:
         """Whether each class is never left; shape (k,)."""
         if self.is_acyclic:
-            return self.arcs.outflow[self.order] == 0.0
+            closed: NDArray[np.bool_] = self.arcs.outflow[self.order] == 0.0
+            return closed
         source, target = self.label[self.arcs.sources], self.label[self.arcs.targets]
         closed = np.ones(self.count, dtype=bool)
         closed[source[source != target]] = False
@@ -96,14 +97,15 @@ class Structure:
         """
         alone = np.diff(self.offsets)[self.label] == 1
         code = self.recurrent * (1 + alone)
-        return np.array(["transient", "recurrent", "absorbing"])[code].tolist()
+        kinds = ("transient", "recurrent", "absorbing")
+        return [kinds[k] for k in code.tolist()]
 
-    def members(self, label: int) -> NDArray[np.intp]:
+    def members(self, label: int) -> Places:
         """Return the positions of the states of class `label`."""
         return self.order[self.offsets[label] : self.offsets[label + 1]]
 
     @cached_property
-    def periods(self) -> NDArray[np.int64]:
+    def periods(self) -> Places:
         """The period of each closed class, 0 for the others; shape (k,).
 
         A state that is never left has period 1, also where its self-loop is not listed.
@@ -124,7 +126,7 @@ class Structure:
             periods[home[inside][first]] = np.gcd.reduceat(slack, first)
         return periods
 
-    def _depths(self, searched: NDArray[np.bool_]) -> NDArray[np.int64]:
+    def _depths(self, searched: NDArray[np.bool_]) -> Places:
         """Return the depth of each state of the `searched` classes in a tree of arcs.
 
         All trees are grown in one breadth-first search, from a root above them all.
@@ -165,7 +167,8 @@ def structure_of(arcs: Arcs, loops: NDArray[np.bool_] | None = None) -> Structur
         return Structure(np.arange(n), n, arcs, loops)
     if not forward.any():
         return Structure(np.arange(n)[::-1].copy(), n, arcs, loops)
-    graph = csr_array((arcs.chances, arcs.targets, arcs.indptr), shape=(n, n))
-    count, label = csgraph.connected_components(graph, directed=True, connection="strong")
-    label = count - 1 - label.astype(np.intp)
-    return Structure(label, count, arcs, loops)
+    # Read by rows, the columns of M are the arcs as csgraph wants them. Pearce's algorithm
+    # numbers a class only after all classes downstream of it.
+    graph: csr_array[np.float64] = csr_array((arcs.chances, arcs.targets, arcs.indptr), (n, n))
+    count, found = csgraph.connected_components(graph, directed=True, connection="strong")
+    return Structure(count - 1 - found, int(count), arcs, loops)

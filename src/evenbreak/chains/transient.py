@@ -27,7 +27,7 @@ from evenbreak.errors import AccuracyError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.chains.arcs import Arcs
+    from evenbreak.chains.arcs import Arcs, Places
 
 __all__ = ["TransientPart"]
 
@@ -51,7 +51,7 @@ class TransientPart:
     array([4.])
     """
 
-    def __init__(self, arcs: Arcs, states: NDArray[np.intp]) -> None:
+    def __init__(self, arcs: Arcs, states: Places) -> None:
         self.states = states
         self._arcs, self._leak = arcs.among(states)
         self._outflow = arcs.outflow[states]
@@ -110,9 +110,13 @@ class TransientPart:
 
         Both have the shape (m, k) of `b`.
         """
-        with np.errstate(all="ignore"):
-            x = self._factor.values(b) if transposed else self._factor.visits(b)
-            doubtful = _doubtful(x, self._factor.pivots)
+        try:
+            with np.errstate(all="ignore"):
+                x = self._factor.values(b) if transposed else self._factor.visits(b)
+                doubtful = _doubtful(x, self._factor.pivots)
+        except (np.linalg.LinAlgError, ZeroDivisionError):
+            # A pivot, which is a sum of positive arcs, has vanished: it was below all floats.
+            x, doubtful = np.full(b.shape, np.nan), np.ones(b.shape, dtype=bool)
         for k in np.flatnonzero(doubtful.any(axis=0)):
             doubtful[:, k] &= self._reached(b[:, k], transposed=transposed)
         return x, doubtful
@@ -144,7 +148,7 @@ class TransientPart:
         graph = csr_array((np.ones(len(near)), (near, far)), shape=(m + 1, m + 1))
         reached = np.zeros(m + 1, dtype=bool)
         reached[csgraph.breadth_first_order(graph, m, return_predecessors=False)] = True
-        return reached[:m]
+        return reached[:-1]
 
 
 class _InPlainPython:
