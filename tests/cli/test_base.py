@@ -76,6 +76,7 @@ def test_wrong_use_ends_with_2_on_stderr(run, words):
         (ChainError("the state\n'A'"), 1, "Error: the state 'A'\n"),
         (AccuracyError("too stiff"), 1, "Error: too stiff\n"),
         (click.Abort(), 130, "Interrupted.\n"),
+        (KeyboardInterrupt(), 130, "Interrupted.\n"),
         (click.UsageError("no"), 2, "Error: no\n"),
         (OSError(errno.ENOSPC, "No space left", "out.csv"), 1, "Error: out.csv: No space left\n"),
         (OSError(errno.EIO, "Input/output error"), 1, "Error: Input/output error\n"),

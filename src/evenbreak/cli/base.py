@@ -31,6 +31,16 @@ COMMANDS = {
 PROBLEMS_SHOWN = 20
 FAILED, USAGE, BAD_DATA, INTERRUPTED = 1, 2, 3, 130
 
+TOLD = (
+    click.ClickException,
+    click.Abort,
+    KeyboardInterrupt,
+    EvenbreakError,
+    OSError,
+    MemoryError,
+)
+"""What ends a command without a traceback; anything else is a fault of this program."""
+
 
 class Program(click.Group):
     """A click group that imports a command only to run it, and ends with the exit codes above."""
@@ -76,7 +86,7 @@ class Program(click.Group):
             code = super().main(args, prog_name, complete_var, standalone_mode=False, **extra)
             if sys.stdout is not None:
                 sys.stdout.flush()
-        except (click.ClickException, click.Abort, EvenbreakError, OSError, MemoryError) as error:
+        except TOLD as error:
             code = report_error(error)
         sys.exit(code or 0)
 
@@ -87,7 +97,7 @@ def report_error(error: BaseException) -> int:
         case click.ClickException():
             error.show()
             return error.exit_code
-        case click.Abort():
+        case click.Abort() | KeyboardInterrupt():
             click.echo("Interrupted.", err=True)
             return INTERRUPTED
         case OSError(errno=errno.EPIPE):
