@@ -120,9 +120,9 @@ def test_the_scale_only_rescales(run, demo, tmp_path):
     assert content(tmp_path)["matchups.csv"] == content(npl)["matchups.csv"]
     for one, other in zip(rows(npl, "ratings.csv"), rows(tmp_path, "ratings.csv"), strict=True):
         rescaled = 500 + (float(one["rating"]) - 80) * 100 / 30
-        assert float(other["rating"]) == pytest.approx(rescaled, abs=0.03)
+        assert float(other["rating"]) == pytest.approx(rescaled, abs=1e-5)
         assert float(other["standard_error"]) == pytest.approx(
-            float(one["standard_error"]) * 100 / 30, abs=0.03
+            float(one["standard_error"]) * 100 / 30, abs=1e-5
         )
 
 

@@ -5,7 +5,7 @@ from evenbreak import __version__
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import scale_of
-from evenbreak.reports.frames import decimals_of, ratings_frame, scale_text, summary_frame
+from evenbreak.reports.frames import ratings_frame, scale_text, summary_frame
 from evenbreak.reports.matchups import RaceLimits, matchups_frame
 from evenbreak.reports.read_results import ResultsFile
 
@@ -97,11 +97,3 @@ def test_a_file_without_dates_has_none_in_its_summary():
 @pytest.mark.parametrize("name", ["npl", "fargo", "elo", 50])
 def test_a_scale_is_only_like_one_that_has_a_name(name):
     assert "like" in scale_text(scale_of(name)) or "of its own" in scale_text(scale_of(name))
-
-
-@pytest.mark.parametrize("points", [0.001, 0.5, 1, 9.99, 10, 30, 1000])
-def test_ratings_have_decimals_enough_for_game_chances(points):
-    scale = scale_of(points)
-    step = 10.0 ** -decimals_of(scale)
-    assert scale.win_probability(step) - 0.5 < 2e-3
-    assert decimals_of(scale) >= 2

@@ -84,7 +84,7 @@ def test_every_pair_is_printed_once_from_each_side():
 def test_a_long_list_is_cut_and_said_to_be():
     text = text_of(league(34), top=33)
     assert "3 more players are paired in matchups.csv." in text
-    assert "1 more players are rated in ratings.csv" in text
+    assert "1 more player is rated in ratings.csv" in text
 
 
 def test_square_brackets_in_names_are_no_markup():
@@ -109,3 +109,8 @@ def test_what_was_left_out_is_told():
 def test_races_by_length_are_announced_as_such():
     text = text_of(league(3), limits=RaceLimits((7, 13)))
     assert "The fairest races whose longest possible match has 7 to 13 games." in text
+
+
+def test_ratings_on_a_fine_scale_have_more_decimals():
+    season = Results.from_names(["Ann"], ["Bo"], [7], [5])
+    assert " 0.104 " in text_of(season, scale=0.5)

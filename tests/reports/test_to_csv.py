@@ -21,9 +21,9 @@ def test_every_kind_of_value():
             "value": pd.Series([80.0, 24], dtype="object"),
         }
     )
-    assert to_csv(frame, decimals={"value": 1}).decode() == (
+    assert to_csv(frame).decode() == (
         "player,p_win_a,race_a,games,date,value\n"
-        '"Zoë, K",0.333333,7,12,2024-09-03,80.0\n'
+        '"Zoë, K",0.333333,7,12,2024-09-03,80.000000\n'
         '"a ""b""",,,13,,24\n'
     )
 
@@ -37,7 +37,7 @@ def test_text_that_a_spreadsheet_would_run_is_defused(text):
 
 def test_numbers_are_never_defused():
     frame = pd.DataFrame({"rating": [-12.5], "won": [-3]})
-    assert to_csv(frame, decimals={"rating": 2}) == b"rating,won\n-12.50,-3\n"
+    assert to_csv(frame) == b"rating,won\n-12.500000,-3\n"
 
 
 def test_what_rounds_to_zero_has_no_sign():

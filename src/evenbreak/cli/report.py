@@ -90,7 +90,7 @@ def report(
         refuse("--players and --top exclude each other; leave one out")
     from evenbreak.ratings.fit import fit
     from evenbreak.ratings.scale import scale_of
-    from evenbreak.reports.frames import decimals_of, ratings_frame, summary_frame
+    from evenbreak.reports.frames import ratings_frame, summary_frame
     from evenbreak.reports.matchups import RaceLimits, find_players, matchups_frame, most_active
     from evenbreak.reports.read_results import read_results
     from evenbreak.reports.sheet import sheet_text
@@ -113,14 +113,13 @@ def report(
         chosen = most_active(ratings, TOP if top is None else top)
     if len(chosen) < 2:
         refuse("--players names one player; name two or more")
-    _say(f"Finding fair races for {len(chosen) * (len(chosen) - 1) // 2:,} pairs")
+    _say(f"Pairing {len(chosen):,} of them")
     rated = ratings_frame(ratings)
     paired = matchups_frame(ratings, chosen, limits)
     told = summary_frame(file, ratings, paired, limits)
-    decimals = dict.fromkeys(("rating", "standard_error"), decimals_of(scale))
     files = {
-        "ratings.csv": to_csv(rated, decimals=decimals, excel=excel),
-        "matchups.csv": to_csv(paired, decimals={"mean_games": 3}, excel=excel),
+        "ratings.csv": to_csv(rated, excel=excel),
+        "matchups.csv": to_csv(paired, excel=excel),
         "summary.csv": to_csv(told, excel=excel),
     }
     write_files(out, files)

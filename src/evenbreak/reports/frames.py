@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,7 +16,7 @@ from evenbreak.reports.read_results import ResultsFile
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["dates_of", "decimals_of", "ratings_frame", "scale_text", "summary_frame"]
+__all__ = ["dates_of", "ratings_frame", "scale_text", "summary_frame"]
 
 
 def scale_text(scale: Scale) -> str:
@@ -32,16 +31,6 @@ def scale_text(scale: Scale) -> str:
     names = {"npl": "an NPL-like scale", "fargo": "a Fargo-like scale", "elo": "an Elo-like scale"}
     name = names.get(scale.name, "a scale of its own")
     return f"{name} ({scale.points_per_doubling:.6g} points double the odds of a game)"
-
-
-def decimals_of(scale: Scale) -> int:
-    """Return how many decimals of a rating give a game probability to four digits or more.
-
-    >>> from evenbreak.ratings.scale import scale_of
-    >>> decimals_of(scale_of("npl")), decimals_of(scale_of(0.5))
-    (2, 4)
-    """
-    return max(2, 3 - math.floor(math.log10(scale.points_per_doubling)))
 
 
 def ratings_frame(ratings: Ratings) -> pd.DataFrame:

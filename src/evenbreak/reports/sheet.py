@@ -13,7 +13,7 @@ from rich.text import Text
 
 from evenbreak.ratings.fit import Ratings
 from evenbreak.ratings.scale import Scale
-from evenbreak.reports.frames import dates_of, decimals_of, scale_text
+from evenbreak.reports.frames import dates_of, scale_text
 from evenbreak.reports.matchups import RaceLimits
 from evenbreak.reports.read_results import ResultsFile
 
@@ -60,10 +60,10 @@ def sheet_text(
 
 def _heading(file: ResultsFile, ratings: Ratings) -> Iterator[str]:
     first, last = dates_of(file.results)
-    yield (
-        f"{ratings.matches:,} matches of {len(ratings.players):,} players, "
-        f"{int(ratings.won.sum()):,} games{f', {first} to {last}' if first else ''}."
-    )
+    games = _count(int(ratings.won.sum()), "game", "games")
+    matches = _count(ratings.matches, "match", "matches")
+    days = f", {first} to {last}" if first else ""
+    yield f"{matches} of {len(ratings.players):,} players, {games}{days}."
     left_out = [
         f"{count:,} {what}"
         for count, what in ((ratings.forfeits, "forfeited"), (ratings.empty, "at 0-0"))
@@ -84,7 +84,7 @@ def _tables(
     """Yield the ratings and the races of the players that are paired."""
     listed = rated["player"].isin({*paired["player_a"], *paired["player_b"]})
     shown = rated[listed].head(MOST_PRINTED)
-    yield _ratings_table(shown, decimals_of(scale) - 1)
+    yield _ratings_table(shown, _decimals(scale))
     yield ""
     if limits.race_to is not None:
         yield f"The fairest races in which the stronger player needs {limits.race_to} games."
@@ -98,12 +98,20 @@ def _tables(
     yield ""
     yield from _remarks(paired)
     if listed.sum() > len(shown):
-        yield f"{listed.sum() - len(shown):,} more players are paired in matchups.csv."
+        more = _count(listed.sum() - len(shown), "more player is", "more players are")
+        yield f"{more} paired in matchups.csv."
     if len(rated) > listed.sum():
-        yield (
-            f"{len(rated) - listed.sum():,} more players are rated in ratings.csv; "
-            "--top or --players pairs them."
-        )
+        more = _count(len(rated) - listed.sum(), "more player is", "more players are")
+        yield f"{more} rated in ratings.csv; --top and --players say whom to pair."
+
+
+def _count(number: int, one: str, many: str) -> str:
+    return f"{number:,} {one if number == 1 else many}"
+
+
+def _decimals(scale: Scale) -> int:
+    """Return how many decimals of a rating a person needs: about a hundredth of a doubling."""
+    return max(1, 2 - math.floor(math.log10(scale.points_per_doubling)))
 
 
 def _table() -> Table:
@@ -186,6 +194,7 @@ def _remarks(matchups: pd.DataFrame) -> Iterator[str]:
             f"The longest of them lasts {offered['mean_games'].max():.1f} games on average; "
             f"9 of 10 end within {offered['games_p90'].max()}."
         )
-    if len(matchups) > len(offered):
+    missing = len(matchups) - len(offered)
+    if missing:
         yield (f"{NO_RACE} is a pair without a race: no chain of opponents links the two, so that")
-        yield f"their ratings cannot be compared ({len(matchups) - len(offered):,} such pairs)."
+        yield f"their ratings cannot be compared ({_count(missing, 'such pair', 'such pairs')})."

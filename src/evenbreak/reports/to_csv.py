@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import unicodedata
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -16,22 +15,18 @@ DECIMALS = 6
 FORMULA_STARTS = ("=", "+", "-", "@")
 
 
-def to_csv(
-    frame: pd.DataFrame, *, decimals: Mapping[str, int] | None = None, excel: bool = False
-) -> bytes:
+def to_csv(frame: pd.DataFrame, *, excel: bool = False) -> bytes:
     r"""Return a frame as CSV, without its index.
 
-    UTF-8, LF, a comma between cells. Floats have six decimals unless `decimals` says
-    otherwise; whole numbers have none; a value that is missing, NaN or infinite is an
-    empty cell; dates are ISO. Text that begins with = + - @ or a control character, which
-    a spreadsheet might run as a formula, gets an apostrophe before it; numbers never do.
+    UTF-8, LF, a comma between cells. Floats have six decimals, whole numbers none; a
+    value that is missing, NaN or infinite is an empty cell; dates are ISO. Text that
+    begins with = + - @ or a control character, which a spreadsheet might run as a
+    formula, gets an apostrophe before it; numbers never do.
 
     Parameters
     ----------
     frame
         the table; its order of columns and rows is kept.
-    decimals
-        how many decimals the floats of a column have.
     excel
         begin with a byte order mark and end lines with CRLF, as Excel likes it.
 
@@ -40,36 +35,33 @@ def to_csv(
     >>> to_csv(frame)
     b"player,p_win_a\nAnn,0.500000\n'=1+1,0.000000\n"
     """
-    columns = [
-        _cells(column, (decimals or {}).get(str(name), DECIMALS)) for name, column in frame.items()
-    ]
+    columns = [_cells(column) for _, column in frame.items()]
     header = [text_cell(str(name)) for name in frame.columns]
     lines = [",".join(row) for row in (header, *zip(*columns, strict=True))]
     end = "\r\n" if excel else "\n"
     return "".join(f"{line}{end}" for line in lines).encode("utf-8-sig" if excel else "utf-8")
 
 
-def _cells(column: pd.Series[Any], decimals: int) -> list[str]:
-    values = column.astype(object).where(column.notna(), None)
-    return [_cell(value, decimals) for value in values]
+def _cells(column: pd.Series[Any]) -> list[str]:
+    return [_cell(value) for value in column.astype(object).where(column.notna(), None)]
 
 
-def _cell(value: Any, decimals: int) -> str:
+def _cell(value: Any) -> str:
     if value is None:
         return ""
     if isinstance(value, str):
         return text_cell(value)
     if isinstance(value, float):
-        return _number(value, decimals)
+        return _number(value)
     if hasattr(value, "date"):
         return str(value.date())
     return str(value)
 
 
-def _number(value: float, decimals: int) -> str:
+def _number(value: float) -> str:
     if not math.isfinite(value):
         return ""
-    text = f"{value:.{decimals}f}"
+    text = f"{value:.{DECIMALS}f}"
     # A number that rounds to zero has no sign.
     return text.removeprefix("-") if float(text) == 0.0 else text
 
