@@ -104,7 +104,8 @@ def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     """Return P(the last possible rack decides): the race m:n comes to m - 1 : n - 1.
 
     None for n-ahead matches and races won by 2 or more, where no rack is the last
-    possible one. In a match of sets the last possible set is meant.
+    possible one. In a match of sets the last possible set is meant. Parameters and
+    errors are those of `final_scores`; 0 where the match is over at the start.
 
     >>> from evenbreak.games import Race, Rack
     >>> hill_hill_probability(Race(2, 2, Rack(0.5)))
@@ -112,8 +113,10 @@ def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     """
     if not isinstance(match, Race) or match.win_by > 1:
         return None
-    _, shape = broadcast(match)
-    ends = final_scores(match, score).probability
+    match, shape = broadcast(at_score(match, score))
+    if match.decided(*match.score) is not None:
+        return plain(0.0, shape)
+    ends = final_scores(match).probability
     decider = match.m + match.n - 1
     return plain(sum((chance for (a, b), chance in ends.items() if a + b == decider), 0.0), shape)
 
@@ -121,7 +124,8 @@ def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
 def shutout_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins and the other scores nothing from the start score on).
 
-    None for n-ahead matches, where it would only say that the lead was never lost.
+    None for n-ahead matches, which are about the lead and not about the score. The
+    other parameters and errors are those of `final_scores`.
 
     >>> from evenbreak.games import Race, Rack
     >>> shutout_probability(Race(2, 2, Rack(0.5)), player=2)
