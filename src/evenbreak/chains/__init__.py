@@ -18,8 +18,10 @@ __getattr__, __dir__, __all__ = attach(
         "transient": ["TransientPart"],
         "explore": ["chain_from_arrays", "chain_of"],
         "steps": ["Passage", "first_passage", "propagate", "steps_to_absorption"],
+        "mixing": ["mixing_time", "spectral_gap"],
         "rewards": ["long_run_reward", "total_reward"],
         "sensitivity": ["Sensitivity", "sensitivity"],
+        "spectrum": ["Spectrum", "spectrum"],
         "symbolic": ["symbolic_limit"],
     },
 )

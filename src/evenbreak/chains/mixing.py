@@ -1,0 +1,223 @@
+"""How fast a chain forgets where it started: the spectral gap and the mixing time.
+
+The transition matrix is block triangular in its classes, so its eigenvalues are those of
+the classes, each found by the method that suits it: a state by itself has its self-loop, a
+line of states is similar to a symmetric tridiagonal matrix (S_ij^2 = M_ij M_ji), any other
+class goes to LAPACK, or to ARPACK where it is large. Defects between classes, as in races,
+do no harm here.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse.csgraph
+import scipy.sparse.linalg
+
+from evenbreak.chains.limits import limit_matrix
+from evenbreak.chains.steps import evened
+from evenbreak.errors import AccuracyError, ChainError, InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from scipy.sparse import csc_array
+
+    from evenbreak.chains.chain import Chain
+
+__all__ = ["mixing_time", "spectral_gap"]
+
+DENSE = 1000
+"""Up to this many states a class goes to LAPACK."""
+EPS = float(np.finfo(float).eps)
+
+
+def spectral_gap(chain: Chain) -> float:
+    """Return 1 minus the largest modulus of an eigenvalue off the unit circle.
+
+    A closed class of period d has d eigenvalues on the unit circle, the d-th roots of 1.
+    They are left out: for a ladder of +-1 steps (period 2, spectrum symmetric about 0) the
+    gap is 1 minus the largest eigenvalue below 1 and speaks of the two-step average. The
+    distance to the limit falls like (1 - gap)^n in the end.
+
+    Raises
+    ------
+    AccuracyError
+        if the gap cannot be told to three digits: an eigenvalue is too ill-conditioned,
+        or the iteration for a class of more than 1000 states does not converge.
+
+    Notes
+    -----
+    For classes of more than 1000 states that are not lines ARPACK looks for the largest
+    moduli; it may miss one, and the gap is then an upper bound. Source: Levin, Peres &
+    Wilmer, Markov Chains and Mixing Times, chapter 12.
+
+    >>> from evenbreak.chains import chain_of
+    >>> round(spectral_gap(chain_of([(1, 1, 0.75), (1, 2, 0.25), (2, 1, 0.5), (2, 2, 0.5)])), 12)
+    0.75
+    """
+    structure = chain.structure
+    M = evened(chain)
+    sizes = np.diff(structure.offsets)
+    alone = (sizes == 1)[structure.label] & ~structure.recurrent
+    moduli = [0.0, float(M.diagonal()[alone].max(initial=0.0))]
+    bounds = list(moduli)
+    for label in np.flatnonzero(sizes > 1):
+        states = structure.members(int(label))
+        block = M[:, states][states]
+        found, errors = _moduli(block, int(structure.periods[label]))
+        moduli += found.tolist()
+        bounds += (found + errors).tolist()
+    gap = 1.0 - max(moduli)
+    if not max(bounds) - max(moduli) <= 1e-3 * gap:
+        raise AccuracyError(
+            f"the gap is about {gap:.3g}, but an eigenvalue is known to "
+            f"{max(bounds) - max(moduli):.1e} only; follow the chain with propagate"
+        )
+    return gap
+
+
+def _moduli(block: csc_array, period: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return moduli of a class but for the `period` on the unit circle, and their errors."""
+    n = block.shape[0]
+    line = _line(block)
+    if line is not None:
+        values = _ends_of_symmetric(*line)
+        errors = np.full(len(values), n * EPS)
+    elif n > DENSE:
+        values = _largest(block, period + 1)
+        errors = np.zeros(len(values))
+    else:
+        values, left, right = scipy.linalg.eig(block.toarray(), left=True, right=True)
+        errors = n * EPS / _overlaps(values, left, right)
+    order = np.argsort(-np.abs(values), kind="stable")[period:]
+    return np.asarray(np.abs(values)[order]), np.asarray(errors[order])
+
+
+def _overlaps(values: NDArray[Any], left: NDArray[Any], right: NDArray[Any]) -> NDArray[np.float64]:
+    """Return 1 over the condition number of each eigenvalue: |y^H x| (Wilkinson).
+
+    The vectors of a repeated eigenvalue need not be paired: their overlaps are taken
+    together, as the smallest singular value.
+    """
+    overlaps = np.abs(np.sum(left.conj() * right, axis=0))
+    for i in np.flatnonzero(overlaps < 1e-6):
+        near = np.abs(values - values[i]) < 1e-6
+        overlaps[i] = np.linalg.norm(left[:, near].conj().T @ right[:, near], ord=-2)
+    return np.asarray(np.maximum(overlaps, EPS * EPS))
+
+
+def _line(block: csc_array) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+    """Return diagonal and off-diagonal of the similar symmetric matrix if the class is a line."""
+    n = block.shape[0]
+    coo = block.tocoo()
+    off = coo.row != coo.col
+    if off.sum() != 2 * (n - 1) or np.bincount(coo.row[off], minlength=n).max() > 2:
+        return None
+    end = int(np.argmin(np.bincount(coo.row[off], minlength=n)))
+    order: Any = scipy.sparse.csgraph.breadth_first_order(block, end, return_predecessors=False)
+    line = block[:, order][order]
+    up, down = line.diagonal(-1), line.diagonal(1)
+    if np.count_nonzero(up) + np.count_nonzero(down) != 2 * (n - 1):
+        return None
+    return np.asarray(line.diagonal()), np.asarray(np.sqrt(up) * np.sqrt(down))
+
+
+def _ends_of_symmetric(
+    diagonal: NDArray[np.float64], beside: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the two lowest and two highest eigenvalues (all, of up to four)."""
+    n = len(diagonal)
+    if n <= 4:
+        return np.asarray(scipy.linalg.eigvalsh_tridiagonal(diagonal, beside))
+    ends = [
+        scipy.linalg.eigvalsh_tridiagonal(diagonal, beside, select="i", select_range=ends)
+        for ends in ((0, 1), (n - 2, n - 1))
+    ]
+    return np.concatenate(ends)
+
+
+def _largest(block: csc_array, k: int) -> NDArray[Any]:
+    start = np.random.default_rng(0).random(block.shape[0])
+    try:
+        return np.asarray(
+            scipy.sparse.linalg.eigs(block, k=k, v0=start, maxiter=300, return_eigenvectors=False)
+        )
+    except scipy.sparse.linalg.ArpackNoConvergence as error:
+        raise AccuracyError(
+            f"the iteration for the eigenvalues of a class of {block.shape[0]} states did not "
+            "converge: its gap is small; follow the chain with propagate"
+        ) from error
+
+
+def mixing_time(chain: Chain, eps: float = 0.25) -> int:
+    """Return the number of steps after which every start is within `eps` of its limit.
+
+    Within: in total variation, half the sum of absolute differences, given the worst
+    start. Where a closed class is periodic, the average over d steps from then on is
+    compared, d being the least common multiple of the periods.
+
+    Raises
+    ------
+    InputError
+        if `eps` is not between 0 and 1.
+    ChainError
+        if the chain has more than 1000 states: dense powers are taken.
+    AccuracyError
+        if `eps` is too small for rounding, or more than 2^60 steps are needed.
+
+    Notes
+    -----
+    Source: Levin, Peres & Wilmer, Markov Chains and Mixing Times, section 4.5. The
+    distance never grows, so repeated squaring and bisection find the step.
+
+    >>> from evenbreak.chains import chain_of
+    >>> winner_breaks = chain_of([(1, 1, 0.75), (1, 2, 0.25), (2, 1, 0.5), (2, 2, 0.5)])
+    >>> [mixing_time(winner_breaks, eps) for eps in (0.7, 0.25, 0.01)]
+    [0, 1, 4]
+    """
+    if not 0.0 < eps < 1.0:
+        raise InputError(f"eps is {eps!r}; give a number between 0 and 1")
+    n = len(chain)
+    if n > DENSE:
+        raise ChainError(
+            f"the chain has {n} states; a mixing time needs {DENSE} or fewer, ask for spectral_gap"
+        )
+    structure = chain.structure
+    period = int(np.lcm.reduce(structure.periods[structure.closed]))
+    M = evened(chain).toarray()
+    average = _geometric_sum(M, period) / period
+    limit = limit_matrix(chain).toarray()
+
+    def far(power: NDArray[np.float64]) -> bool:
+        return bool(np.abs(average @ power - limit).sum(axis=0).max() / 2.0 > eps)
+
+    steps, reached = 0, np.eye(n)
+    if not far(reached):
+        return 0
+    powers = [M]
+    while far(powers[-1]):
+        square = powers[-1] @ powers[-1]
+        powers.append(square / square.sum(axis=0))
+        if len(powers) > 60:
+            raise AccuracyError(
+                f"the chain is not seen within {eps} of its limit after 2^60 steps; "
+                "give a larger eps"
+            )
+    for i in reversed(range(len(powers) - 1)):
+        further = powers[i] @ reached
+        if far(further):
+            steps, reached = steps + 2**i, further
+    return steps + 1
+
+
+def _geometric_sum(M: NDArray[np.float64], terms: int) -> NDArray[np.float64]:
+    """Return I + M + ... + M^(terms - 1) by doubling."""
+    if terms == 1:
+        return np.eye(len(M))
+    half = _geometric_sum(M, terms // 2)
+    total = half + np.linalg.matrix_power(M, terms // 2) @ half
+    if terms % 2:
+        total += np.linalg.matrix_power(M, terms - 1)
+    return np.asarray(total)

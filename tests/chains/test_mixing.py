@@ -1,0 +1,115 @@
+"""The spectral gap where it is known in closed form, and mixing times by brute force."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from evenbreak.chains import chain_from_arrays, chain_of, limit_matrix
+from evenbreak.chains.mixing import mixing_time, spectral_gap
+from evenbreak.errors import AccuracyError, ChainError, InputError
+from evenbreak.games import Ahead, OneBall, Race, Rack
+
+
+def walk(n, stay=0.0):
+    """A fair walk on 0..n-1 that bounces: period 2 unless it may stay."""
+    arcs = [(0, 1, 1.0 - stay), (n - 1, n - 2, 1.0 - stay)]
+    arcs += [(i, i + d, (1.0 - stay) / 2) for i in range(1, n - 1) for d in (1, -1)]
+    arcs += [(i, i, stay) for i in range(n) if stay]
+    return chain_of(arcs, start=0)
+
+
+class TestGap:
+    @pytest.mark.parametrize("n", [3, 4, 20, 5001])
+    def test_ladder_of_period_2(self, n):
+        """The eigenvalues of the bouncing walk are cos(k pi / (n - 1)); -1 does not count."""
+        assert spectral_gap(walk(n)) == pytest.approx(1 - np.cos(np.pi / (n - 1)), rel=1e-5)
+
+    def test_the_most_negative_eigenvalue_counts(self):
+        """The walk that stays with chance 0.01: the lowest eigenvalue is -0.98."""
+        assert spectral_gap(walk(30, 0.01)) == pytest.approx(
+            min(0.02, 0.99 * (1 - np.cos(np.pi / 29))), rel=1e-10
+        )
+        assert spectral_gap(walk(4, 0.01)) == pytest.approx(0.02, rel=1e-10)
+
+    def test_match_ahead(self):
+        """From within: 2 sqrt(p q) cos(pi / (m + n))."""
+        gap = spectral_gap(chain_of(Ahead(40, 60, Rack(0.55))))
+        assert gap == pytest.approx(1 - 2 * np.sqrt(0.55 * 0.45) * np.cos(np.pi / 100), rel=1e-10)
+
+    def test_a_race_is_over_after_finitely_many_racks(self):
+        assert spectral_gap(chain_of(Race(30, 30, Rack(0.6)))) == 1.0
+
+    def test_waiting(self):
+        assert spectral_gap(chain_of([("go", "go", 0.75), ("go", "end", 0.25)])) == 0.25
+
+    def test_cycle(self):
+        """A cycle of 3 with a way to wait in one state: two complex eigenvalues."""
+        chain = chain_of([(0, 1, 0.5), (0, 0, 0.5), (1, 2, 1.0), (2, 0, 1.0)])
+        moduli = np.sort(np.abs(np.roots([1, -0.5, 0, -0.5])))
+        assert spectral_gap(chain) == pytest.approx(1 - moduli[-2], rel=1e-12)
+
+    def test_large_class(self):
+        """Every state to 1 of 40 others evenly or to the hub: the rank-one part decides."""
+        n = 1200
+        rng = np.random.default_rng(5)
+        targets = rng.integers(0, n, (n, 3))
+        j = np.repeat(np.arange(n), 4)
+        i = np.column_stack([np.full(n, 0), targets]).ravel()
+        p = np.tile([0.4, 0.2, 0.2, 0.2], n)
+        M = np.zeros((n, n))
+        np.add.at(M, (i, j), p)
+        j, i = np.nonzero(M.T)
+        gap = spectral_gap(chain_from_arrays(list(range(n)), j, i, M[i, j]))
+        assert 0.4 < gap < 0.8
+
+    def test_a_nearly_defective_eigenvalue_is_refused(self):
+        """Twelve waits in a row and a way back so rare that rounding hides it."""
+        arcs = [(i, i, 0.999) for i in range(12)] + [(i, i + 1, 0.001) for i in range(12)]
+        assert spectral_gap(chain_of(arcs)) == pytest.approx(0.001, rel=1e-12)
+        with pytest.raises(AccuracyError, match="the gap is about"):
+            spectral_gap(chain_of([*arcs, (11, 0, 1e-17)]))
+
+
+class TestMixingTime:
+    @settings(max_examples=40, deadline=None)
+    @given(st.integers(0, 2**32 - 1), st.sampled_from([0.4, 0.1, 1e-3]))
+    def test_by_brute_force(self, seed, eps):
+        rng = np.random.default_rng(seed)
+        n = int(rng.integers(1, 6))
+        A = rng.random((n, n)) * (rng.random((n, n)) < 0.5)
+        A[rng.integers(n, size=n), range(n)] += 0.2
+        j, i = np.nonzero(A.T)
+        chain = chain_from_arrays(list(range(n)), j, i, (A / A.sum(axis=0))[i, j])
+        structure = chain.structure
+        d = int(np.lcm.reduce(structure.periods[structure.closed]))
+        M, limit = chain.matrix.toarray(), limit_matrix(chain).toarray()
+
+        def distance(t):
+            mean = sum(np.linalg.matrix_power(M, t + k) for k in range(d)) / d
+            return np.abs(mean - limit).sum(axis=0).max() / 2
+
+        t = mixing_time(chain, eps)
+        assert distance(t) <= eps
+        assert t == 0 or distance(t - 1) > eps
+
+    def test_a_long_time(self):
+        """Two states that change places with chance e: (1 - 2 e)^t / 2 is the distance."""
+        e = 1e-9
+        chain = chain_of([(0, 1, e), (0, 0, 1 - e), (1, 0, e), (1, 1, 1 - e)])
+        assert mixing_time(chain, 0.25) == pytest.approx(np.log(0.5) / np.log1p(-2 * e), rel=1e-6)
+
+    def test_periodic_chains_mix_on_average(self):
+        assert mixing_time(chain_of(OneBall(0, 0)), 0.01) == 0
+        assert mixing_time(walk(5), 0.01) < 60
+
+    def test_a_race_mixes_when_it_is_over(self):
+        assert mixing_time(chain_of(Race(3, 3, Rack(0.5))), 1e-6) == 5
+
+    def test_refusals(self):
+        with pytest.raises(InputError, match="eps is 0"):
+            mixing_time(walk(3), 0)
+        with pytest.raises(ChainError, match="5001 states"):
+            mixing_time(walk(5001))
+        with pytest.raises(AccuracyError, match="give a larger eps"):
+            mixing_time(walk(40, 0.3), 1e-30)

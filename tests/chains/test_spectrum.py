@@ -1,0 +1,209 @@
+"""Eigenvalues known in closed form; the eigen route against the direct one; refusals."""
+
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from evenbreak.chains import chain_from_arrays, chain_of, limit_matrix, stochastic_limit
+from evenbreak.chains.spectrum import spectrum
+from evenbreak.errors import AccuracyError, InputError
+from evenbreak.games import (
+    Ahead,
+    Drill,
+    OneBall,
+    Race,
+    Rack,
+    Series,
+    loser_breaks,
+    winner_breaks,
+)
+
+
+def ladder(n, pull=10.0, stay=0.0):
+    """A walk of +-1 on n rungs that is pulled to the middle: period 2 unless it may stay."""
+    i = np.arange(n)
+    up = 1.0 / (1.0 + np.exp((i - n / 2) / pull))
+    up[0], up[-1] = 1.0, 0.0
+    sources = np.concatenate([i[:-1], i[1:], i])
+    targets = np.concatenate([i[1:], i[:-1], i])
+    chances = np.concatenate([up[:-1] * (1 - stay), (1 - up[1:]) * (1 - stay), np.full(n, stay)])
+    return chain_from_arrays(list(range(n)), sources, targets, chances, start=0)
+
+
+def blocks(coupling):
+    """Two blocks of three states that mix at once, and a rare change of block."""
+    inside = [
+        (b + j, b + i, (1 - coupling) / 3) for b in (0, 3) for j in range(3) for i in range(3)
+    ]
+    return chain_of(inside + [(j, (j + 3) % 6, coupling) for j in range(6)], start=0)
+
+
+@st.composite
+def chains(draw):
+    """Random chains with one to several closed classes."""
+    n = draw(st.integers(1, 9))
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    A = rng.random((n, n)) * (rng.random((n, n)) < draw(st.sampled_from([0.15, 0.3, 0.9])))
+    A[rng.integers(n, size=n), range(n)] += rng.random(n) + 0.1
+    j, i = np.nonzero(A.T)
+    return chain_from_arrays(list(range(n)), j, i, (A / A.sum(axis=0))[i, j], start=0)
+
+
+class TestKnown:
+    @pytest.mark.parametrize(("breaks", "second"), [(winner_breaks, 0.4), (loser_breaks, -0.4)])
+    def test_series(self, breaks, second):
+        """P5.24: the eigenvalues are (1, p1 + p2 - 1) and (1, 1 - p1 - p2)."""
+        found = spectrum(chain_of(Series(Rack(0.9, 0.5), breaks=breaks)))
+        np.testing.assert_allclose(found.values, [1.0, second], rtol=1e-14)
+        assert found.gap == pytest.approx(0.6, rel=1e-14)
+
+    def test_one_ball(self):
+        """P5.22: the eigenvalues are 1, 1 and +-sqrt(q1 q2)."""
+        chain = chain_of(OneBall(0.3, 0.6))
+        found = spectrum(chain)
+        root = np.sqrt(0.7 * 0.4)
+        np.testing.assert_allclose(found.values, [1.0, 1.0, root, -root], rtol=1e-14)
+        W, L = chain.index("W"), chain.index("L")
+        assert {tuple(np.flatnonzero(R.round(14))) for R in found.right[:, :2].T} == {(W,), (L,)}
+        assert found.gap == pytest.approx(1 - root, rel=1e-14)
+
+    def test_ahead_has_two_unit_eigenvalues(self):
+        """The text after Fig. 5.10; the rest are 2 sqrt(p q) cos(k pi / 6)."""
+        p = 0.6
+        found = spectrum(chain_of(Ahead(3, 3, Rack(p))))
+        rest = 2 * np.sqrt(p * (1 - p)) * np.cos(np.arange(1, 6) * np.pi / 6)
+        np.testing.assert_allclose(np.sort(found.values), np.sort([1, 1, *rest]), atol=1e-14)
+        assert found.units == 2
+
+    def test_drill_has_one_unit_eigenvalue(self):
+        found = spectrum(chain_of(Drill([0.9**i for i in range(9)])))
+        assert found.units == 1
+        assert np.sum(found.values > 1 - 1e-9) == 1
+
+    def test_a_cycle_has_the_roots_of_one(self):
+        found = spectrum(chain_of([(0, 1, 1.0), (1, 2, 1.0), (2, 0, 1.0)], start=0))
+        np.testing.assert_allclose(found.values**3, 1.0, atol=1e-14)
+        np.testing.assert_allclose(found.limit(), 1 / 3, rtol=1e-14)
+        assert found.gap == 1.0
+
+    def test_nobody_ever_makes_it(self):
+        found = spectrum(chain_of(OneBall(0, 0)))
+        np.testing.assert_allclose(found.values, [1, -1], atol=1e-15)
+        np.testing.assert_allclose(found.limit(), [0.5, 0.5], atol=1e-15)
+
+    def test_one_state(self):
+        found = spectrum(chain_of([("s", "s", 1.0)], start="s"))
+        assert found.values.tolist() == [1.0]
+        assert found.limit().tolist() == [1.0]
+
+    def test_reals_where_all_are_real(self):
+        assert spectrum(chain_of(OneBall(0.3, 0.6))).right.dtype == float
+        assert spectrum(chain_of([(0, 1, 1.0), (1, 2, 1.0), (2, 0, 1.0)])).right.dtype == complex
+
+
+class TestLaws:
+    @settings(max_examples=60, deadline=None)
+    @given(chains())
+    def test_biorthogonal_eigenvectors(self, chain):
+        try:
+            found = spectrum(chain)
+        except AccuracyError:
+            assume(False)
+        M = chain.matrix.toarray()
+        np.testing.assert_allclose(found.left @ found.right, np.eye(len(chain)), atol=1e-8)
+        np.testing.assert_allclose(M @ found.right, found.right * found.values, atol=1e-8)
+        np.testing.assert_allclose(found.left @ M, found.values[:, None] * found.left, atol=1e-8)
+        np.testing.assert_allclose(
+            (found.right * found.values) @ found.left, M, atol=1e-7 * np.abs(found.left).max()
+        )
+
+    @settings(max_examples=60, deadline=None)
+    @given(chains())
+    def test_the_two_routes_agree(self, chain):
+        found = spectrum(chain, k=int(chain.structure.closed.sum()))
+        direct = limit_matrix(chain).toarray()
+        for state in chain.states:
+            np.testing.assert_allclose(
+                found.limit(state), direct[:, chain.index(state)], rtol=0, atol=found.limit_error
+            )
+
+    @settings(max_examples=40, deadline=None)
+    @given(chains())
+    def test_unit_vectors_are_laws_and_chances(self, chain):
+        found = spectrum(chain, k=int(chain.structure.closed.sum()))
+        np.testing.assert_allclose(found.right.sum(axis=0), 1.0, rtol=1e-12)
+        np.testing.assert_allclose(found.left.sum(axis=0), 1.0, rtol=1e-9)
+        recurrent = chain.structure.recurrent
+        np.testing.assert_allclose(found.right[~recurrent], 0.0, atol=1e-9)
+
+
+class TestRefusals:
+    def test_a_race_is_defective(self):
+        chain = chain_of(Race(7, 7, Rack(0.6)))
+        with pytest.raises(AccuracyError, match="defective"):
+            spectrum(chain)
+        limit = spectrum(chain, k=14).limit()
+        np.testing.assert_allclose(limit, stochastic_limit(chain).probability, atol=1e-14)
+
+    @pytest.mark.parametrize("coupling", [1e-3, 1e-6])
+    def test_loosely_coupled_blocks_within_the_estimate(self, coupling):
+        chain = blocks(coupling)
+        found = spectrum(chain)
+        error = np.abs(found.limit() - stochastic_limit(chain).probability).max()
+        assert error <= found.limit_error <= 1e-8
+        assert found.gap == pytest.approx(2 * coupling, rel=1e-3)
+
+    def test_barely_coupled_blocks(self):
+        """The residual is small all the same: it is the estimate that tells."""
+        found = spectrum(blocks(1e-10))
+        assert found.residual < 1e-14
+        with pytest.raises(AccuracyError, match="use stochastic_limit"):
+            found.limit()
+
+    def test_steep_ladder(self):
+        """All 200 vectors are hidden by rounding, the one that matters is not."""
+        chain = ladder(200)
+        with pytest.raises(AccuracyError, match="independent eigenvectors"):
+            spectrum(chain)
+        found = spectrum(chain, k=1)
+        error = np.abs(found.limit() - stochastic_limit(chain).probability).max()
+        assert error <= found.limit_error < 1e-10
+
+    def test_k(self):
+        chain = chain_of(OneBall(0.3, 0.6))
+        with pytest.raises(InputError, match="k is 1; give a whole number, 2 or more"):
+            spectrum(chain, k=1)
+        with pytest.raises(InputError, match="the chain has 4 states"):
+            spectrum(chain, k=5)
+
+
+class TestLarge:
+    def test_against_the_dense_route(self, monkeypatch):
+        chain = ladder(60, pull=30.0, stay=0.25)
+        dense = spectrum(chain, k=4)
+        for module in ("eigenpairs", "spectrum"):
+            monkeypatch.setattr(sys.modules[f"evenbreak.chains.{module}"], "DENSE", 10)
+        sparse = spectrum(chain, k=4)
+        np.testing.assert_allclose(sparse.values, dense.values, rtol=1e-10)
+        np.testing.assert_allclose(
+            sparse.right[:, 1:2] @ sparse.left[1:2],
+            dense.right[:, 1:2] @ dense.left[1:2],
+            atol=1e-9,
+        )
+        assert sparse.limit_error == pytest.approx(dense.limit_error, rel=1.0)
+        assert len(spectrum(chain).values) == 6
+
+    def test_ladder(self):
+        chain = ladder(2001, pull=100.0)
+        found = spectrum(chain, k=1)
+        limit = stochastic_limit(chain).probability
+        assert np.abs(found.limit() - limit).max() <= found.limit_error <= 1e-8
+
+    def test_a_fair_match_too_long_for_it(self):
+        found = spectrum(chain_of(Ahead(700, 700, Rack(0.5))), k=4)
+        assert found.values[2:] == pytest.approx(np.cos(np.array([1, 2]) * np.pi / 1400), rel=1e-12)
+        with pytest.raises(AccuracyError, match="slow or nearly falls apart"):
+            found.limit()
