@@ -67,11 +67,19 @@ def _nearly_alike(words: dict[str, tuple[str, ...]]) -> Iterator[tuple[str, str]
     """Yield pairs of names that may be one letter apart, each pair once."""
     shortened = defaultdict(list)
     for name, split in words.items():
-        text = _run_together(split)
-        if len(text) >= SHORTEST_MISTYPED:
-            for key in {text, *(text[:k] + text[k + 1 :] for k in range(len(text)))}:
+        if sum(map(len, split)) >= SHORTEST_MISTYPED:
+            for key in {split, *_one_letter_less(split)}:
                 shortened[key].append(name)
     yield from {pair for group in shortened.values() for pair in combinations(group, 2)}
+
+
+def _one_letter_less(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+    """Yield the words without one letter of a long one; numbered names keep their digits."""
+    for place, word in enumerate(words):
+        if len(word) >= SHORTEST_WORD:
+            for k, letter in enumerate(word):
+                if not letter.isdigit():
+                    yield (*words[:place], word[:k] + word[k + 1 :], *words[place + 1 :])
 
 
 def _slip(one: tuple[str, ...], other: tuple[str, ...]) -> bool:
