@@ -95,13 +95,13 @@ class Chain:
         v = np.zeros(len(self))
         if isinstance(start, Mapping):
             for state, chance in start.items():
-                v[self.position[state] if state in self.position else self.index(state)] = chance
+                v[self.index(state)] = chance
         elif isinstance(start, np.ndarray):
             if start.shape != v.shape:
                 raise ChainError(f"the start density has shape {start.shape}; give {v.shape}")
             v = start.astype(float)
         else:
-            v[self.index(start)] = 1.0
+            v[self._search(start)] = 1.0
             return v
         if not (np.all(v >= 0) and abs(v.sum() - 1.0) <= 1e-9):
             raise ChainError(
@@ -118,17 +118,30 @@ class Chain:
         """Return the position of the state that `start` is, or None for a whole density."""
         if start is None:
             start = self._own_start()
-        return None if isinstance(start, (Mapping, np.ndarray)) else self.index(start)
+        return None if isinstance(start, (Mapping, np.ndarray)) else self._search(start)
+
+    def _search(self, state: Hashable) -> int:
+        """Return the position of one state; cheaper than a dictionary of them all."""
+        if "position" in self.__dict__ or isinstance(self.states, str):
+            return self.index(state)
+        try:
+            return self.states.index(state)
+        except ValueError:
+            raise self._unknown(state) from None
 
     def index(self, state: Hashable) -> int:
-        """Return the position of `state` in the matrix."""
+        """Return the position of `state` in the matrix.
+
+        Raises
+        ------
+        ChainError
+            if the chain has no such state.
+        """
         try:
-            # One search is cheaper than a dictionary of all states, which many ask for.
-            if "position" in self.__dict__:
-                return self.position[state]
-            return self.states.index(state)
-        except (KeyError, TypeError, ValueError):
-            raise ChainError(
-                f"state {state!r} is not in the chain; its states begin "
-                + ", ".join(repr(known) for known in self.states[:5])
-            ) from None
+            return self.position[state]
+        except (KeyError, TypeError):
+            raise self._unknown(state) from None
+
+    def _unknown(self, state: Hashable) -> ChainError:
+        known = ", ".join(repr(known) for known in self.states[:5])
+        return ChainError(f"state {state!r} is not in the chain; its states begin {known}")

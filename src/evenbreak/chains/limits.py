@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.factorisation import Factorisation, path_order
 from evenbreak.chains.line import line_law
@@ -24,7 +24,7 @@ from evenbreak.chains.wide import wide_law
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.chains.arcs import Arcs
+    from evenbreak.chains.arcs import Arcs, Places
     from evenbreak.chains.chain import Chain
 
 __all__ = [
@@ -35,6 +35,8 @@ __all__ = [
     "stationary_laws",
     "stochastic_limit",
 ]
+
+_COLUMNS = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +52,13 @@ class Limit:
     period
         the least common multiple of the periods of the closed classes reached.
     residual
-        None where each entry is right to a few units in the last place times the number of
-        states; otherwise the largest entry by which the answer misses what was solved.
+        None where each entry is right to about machine precision (see `stochastic_limit`);
+        otherwise the largest entry by which the equations of a large class are missed, in
+        units of the largest entry of their right-hand side.
+
+    >>> from evenbreak.chains import chain_of
+    >>> stochastic_limit(chain_of([("rack", "won", 0.6), ("rack", "lost", 0.4)]), "rack")["won"]
+    0.6
     """
 
     chain: Chain
@@ -95,6 +102,10 @@ def stationary_laws(chain: Chain, classes: NDArray[np.bool_] | None = None) -> N
     AccuracyError
         if a law cannot be vouched for: it spans more decades than floats do, and its class
         is too large for wider numbers, or its class is too large and too slow to mix.
+
+    >>> from evenbreak.chains import chain_of
+    >>> stationary_laws(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 1.0), (0, 1, 1.0)]))
+    array([0.66666667, 0.33333333, 0.        ])
     """
     return _stationary(chain, chain.structure.closed if classes is None else classes)[0]
 
@@ -175,7 +186,17 @@ def _ends(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
 def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     """Return the probability of ending in each class, given the start; shape (classes,).
 
-    It is 0 for classes that are not closed.
+    Classes are numbered as in `chain.structure`; those that are not closed have 0.
+
+    Raises
+    ------
+    AccuracyError
+        if an entry cannot be vouched for.
+
+    >>> from evenbreak.chains import chain_of
+    >>> chain = chain_of([("play", "won", 0.25), ("play", "lost", 0.5), ("play", "play", 0.25)])
+    >>> absorption(chain, "play")[chain.structure.label].round(3).tolist()
+    [0.0, 0.333, 0.667]
     """
     structure = chain.structure
     v = chain.density(start)
@@ -190,6 +211,15 @@ def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
 
     Transient states have a finite number; recurrent ones have inf where they are ever
     reached, and 0 elsewhere.
+
+    Raises
+    ------
+    AccuracyError
+        if a number is larger than any float, or cannot be vouched for.
+
+    >>> from evenbreak.chains import chain_of
+    >>> expected_visits(chain_of([("miss", "miss", 0.75), ("miss", "in", 0.25)]), "miss")
+    array([ 4., inf])
     """
     v = chain.density(start)
     states = chain.transient.states
@@ -201,7 +231,42 @@ def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
 
 
 def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
-    """Return the stochastic limit of the chain, given the start."""
+    """Return the stochastic limit of the chain: where it ends, or its long-run average.
+
+    Each probability is conditional on the start alone. From the structure it is known
+    whether M^n v has this limit or goes round it with a period (see `Limit.is_cesaro`).
+
+    Parameters
+    ----------
+    chain
+        the chain.
+    start
+        a state, a density (see `Chain.density`), or None for the chain's own start.
+
+    Raises
+    ------
+    AccuracyError
+        if the limit cannot be vouched for: it spans more decades than floats do, in a class
+        too large for wider numbers, or a class is too large and too slow to mix.
+    ChainError
+        if the start is not one.
+
+    Notes
+    -----
+    Each entry is right to a few units in the last place times the length of the way to it
+    (seen: 2e-14 over 20,000 states), however stiff the chain, but for classes of more than
+    some 6,000 states without a narrow band: there a sparse factorisation is certified, and
+    where the certificate is worse than 1e-12 the limit carries its `residual`.
+
+    Time and memory are linear in the number of arcs where the classes are single states,
+    lines or at most 64 states; else see `factorisation`. The reference is O'Cinneide 1993.
+
+    >>> from evenbreak.chains import chain_of
+    >>> miss_forever = chain_of([("S1", "S2", 1.0), ("S2", "S1", 1.0)])
+    >>> limit = stochastic_limit(miss_forever, "S1")
+    >>> limit.to_dict(), limit.period, limit.is_cesaro
+    ({'S1': 0.5, 'S2': 0.5}, 2, True)
+    """
     at = chain.start_index(start)
     if at is not None and chain.line is not None:
         probability, period = chain.line.limit(at)
@@ -225,24 +290,41 @@ def _largest(*residuals: float | None) -> float | None:
 
 
 def limit_matrix(chain: Chain) -> csc_array:
-    """Return the limits from all states; shape (n, n), column j is the limit from state j."""
-    n = len(chain)
-    structure = chain.structure
-    recurrent = structure.recurrent
+    """Return the limits from all states; shape (n, n), column j is the limit from state j.
+
+    Time and memory are those of one solve for each closed class that is entered from
+    outside, and of the entries that are not 0.
+
+    Raises
+    ------
+    AccuracyError
+        if an entry cannot be vouched for.
+
+    >>> from evenbreak.chains import chain_of
+    >>> chain = chain_of([(1, 0, 0.5), (1, 2, 0.5), (2, 1, 0.25), (2, 3, 0.75)])
+    >>> chain.states, limit_matrix(chain).toarray()[[1, 3]]
+    ([1, 0, 2, 3], array([[0.57142857, 1.        , 0.14285714, 0.        ],
+                          [0.42857143, 0.        , 0.85714286, 1.        ]]))
+    """
+    n, structure = len(chain), chain.structure
     law = stationary_laws(chain)
-    # spread[i, c] is the stationary law of class c; ends[c, j] the chance to end there.
-    inside = np.flatnonzero(recurrent)
-    spread = csc_array((law[inside], (inside, structure.label[inside])), shape=(n, structure.count))
-    ends = csc_array(
-        (np.ones(len(inside)), (structure.label[inside], inside)), shape=(structure.count, n)
-    )
+    inside = np.flatnonzero(structure.recurrent)
+    home = structure.label[inside]
+    spread = csc_array((law[inside], (inside, home)), shape=(n, structure.count))
+    return csc_array(spread @ _ends_from_all(chain, inside, home))
+
+
+def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
+    """Return the chance to end in each class, from each state; shape (classes, n)."""
+    shape = chain.structure.count, len(chain)
+    ends = csc_array((np.ones(len(inside)), (home, inside)), shape=shape)
     part = chain.transient
-    if len(part.states):
-        closed = np.flatnonzero(structure.closed)
-        onward = (ends @ chain.arcs.matrix())[closed][:, part.states]
-        chances = part.values(onward.T.toarray())
+    entries = csr_array((ends @ chain.arcs.matrix())[:, part.states])
+    entered = np.flatnonzero(chain.structure.closed & (np.diff(entries.indptr) > 0))
+    for first in range(0, len(entered), _COLUMNS):
+        classes = entered[first : first + _COLUMNS]
+        chances = part.values(entries[classes].toarray().T)
         row, column = np.nonzero(chances)
-        ends = ends + csc_array(
-            (chances[row, column], (closed[column], part.states[row])), shape=ends.shape
-        )
-    return csc_array(spread @ ends)
+        values = chances[row, column]
+        ends = ends + csc_array((values, (classes[column], part.states[row])), shape=shape)
+    return ends

@@ -13,10 +13,10 @@ bounds by M-matrices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array, eye_array
+from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import splu
 
 from evenbreak.errors import AccuracyError
@@ -50,8 +50,9 @@ class SparseFactorisation:
         self.residual: float | None = None
         wide = T.astype(np.longdouble)
         self._arcs = {False: wide.tocsr(), True: csc_array(wide).T}
-        self._diagonal: Wide = np.asarray(wide.sum(axis=0)).reshape(-1) + leak.astype(np.longdouble)
-        A = csc_array(eye_array(m, format="csc") * self._diagonal.astype(float) - T)
+        diagonal: Wide = np.add(wide.sum(axis=0), leak, dtype=np.longdouble)
+        self._diagonal = diagonal
+        A = csc_array(diags_array(diagonal.astype(np.float64)) - T)
         try:
             self._lu = splu(
                 A,
@@ -101,11 +102,12 @@ class SparseFactorisation:
     def _refined(self, b: Wide, *, transposed: bool) -> tuple[Wide, Wide]:
         """Return x and b - A x (A transposed on request), after steps of refinement."""
         arcs = self._arcs[transposed]
-        trans: Literal["T", "N"] = "T" if transposed else "N"
+        trans = "T" if transposed else "N"
         x, residual, smallest = np.zeros_like(b), b, np.inf
         best = x, residual
         for _ in range(_ROUNDS):
-            x = x + self._lu.solve(residual.astype(np.float64), trans)
+            step = self._lu.solve(residual.astype(np.float64), trans)  # type: ignore[call-overload]
+            x = x + step
             residual = b - (self._diagonal * x - arcs @ x)
             size = float(np.abs(residual).max())
             if not size < smallest:

@@ -123,9 +123,9 @@ class TransientPart:
 
     def _vouched(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
         given = np.asarray(b, dtype=np.float64)
-        columns = given.reshape(len(self.states), -1)
-        if not columns.size:
+        if not given.size:
             return given.copy()
+        columns = given.reshape(len(self.states), -1)
         x, doubtful = self.attempt(columns, transposed=transposed)
         for k in np.flatnonzero(doubtful.any(axis=0)):
             x[:, k] = wide_solve(self._arcs, self._leak, columns[:, k], transposed=transposed)
@@ -177,8 +177,7 @@ def _doubtful(x: NDArray[np.float64], pivots: NDArray[np.float64]) -> NDArray[np
     top = x.max()
     if not top < np.inf:
         return np.ones(x.shape, dtype=bool)
-    flow = x * pivots[:, None]
-    low = flow < 1e-290 * max(1.0, top)
+    low: NDArray[np.bool_] = x * pivots[:, None] < 1e-290 * max(1.0, top)
     if low.any():
         # All scaled by 2^600, so that the smallest numbers can be compared.
         lost = len(x) * max(1.0, top) * 2.0**-474 / pivots[:, None]
