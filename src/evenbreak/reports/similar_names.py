@@ -29,10 +29,13 @@ _PLAIN = str.maketrans(
 
 
 def similar_names(names: Iterable[str]) -> list[tuple[str, ...]]:
-    """Return groups of different names that may mean one player, in the order of the names.
+    """Return groups of different names that may mean one player.
+
+    First those that differ in case, blanks, accents or the order of words, then those
+    that one slip of the hand explains; both in the order of the names.
 
     >>> similar_names(["Ann Lee", "Lee, Ann", "Bo Petersen", "Bo Peterson", "Cy", "CY", "Di"])
-    [('Ann Lee', 'Lee, Ann'), ('Bo Petersen', 'Bo Peterson'), ('CY', 'Cy')]
+    [('Ann Lee', 'Lee, Ann'), ('CY', 'Cy'), ('Bo Petersen', 'Bo Peterson')]
     """
     words = {name: _words(name) for name in sorted(set(names))}
     groups = set()
@@ -42,10 +45,8 @@ def similar_names(names: Iterable[str]) -> list[tuple[str, ...]]:
             if split:
                 alike[key(split)].append(name)
         groups |= {tuple(group) for group in alike.values() if len(group) > 1}
-    groups |= {
-        (one, other) for one, other in _nearly_alike(words) if _slip(words[one], words[other])
-    }
-    return sorted(groups)
+    slips = {(one, other) for one, other in _nearly_alike(words) if _slip(words[one], words[other])}
+    return [*sorted(groups), *sorted(slips)]
 
 
 def _words(name: str) -> tuple[str, ...]:
