@@ -56,7 +56,7 @@ class Spectrum:
     units
         how many eigenvalues are 1: the number of closed classes.
     residual
-        the largest entry of |M R - R diag(values)|, |L M - diag(values) L| and |L R - I|.
+        the largest absolute entry of `M R - R diag(values)`, `L M - diag(values) L` and `L R - I`.
     limit_error
         bound on the errors of the entries of `limit`, but for rounding in the bound itself:
         the 1-norm of the group inverse of I - M times what the vectors of eigenvalue 1 miss
