@@ -164,8 +164,8 @@ class TestRefusals:
             found.limit()
 
     def test_steep_ladder(self):
-        """All 200 vectors are hidden by rounding, the one that matters is not."""
-        chain = ladder(200)
+        """All 120 vectors are hidden by rounding, the one that matters is not."""
+        chain = ladder(120)
         with pytest.raises(AccuracyError, match="independent eigenvectors"):
             spectrum(chain)
         found = spectrum(chain, k=1)
