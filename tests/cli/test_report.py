@@ -8,6 +8,8 @@ import time
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 ROOT = Path(__file__).resolve().parents[2]
 DEMO = ROOT / "data" / "demo_league.csv"
@@ -233,6 +235,16 @@ def test_bad_data_ends_with_3_and_leaves_the_old_sheet(run, tmp_path, season, to
     assert errors[0].startswith(f"Error: {told}")
     assert result.stdout == ""
     assert content(tmp_path) == {"ratings.csv": b"old"}
+
+
+@given(st.binary(max_size=100), st.booleans())
+@settings(max_examples=40)
+def test_any_bytes_end_with_0_or_3(run, tmp_path_factory, junk, below_a_header):
+    season = SMALL.encode() + junk if below_a_header else junk
+    folder = tmp_path_factory.getbasetemp() / "any_report"
+    result = run("report", "-", "--out", str(folder), stdin=season)
+    assert result.exit_code in (0, 3)
+    assert (result.exit_code == 0) == (result.stdout != "")
 
 
 def test_of_many_problems_the_first_twenty_are_shown(run, tmp_path):

@@ -19,6 +19,12 @@ def test_a_dash_is_standard_input(monkeypatch):
     assert content_of("-") == ("stdin", b"a\xffb")
 
 
+def test_a_closed_standard_input_is_told(monkeypatch):
+    monkeypatch.setattr(sys, "stdin", None)
+    with pytest.raises(DataError, match="stdin: is closed"):
+        content_of("-")
+
+
 @pytest.mark.parametrize(
     ("name", "told"),
     [
@@ -66,6 +72,7 @@ def test_the_warning_says_where_the_file_stops_being_utf8():
         (b"a,b\n1,\0\n", "r.csv:2: holds a NUL byte"),
         (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "r.csv:3: holds a NUL byte"),
         (b"a,b\n\x81\xff\n", "r.csv:2: is neither UTF-8 nor Windows-1252"),
+        (b"\xef\xbb\xbfa,b\n\xe9,1\n", "r.csv:1: is neither UTF-8 nor Windows-1252"),
         ("a,b\n".encode("utf-16"), "r.csv: is UTF-16 text"),
         (b"PK\x03\x04\x14\0", "r.csv: is a spreadsheet or a zip archive"),
         (b"\xd0\xcf\x11\xe0\xa1\xb1", "r.csv: is an old Excel workbook"),

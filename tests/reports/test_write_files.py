@@ -121,13 +121,15 @@ def test_other_threads_can_write(folder):
 
 def test_litter_of_a_killed_run_is_swept_but_not_what_may_be_in_use(folder):
     old, young = folder / ".a.csv.0123.tmp", folder / ".a.csv.4567.tmp"
-    for path in (old, young):
+    other, staged = folder / ".mine.tmp", folder.parent / ".sheet.89ab.tmp"
+    staged.mkdir()
+    for path in (old, young, other, staged / "a.csv"):
         path.write_bytes(b"half")
     long_ago = time.time() - LITTER_AGE - 60
-    os.utime(old, (long_ago, long_ago))
+    for path in (old, other, staged):
+        os.utime(path, (long_ago, long_ago))
     write_files(folder, NEW)
-    assert not old.exists()
-    assert young.exists()
+    assert [path.exists() for path in (old, young, other, staged)] == [False, True, True, False]
 
 
 WRITER = """

@@ -99,7 +99,7 @@ def report(
 
     scale = scale_of(scale_name)
     limits = RaceLimits(games, RACE_TO if games is None and race_to is None else race_to)
-    _say(f"Reading {results}")
+    _say(f"Reading {'standard input' if results == '-' else results}")
     file = read_results(results)
     for warning in file.warnings:
         _say(f"Warning: {warning}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import sys
 from pathlib import Path
 
@@ -21,6 +22,8 @@ MAGIC = {
 def content_of(path: str | Path) -> tuple[str, bytes]:
     """Return what to call the file, and its bytes."""
     if str(path) == "-":
+        if sys.stdin is None:
+            raise DataError(["stdin: is closed; name a file, or send one into the command"])
         return "stdin", sys.stdin.buffer.read()
     # A name that is not text must still print.
     source = str(path).encode("utf-8", "backslashreplace").decode()
@@ -50,7 +53,8 @@ def encoding_of(content: bytes, source: str) -> tuple[str, list[str]]:
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         try:
-            encoding = "cp1252"
+            # After the mark of UTF-8 a byte that is not UTF-8 is damage, no other encoding.
+            encoding = "ascii" if content.startswith(codecs.BOM_UTF8) else "cp1252"
             text = content.decode(encoding)
         except UnicodeDecodeError as also:
             line = content.count(b"\n", 0, also.start) + 1

@@ -12,20 +12,21 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import glob
 import os
 import secrets
 import shutil
 import signal
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from types import FrameType
 
 __all__ = ["write_files"]
 
 LITTER_AGE = 3600.0
-"""Seconds after which a temporary file is taken to be left over from a run that was killed."""
+"""Seconds after which a temporary name is taken to be left over from a run that was killed."""
 
 ENDINGS = [
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
@@ -63,6 +64,8 @@ def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
         # The temporary name that the system complains of would tell a person nothing.
         raise OSError(error.errno, error.strerror, str(folder)) from error
     _sync(folder)
+    _sweep(folder, files)
+    _sweep(folder.parent, [folder.name])
 
 
 def _write_new(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -95,7 +98,6 @@ def _write_into(folder: Path, files: Mapping[str, bytes]) -> None:
     finally:
         for temporary in staged:
             temporary.unlink(missing_ok=True)
-    _sweep(folder, files)
 
 
 def _temporary(place: Path) -> Path:
@@ -141,10 +143,14 @@ def _sync(folder: Path) -> None:
             os.close(handle)
 
 
-def _sweep(folder: Path, names: Mapping[str, bytes]) -> None:
-    """Remove temporary files that a killed run left, but none that may still be in use."""
+def _sweep(folder: Path, names: Iterable[str]) -> None:
+    """Remove what killed runs left under temporary names, but nothing that may be in use."""
     for name in names:
-        for path in folder.glob(f".{name}.*.tmp"):
+        for path in folder.glob(f".{glob.escape(name)}.*.tmp"):
             with contextlib.suppress(OSError):
-                if time.time() - path.stat().st_mtime > LITTER_AGE:
+                if time.time() - path.stat().st_mtime < LITTER_AGE:
+                    continue
+                if path.is_dir():
+                    shutil.rmtree(path)
+                else:
                     path.unlink()
