@@ -1,0 +1,109 @@
+"""Ratings of 5,000 players from a million games, beside a bare Newton-CG on the games.
+
+Two leagues: well mixed, and in divisions of a hundred with a thousand games across.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+from scipy.special import expit
+
+from evenbreak.ratings import Results, fit
+
+Beside = Callable[..., float]
+
+PLAYERS, GAMES = 5_000, 1_000_000
+TAU = 1.0  # the prior precision, in log-odds
+
+
+@cache
+def league(kind: str) -> Results:
+    """Return a million rows of one game each, by skills drawn with spread 0.7."""
+    rng = np.random.default_rng(2026)
+    size = PLAYERS if kind == "mixed" else 100
+    a = rng.integers(0, PLAYERS, GAMES)
+    b = a - a % size + (a % size + rng.integers(1, size, GAMES)) % size
+    if kind == "divisions":
+        across = rng.integers(0, GAMES, 1_000)
+        b[across] = (a[across] + rng.integers(1, PLAYERS, len(across))) % PLAYERS
+    skill = rng.normal(0.0, 0.7, PLAYERS)
+    won = (rng.random(GAMES) < expit(skill[a] - skill[b])).astype(int)
+    return Results(tuple(f"p{k:04d}" for k in range(PLAYERS)), a, b, won, 1 - won)
+
+
+def bare_fit(winner: np.ndarray, loser: np.ndarray) -> np.ndarray:
+    """Return the mode, game by game: what a plain page of scipy does."""
+
+    def cost(skill: np.ndarray) -> float:
+        lost_by = np.logaddexp(0.0, skill[loser] - skill[winner])
+        return float(lost_by.sum() + 0.5 * TAU * skill @ skill)
+
+    def gradient(skill: np.ndarray) -> np.ndarray:
+        miss = expit(skill[loser] - skill[winner])
+        return np.bincount(loser, miss, PLAYERS) - np.bincount(winner, miss, PLAYERS) + TAU * skill
+
+    def hessian_times(skill: np.ndarray, step: np.ndarray) -> np.ndarray:
+        difference = skill[winner] - skill[loser]
+        pull = expit(difference) * expit(-difference) * (step[winner] - step[loser])
+        return np.bincount(winner, pull, PLAYERS) - np.bincount(loser, pull, PLAYERS) + TAU * step
+
+    start = np.zeros(PLAYERS)
+    options: dict[str, Any] = {"xtol": 1e-9}
+    return minimize(
+        cost, start, method="Newton-CG", jac=gradient, hessp=hessian_times, options=options
+    ).x
+
+
+@pytest.mark.parametrize("kind", ["mixed", "divisions"])
+def test_fit(beside: Beside, kind: str) -> None:
+    results = league(kind)
+    a_won = results.score_a > 0
+    winner = np.where(a_won, results.player_a, results.player_b)
+    loser = np.where(a_won, results.player_b, results.player_a)
+    ratings = fit(results)
+    assert ratings.gradient <= 1e-8
+    skill = ratings.scale.log_odds(ratings.rating - ratings.anchor)
+    assert np.abs(skill - bare_fit(winner, loser)).max() < 1e-6
+    beside(
+        f"fit, {kind} / bare Newton-CG on the games",
+        lambda: fit(results),
+        lambda: bare_fit(winner, loser),
+        rounds=3,
+        note=f"gradient {ratings.gradient:.1e}",
+    )
+
+
+@pytest.mark.parametrize("kind", ["mixed", "divisions"])
+def test_standard_errors(beside: Beside, kind: str) -> None:
+    """The bare side is the whole dense inverse, which only a small league can wait for."""
+    ratings = fit(league(kind))
+    skill = ratings.scale.log_odds(ratings.rating - ratings.anchor)
+
+    def bare_errors() -> np.ndarray:
+        difference = skill[league(kind).player_a] - skill[league(kind).player_b]
+        weight = expit(difference) * expit(-difference)
+        pair = league(kind).player_a * PLAYERS + league(kind).player_b
+        hessian = -np.bincount(pair, weight, PLAYERS**2).reshape(PLAYERS, PLAYERS)
+        hessian += hessian.T
+        np.fill_diagonal(hessian, TAU - hessian.sum(axis=0))
+        return np.sqrt(np.diagonal(np.linalg.inv(hessian)))
+
+    def our_errors() -> np.ndarray:
+        ratings.__dict__.pop("standard_error", None)  # it is kept once it was asked for
+        return ratings.standard_error
+
+    worst = np.abs(ratings.scale.log_odds(our_errors()) / bare_errors() - 1.0).max()
+    assert worst < 1e-4
+    beside(
+        f"standard errors, {kind} / bare dense inverse",
+        our_errors,
+        bare_errors,
+        rounds=1,
+        note=f"relative error {worst:.1e}",
+    )
