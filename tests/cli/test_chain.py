@@ -61,8 +61,11 @@ def test_json_keys(run):
         "period",
         "mean_steps",
         "residual",
+        "steps",
+        "density",
         "schema_version",
     }
+    assert (told["steps"], told["density"]) == (None, None)
     assert told["states"]["S2"] == {"class": told["states"]["S1"]["class"], "kind": "transient"}
     assert told["states"]["W"]["kind"] == "absorbing"
     assert (told["period"], told["residual"], told["schema_version"]) == (1, None, 1)

@@ -82,7 +82,8 @@ def _answer(built: Chain, limit: Limit, steps: int | None) -> dict[str, Any]:
 
     states, structure = built.states, built.structure
     classes = zip(structure.label.tolist(), structure.kinds, strict=True)
-    answer = {
+    density = None if steps is None else propagate(built, steps=steps).tolist()
+    return {
         "start": built.start,
         "limit": limit.to_dict(),
         "states": {
@@ -92,11 +93,10 @@ def _answer(built: Chain, limit: Limit, steps: int | None) -> dict[str, Any]:
         "period": limit.period,
         "mean_steps": steps_to_absorption(built).mean,
         "residual": limit.residual,
+        "steps": steps,
+        "density": density and dict(zip(states, density, strict=True)),
+        "schema_version": SCHEMA_VERSION,
     }
-    if steps is not None:
-        density = propagate(built, steps=steps).tolist()
-        answer |= {"steps": steps, "density": dict(zip(states, density, strict=True))}
-    return {**answer, "schema_version": SCHEMA_VERSION}
 
 
 def _print_csv(states: list[str], chances: list[float]) -> None:

@@ -29,7 +29,7 @@ Examples:
     "--games",
     metavar="LO..HI",
     callback=span,
-    help="The longest that the match can last, in games.",
+    help="The most games that the match can take are from LO to HI.",
 )
 @click.option(
     "--race-to",
