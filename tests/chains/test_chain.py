@@ -1,0 +1,71 @@
+"""The chain: its states, and what a start may be."""
+
+import numpy as np
+import pytest
+from scipy.sparse import csc_array
+
+from evenbreak.chains import Chain
+from evenbreak.errors import ChainError
+
+
+@pytest.fixture
+def chain() -> Chain:
+    return Chain(("a", "b", "c"), csc_array([[0.5, 0, 0], [0.25, 1, 0], [0.25, 0, 1.0]]), "a")
+
+
+def test_a_start_is_a_state_a_mapping_an_array_or_the_chains_own(chain):
+    assert chain.density().tolist() == [1, 0, 0]
+    assert chain.density("c").tolist() == [0, 0, 1]
+    assert chain.density({"a": 0.25, "b": 0.75}).tolist() == [0.25, 0.75, 0]
+    given = np.array([0.5, 0.0, 0.5])
+    found = chain.density(given)
+    found[0] = 9.0
+    assert given[0] == 0.5, "the caller's array is not shared"
+
+
+@pytest.mark.parametrize(
+    ("start", "words"),
+    [
+        ("d", "state 'd' is not in the chain; its states begin 'a', 'b', 'c'"),
+        (["a"], "not in the chain"),
+        ({"a": 0.5}, "sums to 0.5"),
+        ({"a": 1.5, "b": -0.5}, "probabilities that sum to 1"),
+        ({"x": 1.0}, "'x' is not in the chain"),
+        (np.array([1.0, 0.0]), "give (3,)"),
+        (np.array([np.nan, 0.0, 1.0]), "sums to nan"),
+    ],
+)
+def test_what_is_no_start_is_refused(chain, start, words):
+    with pytest.raises(ChainError) as caught:
+        chain.density(start)
+    assert words in str(caught.value)
+
+
+def test_a_chain_without_a_start_asks_for_one():
+    with pytest.raises(ChainError, match="give a start state"):
+        Chain(range(1), csc_array([[1.0]])).density()
+
+
+def test_states_in_a_string_are_letters_not_substrings():
+    chain = Chain("ab", csc_array(np.eye(2)))
+    with pytest.raises(ChainError):
+        chain.density("ab")
+    assert chain.start_index("b") == 1
+
+
+def test_a_state_is_found_before_and_after_the_dictionary_is_made(chain):
+    assert chain.start_index("c") == 2
+    assert chain.index("c") == 2
+    assert chain.start_index("c") == 2
+    assert chain.start_index({"c": 1.0}) is None
+
+
+def test_arcs_leave_out_loops_and_stored_zeros_and_sum_duplicates():
+    entries, rows, indptr = [0.5, 0.5, 1.0, 0.0, 1.0], [0, 1, 1, 0, 2], [0, 2, 3, 5]
+    matrix = csc_array((np.array(entries), np.array(rows), np.array(indptr)), (3, 3))
+    arcs = Chain(range(3), matrix).arcs
+    assert (arcs.sources.tolist(), arcs.targets.tolist()) == ([0], [1])
+    assert arcs.chances.tolist() == [0.5]
+    assert arcs.outflow.tolist() == [0.5, 0, 0]
+    raw = csc_array((np.array([0.25, 0.25, 0.5]), np.array([1, 1, 0]), np.array([0, 3, 3])), (2, 2))
+    assert Chain(range(2), raw).arcs.chances.tolist() == [0.5]
