@@ -46,7 +46,7 @@ def random_season(rng, players, matches, race=7):
     return Results(names, a, b, rng.integers(0, race + 1, matches), rng.integers(0, race, matches))
 
 
-@pytest.mark.parametrize("prior_sd", [0.2, 1.0, 4.0])
+@pytest.mark.parametrize("prior_sd", [0.02, 1.0, 4.0, 100.0])
 @pytest.mark.parametrize(("players", "matches"), [(2, 1), (5, 4), (12, 60), (30, 31)])
 def test_ratings_and_errors_equal_the_slow_way(players, matches, prior_sd):
     results = random_season(np.random.default_rng(players), players, matches)
@@ -114,8 +114,8 @@ def test_perfect_records_stay_finite_and_a_wider_prior_lets_them_go_further():
 
 def test_a_narrow_prior_holds_everybody_at_the_anchor():
     results = random_season(np.random.default_rng(2), 10, 40)
-    ratings = fit(results, prior_sd=1e-4, scale="npl")
-    assert np.abs(ratings.rating - 80).max() < 1e-3
+    ratings = fit(results, prior_sd=1e-3, scale="npl")
+    assert np.abs(ratings.rating - 80).max() < 0.05
 
 
 def test_forfeits_and_empty_rows_change_nothing_but_their_counts():
@@ -198,7 +198,7 @@ def test_standard_errors_cover_as_often_as_they_say():
     assert np.mean(z < 2) == pytest.approx(0.954, abs=0.015)
 
 
-@pytest.mark.parametrize("prior_sd", [0, -1, math.nan, math.inf, "wide"])
+@pytest.mark.parametrize("prior_sd", [0, -1, 1e-4, 101, math.nan, math.inf, "wide"])
 def test_a_prior_needs_a_width(prior_sd):
     with pytest.raises(InputError, match="prior_sd"):
         fit(Results.from_names(["A"], ["B"], [7], [5]), prior_sd=prior_sd)

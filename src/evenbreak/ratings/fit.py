@@ -136,7 +136,7 @@ def fit(
     Raises
     ------
     InputError
-        if prior_sd is not above zero, the anchor is not finite, or a score is negative or a
+        if prior_sd is not in 0.001 to 100, the anchor is not finite, or a score is negative or a
         player meets himself (see `find_problems`).
     AccuracyError
         if the mode is not found to rounding.
@@ -153,7 +153,7 @@ def fit(
     >>> ratings.rating.round(1), ratings.standard_error.round(1)
     (array([559.3, 490.8, 449.9]), array([93. , 91.8, 92.5]))
     """
-    prior_sd = _positive(prior_sd)
+    prior_sd = _checked_sd(prior_sd)
     scale = scale_of(scale)
     anchor = scale.centre if anchor is None else float(anchor)
     if not math.isfinite(anchor):
@@ -187,13 +187,14 @@ def fit(
     )
 
 
-def _positive(prior_sd: Any) -> float:
+def _checked_sd(prior_sd: Any) -> float:
     try:
         value = float(prior_sd)
     except (TypeError, ValueError):
         value = math.nan
-    if not (0.0 < value < math.inf):
-        raise InputError(f"prior_sd is {prior_sd!r}; give a number above 0, in log-odds")
+    # Beyond these the data, or the prior, are nothing but rounding to the other.
+    if not 1e-3 <= value <= 100.0:
+        raise InputError(f"prior_sd is {prior_sd!r}; give a number from 0.001 to 100, in log-odds")
     return value
 
 

@@ -105,8 +105,8 @@ def find_mode(pairs: PairCounts, precision: float) -> Mode:
     Raises
     ------
     AccuracyError
-        if the gradient's largest entry does not come down to 1e-8 (or to the rounding of
-        the counts, where these exceed 10^7 games a player).
+        if the gradient's largest entry does not come down to 1e-8 min(1, τ), or to the
+        rounding of the counts if that is more.
 
     Notes
     -----
@@ -115,7 +115,9 @@ def find_mode(pairs: PairCounts, precision: float) -> Mode:
     """
     # The prior weighs as much as 4τ games between equals: a start near the mode.
     skill = np.log((pairs.won + 2.0 * precision) / (pairs.lost + 2.0 * precision))
-    tolerance = max(GRADIENT_TOLERANCE, 1e-15 * float((pairs.won + pairs.lost).max(initial=0)))
+    # H >= τI, so a gradient g leaves the skills within |g|/τ of the mode.
+    rounding = 1e-14 * float((pairs.won + pairs.lost).max(initial=0))
+    tolerance = max(GRADIENT_TOLERANCE * min(1.0, precision), rounding)
     games = pairs.games.data
     for iteration in range(_MOST_STEPS):
         p_low = expit(skill[pairs.low] - skill[pairs.high])
