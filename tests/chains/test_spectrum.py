@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from evenbreak.chains import chain_from_arrays, chain_of, limit_matrix, stochastic_limit
 from evenbreak.chains.spectrum import spectrum
-from evenbreak.errors import AccuracyError, InputError
+from evenbreak.errors import AccuracyError, ChainError, InputError
 from evenbreak.games import (
     Ahead,
     Drill,
@@ -61,7 +61,7 @@ class TestKnown:
         assert found.gap == pytest.approx(0.6, rel=1e-14)
 
     def test_one_ball(self):
-        """P5.22: the eigenvalues are 1, 1 and +-sqrt(q1 q2)."""
+        """The text before P5.23: the eigenvalues are 1, 1 and +-sqrt(q1 q2)."""
         chain = chain_of(OneBall(0.3, 0.6))
         found = spectrum(chain)
         root = np.sqrt(0.7 * 0.4)
@@ -171,6 +171,10 @@ class TestRefusals:
         found = spectrum(chain, k=1)
         error = np.abs(found.limit() - stochastic_limit(chain).probability).max()
         assert error <= found.limit_error < 1e-10
+
+    def test_too_many_vectors(self):
+        with pytest.raises(ChainError, match="400 pairs of vectors over 80001 states"):
+            spectrum(chain_of(Race(200, 200, Rack(0.5, 0.5), breaks=winner_breaks)), k=400)
 
     def test_k(self):
         chain = chain_of(OneBall(0.3, 0.6))

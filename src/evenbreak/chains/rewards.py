@@ -55,6 +55,9 @@ def long_run_reward(
     ChainError
         if a state or arc is unknown, a reward is not a finite number, or the start is not
         one.
+    AccuracyError
+        if the limit cannot be vouched for. (Of a large class that only a sparse
+        factorisation can solve, `stochastic_limit` tells the residual.)
 
     Notes
     -----
@@ -91,6 +94,8 @@ def total_reward(
     ------
     ChainError
         as `long_run_reward`.
+    AccuracyError
+        if the expected visits are larger than any float, or cannot be vouched for.
 
     Notes
     -----

@@ -70,6 +70,7 @@ class Sensitivity:
     chain: Chain
     value: float
     matrix: csc_array
+    residual: float | None
     _slopes: _Slopes = field(repr=False)
 
     def __getitem__(self, arc: tuple[Hashable, Hashable]) -> float:
@@ -151,6 +152,8 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     ------
     ChainError
         if a state is unknown or a weight is not finite.
+    AccuracyError
+        if the limit, or a relative value, cannot be vouched for.
 
     Notes
     -----
@@ -166,16 +169,22 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     c = _weights(chain, weights)
     structure, part = chain.structure, chain.transient
     recurrent = structure.recurrent
-    limit = stochastic_limit(chain, start).probability
+    limit = stochastic_limit(chain, start)
 
     mean = np.bincount(structure.label, stationary_laws(chain) * c, structure.count)
     ends = np.where(recurrent, mean[structure.label], 0.0)
     ends[part.states] = _signed_values(part, (chain.arcs.matrix().T @ ends)[part.states])
-    forward = limit.copy()
+    forward = limit.probability.copy()
     forward[part.states] = part.visits(chain.density(start)[part.states])
-    relative = _relative_values(chain, np.where(recurrent, c - ends, 0.0))
+    relative, missed = _relative_values(chain, np.where(recurrent, c - ends, 0.0))
     slopes = _Slopes(recurrent, forward, ends, relative)
-    return Sensitivity(chain, float(limit @ c), _in_proportion(chain, slopes), slopes)
+    return Sensitivity(
+        chain=chain,
+        value=float(limit.probability @ c),
+        matrix=_in_proportion(chain, slopes),
+        residual=max(filter(None, (limit.residual, part.residual, missed)), default=None),
+        _slopes=slopes,
+    )
 
 
 def _weights(chain: Chain, weights: Any) -> NDArray[np.float64]:
@@ -199,15 +208,21 @@ def _signed_values(part: TransientPart, r: NDArray[np.float64]) -> NDArray[np.fl
     return np.asarray(part.values(np.maximum(r, 0.0)) - part.values(np.maximum(-r, 0.0)))
 
 
-def _relative_values(chain: Chain, surplus: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return h with (I - M^T) h = surplus on each closed class, 0 in its first state."""
+def _relative_values(
+    chain: Chain, surplus: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], float | None]:
+    """Return h with (I - M^T) h = surplus on closed classes, 0 in their first states.
+
+    And the residual of the solve, as `TransientPart.residual`.
+    """
     structure = chain.structure
     rest = structure.recurrent.copy()
     rest[structure.order[structure.offsets[:-1][structure.closed]]] = False
     states = np.flatnonzero(rest)
     h = np.zeros(len(chain))
-    h[states] = _signed_values(TransientPart(chain.arcs, states), surplus[states])
-    return h
+    part = TransientPart(chain.arcs, states)
+    h[states] = _signed_values(part, surplus[states])
+    return h, part.residual
 
 
 def _in_proportion(chain: Chain, slopes: _Slopes) -> csc_array:

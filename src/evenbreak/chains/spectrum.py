@@ -22,7 +22,7 @@ from evenbreak.chains.eigenpairs import DENSE, TOLERANCE, UnitPairs, leading_pai
 from evenbreak.chains.mixing import mixing_time, spectral_gap
 from evenbreak.chains.steps import evened
 from evenbreak.checks import whole
-from evenbreak.errors import AccuracyError, InputError
+from evenbreak.errors import AccuracyError, ChainError, InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Spectrum", "spectrum"]
 
+MOST_ENTRIES = 20_000_000
+"""More entries of vectors than this (k times n) are refused: they fill the memory."""
 LEADING = 6
 """Beyond `DENSE` this many eigenvalues are found unless more repeat at 1."""
 EPS = float(np.finfo(float).eps)
@@ -120,6 +122,9 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     ------
     InputError
         if k is too small or too large.
+    ChainError
+        if the vectors would have more than 20 million entries, k times n; a race with many
+        scores to end at has an eigenvalue 1 for each.
     AccuracyError
         if the vectors asked for do not exist, or only barely: the matrix is defective
         (every race is: its states empty after finitely many racks, so eigenvalue 0 has
@@ -145,6 +150,11 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     k = whole(k, "k", at_least=units)
     if k > n:
         raise InputError(f"k is {k}; the chain has {n} states, give {n} or fewer")
+    if k * n > MOST_ENTRIES:
+        raise ChainError(
+            f"{k} pairs of vectors over {n} states do not fit in memory; ask for fewer, or use "
+            "stochastic_limit"
+        )
     pairs = UnitPairs(chain)
     values, left, right = leading_pairs(chain, pairs, k)
     M = evened(chain)

@@ -112,12 +112,17 @@ class Passage:
     Parameters
     ----------
     p_reached, p_never
-        the chances that the target is reached and that it never is; `p_never` is exactly 0
-        where it must be reached.
+        the chances that the target is reached and that it never is.
     mean, variance
         of the number of steps; None unless the target must be reached.
     mean_if_reached, variance_if_reached
         of the number of steps, given that the target is reached; None where it cannot be.
+    certain
+        whether the target must be reached, by the graph: then `p_never` is exactly 0.
+    residual
+        None where these are right to about machine precision; else, after a large class
+        that only a sparse factorisation can solve, how far its equations are missed (see
+        `TransientPart.residual`).
 
     Notes
     -----
@@ -129,7 +134,8 @@ class Passage:
     p_never: float
     mean_if_reached: float | None
     variance_if_reached: float | None
-    certain: bool = field(repr=False)
+    certain: bool
+    residual: float | None
     _at_once: float = field(repr=False)
     _v: NDArray[np.float64] = field(repr=False)
     _inside: csr_array = field(repr=False)
@@ -224,6 +230,8 @@ def steps_to_absorption(
         if `into` is neither.
     ChainError
         if the start is not one.
+    AccuracyError
+        if a mean is larger than any float, or cannot be vouched for.
 
     Notes
     -----
@@ -258,6 +266,8 @@ def first_passage(chain: Chain, start: Any, target: Any) -> Passage:
     ------
     ChainError
         if a state is unknown, or no target is given.
+    AccuracyError
+        if a mean is larger than any float, or cannot be vouched for.
 
     >>> from evenbreak.chains import chain_of
     >>> walk = chain_of([(1, 0, 0.25), (1, 2, 0.75), (2, 1, 1.0)])
@@ -308,6 +318,7 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
         mean_if_reached=mean,
         variance_if_reached=variance,
         certain=certain,
+        residual=part.residual,
         _at_once=float(v[ends].sum()),
         _v=v[states],
         _inside=csr_array(M[:, states][states]),
