@@ -111,12 +111,12 @@ def _mixture(parts: list[Outcome]) -> Outcome:
 
 
 def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outcomes:
-    start = (*match.fold(*score), breaker)
-    units = unit_outcomes(match, lengths=lengths)
     winner = match.decided(*score)
     if winner is not None:
         return Outcomes({(winner, breaker): Outcome(1.0, 0.0, 0.0)}, 0.0)
-    arcs, results = _score_chain(match, start, units)
+    start = (*match.fold(*score), breaker)
+    units = unit_outcomes(match, lengths=lengths)
+    arcs = _score_chain(match, start, units)
     chain = Elimination(
         {
             state: {target: outcome.chance for target, outcome in row.items()}
@@ -125,9 +125,8 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
         }
     )
     by_result = {}
-    for result in sorted(set(results.values())):
-        ends: dict[Hashable, Any] = {end: 1.0 for end, known in results.items() if known == result}
-        reach = chain.solve(ends)
+    for result in sorted({target for row in arcs.values() for target in row if len(target) == 2}):
+        reach = chain.solve({result: 1.0})
         by_result[result] = (
             _with_length(chain, arcs, reach, start) if lengths else Outcome(reach[start], 0.0, 0.0)
         )
@@ -135,30 +134,32 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
 
 
 _State = tuple[int, int, int]
-_Arcs = dict[_State, dict[_State, Outcome]]
+_Result = tuple[int, int]
+_Arcs = dict[_State, dict[_State | _Result, Outcome]]
 
 
-def _score_chain(
-    match: Match, start: _State, units: dict[int, Outcomes]
-) -> tuple[_Arcs, dict[_State, tuple[int, int]]]:
-    """Return the arcs between (a, b, breaker) and the result of each final state."""
+def _score_chain(match: Match, start: _State, units: dict[int, Outcomes]) -> _Arcs:
+    """Return the arcs from each (a, b, breaker) to the next one, or to (winner, next breaker).
+
+    All scores with one result are one final state: eliminated rows then stay short.
+    """
     arcs: _Arcs = {}
-    results: dict[_State, tuple[int, int]] = {}
     queue = [start]
     for state in queue:
-        if state in arcs or state in results:
+        if state in arcs:
             continue
         a, b, breaker = state
-        winner = match.decided(a, b)
-        if winner is not None:
-            results[state] = (winner, breaker)
-            continue
-        arcs[state] = {
-            (*match.fold(a + (won == 1), b + (won == 2)), after): outcome
-            for (won, after), outcome in units[breaker].by_result.items()
-        }
-        queue.extend(arcs[state])
-    return arcs, results
+        row: dict[_State | _Result, Outcome] = {}
+        for (won, after), outcome in units[breaker].by_result.items():
+            score = match.fold(a + (won == 1), b + (won == 2))
+            winner = match.decided(*score)
+            if winner is None:
+                row[*score, after] = outcome
+                queue.append((*score, after))
+            else:
+                row[winner, after] = outcome
+        arcs[state] = row
+    return arcs
 
 
 def _with_length(
@@ -177,7 +178,7 @@ def _with_length(
         )
 
     weighted = chain.solve(reward=mean_reward)
-    mean = {state: ratio(weighted[state], reach[state]) for state in arcs}
+    mean: dict[Any, Any] = {state: ratio(weighted[state], reach[state]) for state in arcs}
 
     def variance_reward(state: Any) -> Any:
         return sum(

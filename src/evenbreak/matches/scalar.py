@@ -33,7 +33,8 @@ class Odds:
         by rack; None if the match may never end.
     games_p50, games_p90
         the smallest number of racks within which the match ends with chance .5, .9;
-        None if it never reaches that chance.
+        None if it never reaches that chance, or only after more than 100,000 racks of a
+        match with more than 1,000 states.
     p_hill_hill
         P(the last possible rack decides); None where no rack is the last possible one
         (n-ahead, win by 2 or more) and in sets.
@@ -140,14 +141,12 @@ def _shutouts(match: Match) -> tuple[float | None, float | None]:
 
 def _quantiles(match: Match, ends: float, levels: tuple[float, float]) -> list[int | None]:
     """Return the quantiles of the length; `ends` is the chance that the match ends at all."""
-    from evenbreak.matches.slow_ends import MOST_STATES, quantiles_by_doubling
-
     wanted = [q for q in levels if q <= ends * (1.0 + _ROUNDING)]
     walk = _Walk(match)
     while wanted and walk.ended < wanted[-1] * (1.0 + _ROUNDING) and walk.mass:
         walk.play_a_rack()
-        if walk.steps > _PATIENCE and len(walk.moves) <= MOST_STATES:
-            found: list[int | None] = list(quantiles_by_doubling(walk.moves, match.start, wanted))
+        if walk.steps > _PATIENCE:
+            found = _slow_quantiles(match, walk.moves, wanted)
             return found + [None] * (len(levels) - len(found))
     beyond = max(0.0, 1.0 - walk.ended)
     return [quantile_of(walk.chances, q, beyond=beyond) if q in wanted else None for q in levels]
@@ -156,12 +155,26 @@ def _quantiles(match: Match, ends: float, levels: tuple[float, float]) -> list[i
 _ROUNDING = 1e-9
 _PATIENCE = 200_000
 
+_Moves = dict[Any, list[tuple[Any, float]]]
+
+
+def _slow_quantiles(match: Match, moves: _Moves, levels: list[float]) -> list[int | None]:
+    """Return the quantiles of a match that is too long for plain numbers, by way of numpy."""
+    from evenbreak.matches.length import match_length
+    from evenbreak.matches.slow_ends import MOST_STATES, quantiles_by_doubling
+
+    if len(moves) <= MOST_STATES:
+        return list(quantiles_by_doubling(moves, match.start, levels))
+    length = match_length(match, tail=0.5 * (1.0 - levels[-1]))
+    reached = 1.0 - length.p_never_ends - length.tail_mass
+    return [length.quantile(q) if q <= reached else None for q in levels]
+
 
 class _Walk:
     """Play of a match rack by rack, all its courses at once."""
 
     def __init__(self, match: Match) -> None:
-        self.moves = _all_moves(match)
+        self.moves: _Moves = _all_moves(match)
         self.mass: dict[Any, float] = {}
         self.chances: list[float] = []
         self.ended = 0.0
@@ -184,8 +197,8 @@ class _Walk:
         self.ended += over
 
 
-def _all_moves(match: Match) -> dict[Any, list[tuple[Any, float]]]:
-    moves: dict[Any, list[tuple[Any, float]]] = {}
+def _all_moves(match: Match) -> _Moves:
+    moves: _Moves = {}
     queue = [match.start]
     for state in queue:
         if state not in moves:
