@@ -66,13 +66,13 @@ def test_fit(beside: Beside, kind: str) -> None:
     a_won = results.score_a > 0
     winner = np.where(a_won, results.player_a, results.player_b)
     loser = np.where(a_won, results.player_b, results.player_a)
-    ratings = fit(results)
+    ratings = fit(results, prior_sd=TAU**-0.5)
     assert ratings.gradient <= 1e-8
     skill = ratings.scale.log_odds(ratings.rating - ratings.anchor)
     assert np.abs(skill - bare_fit(winner, loser)).max() < 1e-6
     beside(
         f"fit, {kind} / bare Newton-CG on the games",
-        lambda: fit(results),
+        lambda: fit(results, prior_sd=TAU**-0.5),
         lambda: bare_fit(winner, loser),
         rounds=3,
         note=f"gradient {ratings.gradient:.1e}",
@@ -82,7 +82,7 @@ def test_fit(beside: Beside, kind: str) -> None:
 @pytest.mark.parametrize("kind", ["mixed", "divisions"])
 def test_standard_errors(beside: Beside, kind: str) -> None:
     """The bare side is the whole dense inverse, which only a small league can wait for."""
-    ratings = fit(league(kind))
+    ratings = fit(league(kind), prior_sd=TAU**-0.5)
     skill = ratings.scale.log_odds(ratings.rating - ratings.anchor)
 
     def bare_errors() -> np.ndarray:

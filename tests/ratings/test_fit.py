@@ -72,6 +72,11 @@ def test_two_players_solve_the_equation_of_the_mode(won, lost):
     assert ratings.standard_error == pytest.approx([error, error], rel=1e-10)
 
 
+def test_the_default_prior_is_one_doubling_of_the_odds_wide():
+    ratings = fit(Results.from_names(["A"], ["B"], [0], [0]), scale="fargo")
+    assert ratings.standard_error == pytest.approx([100, 100])
+
+
 def test_the_scale_only_rescales():
     results = random_season(np.random.default_rng(1), 20, 50)
     npl, fargo = fit(results, scale="npl", anchor=0), fit(results, scale="fargo", anchor=0)
@@ -93,7 +98,7 @@ def test_every_component_has_the_anchor_as_its_mean():
     for number in (1, 2, 3, 4):
         assert ratings.rating[ratings.component == number].mean() == pytest.approx(70)
     assert ratings.games[ratings.players.index("F")] == 0
-    assert ratings.standard_error[ratings.players.index("F")] == pytest.approx(30 / math.log(2))
+    assert ratings.standard_error[ratings.players.index("F")] == pytest.approx(30)
 
 
 def test_players_of_different_components_are_not_compared():
@@ -243,7 +248,7 @@ def test_a_real_season():
         [int(row["score_b"]) for row in rows],
         forfeit=[row["forfeit"] == "yes" for row in rows],
     )
-    ratings = fit(results, scale="fargo")
+    ratings = fit(results, scale="fargo", prior_sd=1.0)
     assert (ratings.matches, ratings.forfeits, len(ratings.players)) == (2412, 49, 335)
     assert ratings.gradient <= 1e-8
     skill, sd = slow_fit(results.played().results, 1.0)

@@ -19,13 +19,13 @@ from evenbreak.ratings.scale import Scale, scale_of
 
 __all__ = ["PRIOR_SD", "Ratings", "fit"]
 
-PRIOR_SD = 1.0
-"""Default standard deviation of the prior, in natural log-odds.
+PRIOR_SD = math.log(2.0)
+"""Default standard deviation of the prior, in natural log-odds: one doubling of the odds.
 
-Before anything is known, two players then differ by 1.4 on the average square, a game
-that the better one wins four times in five: about the spread of a mixed league (the NPL's
-beginners to professionals, 20 to 130 points, lie within +-1.3). The prior weighs as much
-as four games against an equal, so after a season the results speak.
+That is 30 points in the NPL and 100 of Fargo's. The NPL's own range, from beginners at 20
+to professionals at 130, is four of them wide; the marginal likelihood of a season of
+snooker professionals, who are nearer to each other, is highest at 0.5. It weighs as much
+as eight games against an equal opponent, so after a few matches the results speak.
 """
 
 
@@ -151,7 +151,7 @@ def fit(
     >>> season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
     >>> ratings = fit(season, scale="fargo")
     >>> ratings.rating.round(1), ratings.standard_error.round(1)
-    (array([559.3, 490.8, 449.9]), array([93. , 91.8, 92.5]))
+    (array([552.3, 492. , 455.8]), array([69.4, 68.3, 68.9]))
     """
     prior_sd = _checked_sd(prior_sd)
     scale = scale_of(scale)
