@@ -40,7 +40,7 @@ class Elimination:
     ----------
     rows
         for each state that is not final, the probability of each next state; states
-        without a row are final.
+        without a row are final. The first row is that of the state in which play starts.
 
     >>> walk = Elimination({0: {1: 0.5, -1: 0.5}, 1: {2: 0.5, 0: 0.5}})
     >>> round(walk.solve({2: 1.0})[0], 12)
@@ -48,7 +48,7 @@ class Elimination:
     """
 
     def __init__(self, rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> None:
-        self.order = _children_first(rows)
+        self.order = _farthest_first(rows)
         self._before: dict[Hashable, dict[Hashable, Any]] = {}
         self._after: dict[Hashable, dict[Hashable, Any]] = {}
         self._out: dict[Hashable, Any] = {}
@@ -128,21 +128,17 @@ def _keep_positive(row: dict[Hashable, Any]) -> Any:
     return out
 
 
-def _children_first(rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> list[Hashable]:
-    """Return the states so that, cycles apart, each comes after all it leads to."""
-    order: list[Hashable] = []
-    seen: set[Hashable] = set()
-    for root in rows:
-        stack = [] if root in seen else [(root, iter(rows[root]))]
-        seen.add(root)
-        while stack:
-            state, targets = stack[-1]
-            for target in targets:
-                if target in rows and target not in seen:
-                    seen.add(target)
-                    stack.append((target, iter(rows[target])))
-                    break
-            else:
-                order.append(state)
-                stack.pop()
-    return order
+def _farthest_first(rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> list[Hashable]:
+    """Return the states by the steps that they are away from the first one, most steps first.
+
+    Scores then come after all scores that they lead to, and leads from the two ends of
+    the line inwards, so that elimination hardly lengthens a row.
+    """
+    order = list(rows)[:1]
+    seen = set(order)
+    for state in order:
+        for target in rows[state]:
+            if target in rows and target not in seen:
+                seen.add(target)
+                order.append(target)
+    return order[::-1] + [state for state in rows if state not in seen]
