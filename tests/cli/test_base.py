@@ -81,6 +81,11 @@ def test_wrong_use_ends_with_2_on_stderr(run, words):
         (OSError(errno.ENOSPC, "No space left", "out.csv"), 1, "Error: out.csv: No space left\n"),
         (OSError(errno.EIO, "Input/output error"), 1, "Error: Input/output error\n"),
         (OSError("odd"), 1, "Error: odd\n"),
+        (
+            OverflowError(34, "Numerical result out of range"),
+            1,
+            "Error: the answer is beyond the largest number that a computer holds\n",
+        ),
         (MemoryError(), 1, "Error: not enough memory for this question; ask a smaller one\n"),
     ],
 )

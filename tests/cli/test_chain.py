@@ -100,6 +100,14 @@ def test_mean_steps_is_null_where_absorption_may_never_come(run):
     assert answer(run, arcs, "--start", "W")["mean_steps"] == 0
 
 
+def test_a_mean_beyond_all_floats_is_null_and_the_limit_is_still_told(run):
+    arcs = HEADER + "A,B,1e-300\nA,A,1\nB,C,1e-300\nB,A,1\n"
+    result = run("chain", "-", "--json", stdin=arcs)
+    told = json.loads(result.stdout)
+    assert (told["limit"], told["mean_steps"]) == ({"A": 0.0, "B": 0.0, "C": 1.0}, None)
+    assert result.stderr.startswith("Note: mean_steps is null: ")
+
+
 @pytest.mark.parametrize(
     "arcs",
     [

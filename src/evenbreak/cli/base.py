@@ -38,6 +38,7 @@ TOLD = (
     EvenbreakError,
     OSError,
     MemoryError,
+    OverflowError,
 )
 """What ends a command without a traceback; anything else is a fault of this program."""
 
@@ -127,6 +128,8 @@ def _lines(error: BaseException) -> Iterator[str]:
             yield f"{error.filename}: {error.strerror}"
         case MemoryError():
             yield "not enough memory for this question; ask a smaller one"
+        case OverflowError():
+            yield "the answer is beyond the largest number that a computer holds"
         case _:
             yield " ".join(str(error).split())
 

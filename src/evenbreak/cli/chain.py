@@ -9,7 +9,7 @@ import click
 
 from evenbreak.cli.options import NUMBER, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, print_json
-from evenbreak.errors import DataError
+from evenbreak.errors import AccuracyError, DataError
 
 if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
@@ -78,7 +78,7 @@ def _notes(limit: Limit) -> Iterator[str]:
 
 def _answer(built: Chain, limit: Limit, steps: int | None) -> dict[str, Any]:
     """Return what --json prints."""
-    from evenbreak.chains.steps import propagate, steps_to_absorption
+    from evenbreak.chains.steps import propagate
 
     states, structure = built.states, built.structure
     classes = zip(structure.label.tolist(), structure.kinds, strict=True)
@@ -91,12 +91,23 @@ def _answer(built: Chain, limit: Limit, steps: int | None) -> dict[str, Any]:
             for state, (label, kind) in zip(states, classes, strict=True)
         },
         "period": limit.period,
-        "mean_steps": steps_to_absorption(built).mean,
+        "mean_steps": _mean_steps(built),
         "residual": limit.residual,
         "steps": steps,
         "density": density and dict(zip(states, density, strict=True)),
         "schema_version": SCHEMA_VERSION,
     }
+
+
+def _mean_steps(built: Chain) -> float | None:
+    """Return the mean number of steps to absorption; None too where no float can hold it."""
+    from evenbreak.chains.steps import steps_to_absorption
+
+    try:
+        return steps_to_absorption(built).mean
+    except AccuracyError as error:
+        click.echo(f"Note: mean_steps is null: {error}", err=True)
+        return None
 
 
 def _print_csv(states: list[str], chances: list[float]) -> None:

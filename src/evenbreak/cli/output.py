@@ -5,7 +5,6 @@ All of it without pandas and rich, which would take longer to load than the answ
 
 from __future__ import annotations
 
-import math
 import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -70,8 +69,3 @@ def chance_text(p: float) -> str:
     ('0.6526', '1.2e-09', '1.0000')
     """
     return f"{p:.2g}" if 0.0 < p < 5e-5 else f"{p:.4f}"
-
-
-def finite(value: float | None) -> float | None:
-    """Return a number that JSON can hold: None in place of an infinite one."""
-    return value if value is not None and math.isfinite(value) else None
