@@ -54,11 +54,9 @@ class Elimination:
         done = [False] * len(leak)
         while heap:
             cost, k = heapq.heappop(heap)
-            if done[k]:
-                continue
             out, back = arcs[k], into[k]
-            if len(out) * len(back) > cost:
-                heapq.heappush(heap, (len(out) * len(back), k))
+            # Each change of a state's cost has its own entry; the others are out of date.
+            if done[k] or cost != len(out) * len(back):
                 continue
             done[k] = True
             most -= cost
@@ -79,6 +77,8 @@ class Elimination:
                 for i, onward in out.items():
                     if i != j:
                         row[i] = into[i][j] = row.get(i, 0) + share * onward
+            for j in out.keys() | back.keys():
+                heapq.heappush(heap, (len(arcs[j]) * len(into[j]), j))
 
     @property
     def pivots(self) -> list[Any]:

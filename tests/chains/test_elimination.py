@@ -1,0 +1,33 @@
+"""Elimination in plain Python, for floats, fractions and wider numbers."""
+
+from fractions import Fraction
+
+import pytest
+
+from evenbreak.chains.elimination import Elimination
+from evenbreak.errors import AccuracyError
+
+HALF = Fraction(1, 2)
+
+
+def test_fractions_stay_exact():
+    rows = [{1: HALF, 2: HALF / 2}, {0: Fraction(1, 3)}, {0: HALF, 1: HALF}]
+    leaks = [HALF / 2, Fraction(2, 3), Fraction(0)]
+    factor = Elimination(rows, leaks)
+    x = factor.visits([Fraction(1), 0, 0])
+    assert x == [Fraction(3, 2), Fraction(15, 16), Fraction(3, 8)]
+    assert sum(leak * visits for leak, visits in zip(leaks, x, strict=True)) == 1
+    assert factor.values([1, 1, 1])[0] == sum(x)
+
+
+def test_the_states_of_a_star_are_eliminated_before_its_centre():
+    n = 2_000
+    rows = [dict.fromkeys(range(1, n), 0.5 / n), *({0: 0.5} for _ in range(n - 1))]
+    factor = Elimination(rows, [0.0] * (n - 1) + [0.5], most=2 * n)
+    assert factor.visits([1.0] + [0.0] * (n - 1))[0] > 0
+
+
+def test_too_much_work_is_refused():
+    rows = [dict.fromkeys((i for i in range(30) if i != j), 0.01) for j in range(30)]
+    with pytest.raises(AccuracyError, match="too many to eliminate"):
+        Elimination(rows, [0.1] * 30, most=1_000)

@@ -1,0 +1,182 @@
+"""The two solves of the transient part, by each method, against exact arithmetic."""
+
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.sparse import csc_array
+
+import oracle
+from evenbreak.chains import Chain, TransientPart, banded, factorisation, transient
+from evenbreak.chains.banded import BandedElimination
+from evenbreak.chains.flow import Flow
+from evenbreak.chains.sparse_lu import SparseFactorisation
+from evenbreak.errors import AccuracyError
+
+# name -> (states and arcs for plain Python, largest small class, entries of a dense class)
+METHODS = {
+    "plain Python": ((10**6, 10**6), 64, 10**7),
+    "one substitution": ((0, 0), 64, 10**7),
+    "small classes up to 3": ((0, 0), 3, 10**7),
+    "blocked": ((0, 0), 1, 10**7),
+}
+
+
+@pytest.fixture(params=METHODS)
+def method(request, monkeypatch):
+    use(monkeypatch, *METHODS[request.param])
+
+
+each_method = pytest.mark.usefixtures("method")
+
+
+def use(monkeypatch, plain, small, most):
+    monkeypatch.setattr(transient, "_FEW_STATES", plain[0])
+    monkeypatch.setattr(transient, "_FEW_ARCS", plain[1])
+    monkeypatch.setattr(factorisation, "SMALL", small)
+    monkeypatch.setattr(factorisation, "_MOST_ENTRIES", most)
+    # Panels and windows so small that a dozen states fill several.
+    monkeypatch.setattr(banded, "_PANEL", 2)
+    monkeypatch.setattr(banded, "_STEP", 3)
+
+
+def random_chain(draw, decades):
+    """Return a chain of several classes; the last state absorbs and all lead there."""
+    n = draw.randint(2, 16)
+    labels = draw.sample(range(n), n)
+    matrix = np.zeros((n, n))
+    for place, j in enumerate(labels[:-1]):
+        targets = {draw.choice(labels[place + 1 :])}
+        targets |= set(draw.choices(labels[max(0, place - 4) :], k=draw.randint(0, 4))) - {j}
+        weights = [10.0 ** -draw.uniform(0, decades) for _ in targets]
+        total = sum(weights) * draw.choice([1.0, 1.1, 1e6])
+        for i, weight in zip(targets, weights, strict=True):
+            matrix[i, j] = weight / total
+        matrix[j, j] = max(0.0, 1.0 - matrix[:, j].sum())
+    matrix[labels[-1], labels[-1]] = 1.0
+    return Chain(range(n), csc_array(matrix), labels[0])
+
+
+def exact_solves(chain, b):
+    """Return (I - T)^-1 b and (I - T)^-T b over the transient states, exactly."""
+    columns, states = oracle.columns_of(chain), chain.transient.states.tolist()
+    matrix = [
+        [
+            sum(columns[j].values(), Fraction(0)) if i == j else -columns[j].get(i, Fraction(0))
+            for j in states
+        ]
+        for i in states
+    ]
+    right = [Fraction(x) for x in b.tolist()]
+    transposed = [list(row) for row in zip(*matrix, strict=True)]
+    return oracle.solve(matrix, right), oracle.solve(transposed, right)
+
+
+@each_method
+@pytest.mark.parametrize("decades", [0.5, 12])
+@pytest.mark.parametrize("seed", range(8))
+def test_visits_and_values(seed, decades):
+    draw = random.Random(seed)
+    chain = random_chain(draw, decades)
+    part = chain.transient
+    b = np.array([draw.choice([0.0, draw.random()]) for _ in part.states])
+    visits, values = exact_solves(chain, b)
+    assert oracle.worst_relative_error(part.visits(b), visits) < 5e-15
+    assert oracle.worst_relative_error(part.values(b), values) < 5e-15
+    assert part.residual is None
+    both = np.column_stack((b, b[::-1]))
+    assert part.visits(both)[:, 0] == pytest.approx(part.visits(b), rel=1e-14)
+    assert part.values(both)[:, 1] == pytest.approx(part.values(b[::-1]), rel=1e-14)
+
+
+def test_each_method_is_what_it_says(monkeypatch):
+    """The fixture would prove nothing if all of its cases ran the same code."""
+    ring = np.roll(np.eye(9), 1, axis=0) * 0.5 + np.roll(np.eye(9), 3, axis=0) * 0.25
+    chain = Chain(range(10), csc_array(np.block([[ring, np.zeros((9, 1))], [np.full(9, 0.25), 1]])))
+    kinds = {}
+    for name, settings in METHODS.items():
+        use(monkeypatch, *settings)
+        part = TransientPart(chain.arcs, np.arange(9))
+        part.visits(np.ones(9))
+        factor = part._factor
+        pieces = getattr(factor, "_pieces", [])
+        kinds[name] = type(pieces[0].solver) if pieces else type(factor)
+    assert kinds == {
+        "plain Python": transient._InPlainPython,
+        "one substitution": Flow,
+        "small classes up to 3": BandedElimination,
+        "blocked": BandedElimination,
+    }
+    use(monkeypatch, (0, 0), 1, 0)
+    part = TransientPart(chain.arcs, np.arange(9))
+    part.visits(np.ones(9))
+    assert type(part._factor._pieces[0].solver) is SparseFactorisation
+
+
+def test_a_part_of_the_states_leaks_to_the_others():
+    chain = Chain(range(3), csc_array(np.array([[0, 0.5, 0], [0.5, 0, 1], [0.5, 0.5, 0]])))
+    part = TransientPart(chain.arcs, np.array([0, 2]))
+    assert part.visits(np.array([1.0, 0.0])).tolist() == [1.0, 0.5]
+    assert part.values(np.array([0.0, 1.0])).tolist() == [0.5, 1.0]
+
+
+def test_no_transient_states():
+    part = Chain(range(2), csc_array(np.eye(2))).transient
+    assert part.visits(np.zeros(0)).shape == (0,)
+    assert part.values(np.zeros((0, 3))).shape == (0, 3)
+    assert part.residual is None
+
+
+@each_method
+def test_nothing_in_nothing_out():
+    chain = random_chain(random.Random(1), 1)
+    m = len(chain.transient.states)
+    assert not chain.transient.visits(np.zeros(m)).any()
+    assert not chain.transient.values(np.zeros(m)).any()
+
+
+@each_method
+def test_what_underflows_on_the_way_is_not_lost():
+    """Flows of 1e-150 by 1e-200 vanish in floats; the visits that they lead to need not."""
+    matrix = np.zeros((5, 5))
+    matrix[1, 0], matrix[4, 0] = 1e-200, 0.5
+    matrix[2, 1], matrix[4, 1] = 1e-150, 0.5
+    matrix[3, 2], matrix[2, 3] = 1e-300, 0.5
+    matrix[4, 3] = 0.5
+    matrix[4, 4] = 1.0
+    chain = Chain(range(5), csc_array(matrix))
+    b = np.array([1.0, 0, 0, 0])
+    visits, values = exact_solves(chain, b)
+    assert float(visits[2]) == pytest.approx(8e-50)
+    assert oracle.worst_relative_error(chain.transient.visits(b), visits) < 5e-15
+    assert oracle.worst_relative_error(chain.transient.values(b), values) < 5e-15
+
+
+@each_method
+def test_more_visits_than_any_float_are_refused():
+    matrix = np.array([[1.0, 0, 0], [0, 0.0, 0], [0, 0.0, 1.0]])
+    matrix[2, 0] = 1e-310
+    matrix[0, 1] = 1.0
+    chain = Chain(range(3), csc_array(matrix), 1)
+    with pytest.raises(AccuracyError, match="larger than any float"):
+        chain.transient.visits(np.array([0.0, 1.0]))
+
+
+def test_twenty_thousand_classes_in_a_row_cost_no_loop_over_classes():
+    """Three states to a class, in shuffled order; the exact answer is a geometric law."""
+    k = 20_000
+    j = np.arange(3 * k)
+    ring = j - j % 3 + (j + 1) % 3
+    ends = j[2::3][:-1]
+    sources = np.concatenate((j, ends, [3 * k - 1]))
+    targets = np.concatenate((ring, ends + 1, [3 * k]))
+    chances = np.concatenate((np.where(j % 3 == 2, 0.5, 1.0), np.full(k, 0.5)))
+    shuffle = np.random.default_rng(1).permutation(3 * k + 1)
+    matrix = csc_array((chances, (shuffle[targets], shuffle[sources])), (3 * k + 1, 3 * k + 1))
+    chain = Chain(range(3 * k + 1), matrix)
+    part = chain.transient
+    b = np.zeros(3 * k + 1)
+    b[shuffle[0]] = 1.0
+    assert part.visits(b[part.states]) == pytest.approx(np.full(3 * k, 2.0), rel=1e-12)
+    assert part.values(np.ones(3 * k)).max() == pytest.approx(6.0 * k, rel=1e-12)
