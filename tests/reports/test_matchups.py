@@ -10,6 +10,7 @@ from evenbreak.ratings.results import Results
 from evenbreak.reports.matchups import (
     NOT_LINKED,
     RaceLimits,
+    by_strength,
     find_players,
     matchups_frame,
     most_active,
@@ -35,6 +36,14 @@ def test_race_limits_are_one_or_the_other():
 def test_the_most_active_come_first_and_ties_by_name(ratings):
     assert [ratings.players[k] for k in most_active(ratings, 4)] == ["Bo", "Cy", "Ann", "Di"]
     assert len(most_active(ratings, 99)) == 5
+
+
+@pytest.mark.parametrize("scale", ["npl", 1e-12, 1e12])
+def test_the_strongest_come_first_on_any_scale(scale):
+    season = Results.from_names(["Ann", "Bo", "Di"], ["Bo", "Cy", "Ed"], [3, 4, 5], [7, 7, 5])
+    ratings = fit(season, scale=scale)
+    order = by_strength(ratings, range(5))
+    assert [ratings.players[k] for k in order] == ["Cy", "Bo", "Di", "Ed", "Ann"]
 
 
 def test_players_are_found_by_name_in_any_case_and_once(ratings):

@@ -10,7 +10,7 @@ from evenbreak import __version__
 from evenbreak.ratings.fit import Ratings
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale
-from evenbreak.reports.matchups import RaceLimits
+from evenbreak.reports.matchups import RaceLimits, by_strength
 from evenbreak.reports.read_results import ResultsFile
 
 if TYPE_CHECKING:
@@ -45,9 +45,7 @@ def ratings_frame(ratings: Ratings) -> pd.DataFrame:
     """
     import pandas as pd
 
-    order = sorted(
-        range(len(ratings.players)), key=lambda k: (-round(float(ratings.rating[k]), 9), k)
-    )
+    order = by_strength(ratings, range(len(ratings.players)))
     columns = ("rating", "standard_error", "games", "won", "lost", "component")
     return pd.DataFrame(
         {

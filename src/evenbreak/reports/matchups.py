@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import combinations
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
@@ -17,7 +19,14 @@ from evenbreak.reports.results_columns import clean_name
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["NOT_LINKED", "RaceLimits", "find_players", "matchups_frame", "most_active"]
+__all__ = [
+    "NOT_LINKED",
+    "RaceLimits",
+    "by_strength",
+    "find_players",
+    "matchups_frame",
+    "most_active",
+]
 
 NOT_LINKED = "no race: no chain of opponents links the two"
 
@@ -60,6 +69,13 @@ def most_active(ratings: Ratings, top: int) -> list[int]:
     """
     order = sorted(range(len(ratings.players)), key=lambda k: (-ratings.games[k], k))
     return order[:top]
+
+
+def by_strength(ratings: Ratings, players: Iterable[int]) -> list[int]:
+    """Return players (positions in `ratings.players`), the strongest first, equals by name."""
+    # Rounded in log-odds, so that neither the scale nor the last bits decide.
+    strength = np.round(ratings.scale.log_odds(ratings.rating - ratings.anchor), 9)
+    return sorted(players, key=lambda k: (-strength[k], k))
 
 
 def find_players(ratings: Ratings, names: Sequence[str]) -> list[int]:
@@ -116,8 +132,7 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], limits: RaceLimits)
     """
     import pandas as pd
 
-    order = sorted(players, key=lambda k: (-round(float(ratings.rating[k]), 9), k))
-    rows = [_row(ratings, a, b, limits) for a, b in combinations(order, 2)]
+    rows = [_row(ratings, a, b, limits) for a, b in combinations(by_strength(ratings, players), 2)]
     columns = {
         "player_a": "object",
         "player_b": "object",
