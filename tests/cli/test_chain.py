@@ -108,6 +108,12 @@ def test_a_mean_beyond_all_floats_is_null_and_the_limit_is_still_told(run):
     assert result.stderr.startswith("Note: mean_steps is null: ")
 
 
+def test_a_mean_of_which_the_square_is_beyond_all_floats_is_told_quietly(run):
+    result = run("chain", "-", "--json", stdin=HEADER + "A,B,1e-200\nA,A,1\n")
+    assert json.loads(result.stdout)["mean_steps"] == pytest.approx(1e200)
+    assert result.stderr == ""
+
+
 @pytest.mark.parametrize(
     "arcs",
     [
