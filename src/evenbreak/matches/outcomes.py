@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
 from evenbreak.matches.elimination import NEVER, Elimination, ratio
+from evenbreak.matches.parameters import first_breaker
 
 __all__ = ["Outcome", "Outcomes", "outcomes_of", "unit_outcomes"]
 
@@ -67,7 +68,7 @@ def outcomes_of(match: Match, *, lengths: bool = True) -> Outcomes:
     >>> round(outcomes_of(Race(3, 1, Race(3, 3, Rack(2 / 3)))).p_win(1), 12)
     0.493270184273
     """
-    return _absorb(match, match.score, _first_breaker(match), lengths=lengths)
+    return _absorb(match, match.score, first_breaker(match), lengths=lengths)
 
 
 def unit_outcomes(match: Match, *, lengths: bool = True) -> dict[int, Outcomes]:
@@ -77,10 +78,6 @@ def unit_outcomes(match: Match, *, lengths: bool = True) -> dict[int, Outcomes]:
     """
     breakers = (1, 2) if match.break_matters else (1,)
     return {breaker: _unit(match, breaker, lengths=lengths) for breaker in breakers}
-
-
-def _first_breaker(match: Match) -> int:
-    return match.first_breaker if match.break_matters else 1
 
 
 def _unit(match: Match, breaker: int, *, lengths: bool) -> Outcomes:

@@ -10,6 +10,7 @@ from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
+from evenbreak.matches.parameters import innermost
 from evenbreak.matches.quantiles import quantile_of
 from evenbreak.matches.races import RaceLaw, race_law
 
@@ -77,7 +78,7 @@ def match_odds(match: Match) -> Odds:
     >>> odds.p_win_1, odds.mean_games, odds.games_p50, odds.p_hill_hill, odds.p_shutout_1
     (0.5, 2.5, 2, 0.5, 0.25)
     """
-    rack = _innermost(match)
+    rack = innermost(match)
     if not isinstance(rack.p1, float) or not isinstance(rack.p2, float | None):
         raise InputError("match holds arrays; use win_probability and match_length for those")
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
@@ -116,11 +117,6 @@ def match_odds(match: Match) -> Odds:
         p_shutout_1=shutout_1,
         p_shutout_2=shutout_2,
     )
-
-
-def _innermost(match: Match) -> Rack:
-    rack = match.rack
-    return rack if isinstance(rack, Rack) else _innermost(rack)
 
 
 def _shutouts(match: Match) -> tuple[float | None, float | None]:

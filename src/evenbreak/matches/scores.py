@@ -14,7 +14,7 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of, unit_outcomes
-from evenbreak.matches.parameters import at_score, broadcast, plain
+from evenbreak.matches.parameters import at_score, broadcast, first_breaker, plain
 
 __all__ = [
     "FinalScores",
@@ -171,8 +171,7 @@ def _by_sets(match: Match, never: Any, tail: float | None) -> tuple[dict[Score, 
     With `tail` None the match is followed until its longest possible length.
     """
     units = unit_outcomes(match, lengths=False)
-    breaker = match.first_breaker if match.break_matters else 1
-    mass: dict[tuple[int, int, int], Any] = {(*match.score, breaker): 1.0}
+    mass: dict[tuple[int, int, int], Any] = {(*match.score, first_breaker(match)): 1.0}
     ends: dict[int, dict[Score, Any]] = {1: {}, 2: {}}
     ended: Any = 0.0
     sets = -1
