@@ -6,7 +6,7 @@ PYTHON ?= .venv-dev/bin/python
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
 
-check-rest: lint types layers docs drift   ## CI's checks after the tests, in this environment
+check-rest: lint types docs drift   ## what CI checks after the tests, in this environment
 
 lint:
 	$(PYTHON) -m ruff format --check .
