@@ -146,6 +146,21 @@ def test_a_score_mid_match_and_a_decided_match() -> None:
     assert over.bounded
 
 
+def test_only_a_match_without_a_longest_length_is_cut_off(monkeypatch: Any) -> None:
+    monkeypatch.setattr("evenbreak.matches.endings._LONGEST", 5)
+    sets = match_length(Race(2, 2, Race(3, 3, Rack(0.5))))
+    assert sets.span == 15
+    assert sets.probability.sum() == pytest.approx(1.0, rel=1e-14)
+    ahead = match_length(Ahead(2, 2, Rack(0.5)))
+    assert (ahead.span, ahead.tail_mass) == (5, 0.25)
+    assert ahead.mean == pytest.approx(4.0, rel=1e-14)
+
+
+def test_a_set_that_is_over_is_no_set() -> None:
+    with pytest.raises(InputError, match="a set that is over at its start score"):
+        Race(2, 2, Race(3, 2, Rack(0.5), score=(3, 1)))
+
+
 def test_wrong_options_are_refused() -> None:
     with pytest.raises(InputError, match="tail is 2, not a probability"):
         match_length(Race(2, 2, Rack(0.5)), tail=2)

@@ -62,6 +62,8 @@ class Match:
         object.__setattr__(self, "n", whole(self.n, "n", at_least=1))
         if not isinstance(self.rack, (Rack, Match)):
             raise InputError(f"rack is {self.rack!r}; give a Rack(p), a Rack(p1, p2) or a match")
+        if isinstance(self.rack, Match) and self.rack.decided(*self.rack.score) is not None:
+            raise InputError("rack is a set that is over at its start score; give one under way")
         if isinstance(self.rack, Rack) and self.rack.break_matters and self.breaks is None:
             raise InputError(
                 "breaks is missing: in Rack(p1, p2) the break matters; "

@@ -59,11 +59,11 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
         return race_endings(need_1, need_2, rack, match.breaks, match.first_breaker)
     size = math.prod(shape)
     play = _play_of(match, rack, size)
-    remain = np.broadcast_to(never, shape).ravel()
     if is_bounded(match):
-        remain, tail = np.zeros(size), 0.0
-    most = min(_LONGEST, max(1_000, _MOST_CELLS // max(size, 1)))
-    wins = _followed(play, remain + tail, most)
+        wins = _followed(play, np.zeros(size), math.inf)
+    else:
+        most = min(_LONGEST, max(1_000, _MOST_CELLS // max(size, 1)))
+        wins = _followed(play, np.broadcast_to(never, shape).ravel() + tail, most)
     return Endings(*(wins[:, i].reshape(len(wins), *shape) for i in (0, 1)))
 
 
@@ -95,6 +95,7 @@ def _play_of(match: Match, rack: Rack, size: int) -> _Play:
     }
     ones, columns = np.ones(len(alive)), np.arange(len(alive))
     shape = (len(alive) + 2, len(alive))
+    # A state's moves are listed with the one that player 1 wins first.
     won, lost = (
         csr_array((ones, ([row[after[state][i]] for state in alive], columns)), shape=shape)
         for i in (0, 1)
@@ -115,7 +116,7 @@ def _breaker(state: Any) -> int:
     return _breaker(state[-1]) if isinstance(state[-1], tuple) else int(state[-1])
 
 
-def _followed(play: _Play, enough: NDArray[np.float64], most: int) -> NDArray[np.float64]:
+def _followed(play: _Play, enough: NDArray[np.float64], most: float) -> NDArray[np.float64]:
     states, size = play.p_won.shape
     mass = np.zeros((states, size))
     mass[0] = 1.0
