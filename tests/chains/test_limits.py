@@ -115,7 +115,7 @@ def test_classes_out_of_reach_are_not_solved(monkeypatch):
         raise AssertionError("a class out of reach was factored")
 
     monkeypatch.setattr("evenbreak.chains.transient._FEW_ARCS", 0)
-    monkeypatch.setattr(factorisation, "BandedElimination", fail)
+    monkeypatch.setattr(factorisation, "WideElimination", fail)
     assert stochastic_limit(chain, 71).probability[70:77] == pytest.approx(np.full(7, 1 / 7))
     with pytest.raises(AssertionError, match="out of reach"):
         stochastic_limit(chain, 77)

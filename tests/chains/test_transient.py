@@ -8,18 +8,27 @@ import pytest
 from scipy.sparse import csc_array
 
 import oracle
-from evenbreak.chains import Chain, TransientPart, banded, factorisation, transient
+from evenbreak.chains import (
+    Chain,
+    TransientPart,
+    banded,
+    factorisation,
+    stochastic_limit,
+    transient,
+)
 from evenbreak.chains.banded import BandedElimination
 from evenbreak.chains.flow import Flow
 from evenbreak.chains.sparse_lu import SparseFactorisation
+from evenbreak.chains.wide import WideElimination, wide_law
 from evenbreak.errors import AccuracyError
 
-# name -> (states and arcs for plain Python, largest small class, entries of a dense class)
+# name -> (arcs for plain Python, largest small class, width of a narrow band)
 METHODS = {
-    "plain Python": ((10**6, 10**6), 64, 10**7),
-    "one substitution": ((0, 0), 64, 10**7),
-    "small classes up to 3": ((0, 0), 3, 10**7),
-    "blocked": ((0, 0), 1, 10**7),
+    "plain Python": (10**6, 64, 4),
+    "one substitution": (0, 64, 4),
+    "small classes up to 3": (0, 3, 0),
+    "wide numbers": (0, 1, 100),
+    "blocked": (0, 1, 0),
 }
 
 
@@ -31,11 +40,10 @@ def method(request, monkeypatch):
 each_method = pytest.mark.usefixtures("method")
 
 
-def use(monkeypatch, plain, small, most):
-    monkeypatch.setattr(transient, "_FEW_STATES", plain[0])
-    monkeypatch.setattr(transient, "_FEW_ARCS", plain[1])
+def use(monkeypatch, plain, small, narrow):
+    monkeypatch.setattr(transient, "_FEW_ARCS", plain)
     monkeypatch.setattr(factorisation, "SMALL", small)
-    monkeypatch.setattr(factorisation, "_MOST_ENTRIES", most)
+    monkeypatch.setattr(factorisation, "_NARROW", narrow)
     # Panels and windows so small that a dozen states fill several.
     monkeypatch.setattr(banded, "_PANEL", 2)
     monkeypatch.setattr(banded, "_STEP", 3)
@@ -106,9 +114,11 @@ def test_each_method_is_what_it_says(monkeypatch):
         "plain Python": transient._InPlainPython,
         "one substitution": Flow,
         "small classes up to 3": BandedElimination,
+        "wide numbers": WideElimination,
         "blocked": BandedElimination,
     }
-    use(monkeypatch, (0, 0), 1, 0)
+    use(monkeypatch, 0, 1, 0)
+    monkeypatch.setattr(factorisation, "_MOST_ENTRIES", 0)
     part = TransientPart(chain.arcs, np.arange(9))
     part.visits(np.ones(9))
     assert type(part._factor._pieces[0].solver) is SparseFactorisation
@@ -180,3 +190,19 @@ def test_twenty_thousand_classes_in_a_row_cost_no_loop_over_classes():
     b[shuffle[0]] = 1.0
     assert part.visits(b[part.states]) == pytest.approx(np.full(3 * k, 2.0), rel=1e-12)
     assert part.values(np.ones(3 * k)).max() == pytest.approx(6.0 * k, rel=1e-12)
+
+
+@pytest.mark.parametrize("narrow", [True, False])
+def test_long_narrow_classes_do_not_add_up_rounding_errors(monkeypatch, narrow):
+    """Up by one or two with 0.2, down with 0.2001: equal arcs at each of 3,000 states."""
+    if not narrow:
+        monkeypatch.setattr(factorisation, "_NARROW", 0)
+    n = 3_000
+    i = np.arange(n)
+    rows = np.concatenate([i[s:] for s in (1, 2)] + [i[:-s] for s in (1, 2)])
+    columns = np.concatenate([i[:-s] for s in (1, 2)] + [i[s:] for s in (1, 2)])
+    chances = np.where(rows > columns, 0.2, 0.2001)
+    chain = Chain(range(n), csc_array((chances, (rows, columns)), (n, n)), 0)
+    law = stochastic_limit(chain).probability
+    worst = np.abs(law / wide_law(chain.arcs) - 1).max()
+    assert worst < (1e-14 if narrow else 1e-12)

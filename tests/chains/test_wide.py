@@ -22,5 +22,5 @@ def test_a_law_beyond_all_floats_sums_to_one():
 def test_visits_beyond_all_floats_are_infinite():
     matrix = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [1e-320, 0.0, 1.0]])
     arcs, leak = Chain(range(3), csc_array(matrix)).arcs.among(np.array([0, 1]))
-    x = wide_solve(arcs, leak, np.array([1.0, 0.0]), transposed=False)
+    x = wide_solve(arcs, leak, np.array([[1.0], [0.0]]), transposed=False)
     assert np.isinf(x).all()

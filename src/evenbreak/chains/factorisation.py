@@ -1,14 +1,16 @@
-"""I - P factored class by class: each class by the method that suits its graph.
+"""I - T factored class by class: each class by the method that suits its graph.
 
 | class | method | time, memory |
 |---|---|---|
 | one state, or up to 64 | forward substitution over all of them (`flow`) | linear |
 | a line of states | cyclic reduction (`path`) | linear |
-| narrow band, or up to some 6,000 states | blocked elimination (`banded`) | n w^2, n w |
+| band of up to 4 | elimination in decimal numbers (`wide`) | linear |
+| wider band w, or up to some 6,000 states | blocked elimination (`banded`) | n w^2, n w |
 | larger | sparse factorisation, certified or with its residual (`sparse_lu`) | as SuperLU |
 
-P is the jump chain: self-loops are gone and the arcs out of a state, with the leak, sum
-to 1. Consecutive small classes are solved together.
+Consecutive small classes are solved together. Where hundreds of states in a row have equal
+arcs, doubles repeat the same rounding error at each; so long and narrow classes are solved
+in more digits.
 """
 
 from __future__ import annotations
@@ -20,11 +22,13 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from scipy.sparse import csc_array, csgraph
 
+from evenbreak.chains.arcs import arcs_of
 from evenbreak.chains.banded import BandedElimination, band_order
 from evenbreak.chains.flow import Flow
 from evenbreak.chains.path import PathElimination
 from evenbreak.chains.sparse_lu import SparseFactorisation
 from evenbreak.chains.structure import Structure, structure_of
+from evenbreak.chains.wide import WideElimination
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -35,6 +39,7 @@ __all__ = ["Factorisation", "path_order"]
 
 SMALL = 64
 _MOST_ENTRIES = 40_000_000
+_NARROW = 4
 
 
 class _Solver(Protocol):
@@ -53,6 +58,7 @@ class _Piece:
         offsets: Places,
         arcs: tuple[Places, Places, NDArray[np.float64]],
         leak: NDArray[np.float64],
+        outflow: NDArray[np.float64],
     ) -> None:
         self.first, self.last = int(offsets[0]), int(offsets[-1])
         self._offsets = offsets - self.first
@@ -64,6 +70,7 @@ class _Piece:
         self.sources, self.targets = sources[~inner], targets[~inner]
         self.chances = chances[~inner]
         self._leak = leak[self.first : self.last]
+        self._outflow = outflow[self.first : self.last]
 
     @cached_property
     def solver(self) -> _Solver:
@@ -73,13 +80,15 @@ class _Piece:
         if len(self.chances):
             leak = leak + np.bincount(self.sources - self.first, self.chances, size)
         if len(self._offsets) > 2 or size <= SMALL:
-            return Flow(*self._inner, leak, self._offsets)
+            return Flow(*self._inner, leak, self._outflow, self._offsets)
         sources, targets, chances = self._inner
         T = csc_array((chances, (targets, sources)), shape=(size, size))
         order = path_order(T)
         if order is not None:
             return _Path(T, leak, order)
         order, width = band_order(T)
+        if width <= _NARROW:
+            return WideElimination(arcs_of(T), leak)
         if size * min(size, 3 * width) <= _MOST_ENTRIES:
             return BandedElimination(T, leak, order, width)
         return SparseFactorisation(T, leak)
@@ -108,7 +117,7 @@ class _Path:
 
 
 class Factorisation:
-    """I - P factored, where P is the jump chain of `arcs` and `leak`.
+    """I - T factored, where T holds the arcs of m states among themselves.
 
     Parameters
     ----------
@@ -131,11 +140,9 @@ class Factorisation:
         structure: Structure | None = None,
     ) -> None:
         structure = structure or structure_of(arcs)
-        self.outflow = outflow
         self.order: Places | None = None
-        chances = arcs.chances / outflow[arcs.sources]
-        jump = leak / outflow
         sources, targets, indptr = arcs.sources, arcs.targets, arcs.indptr
+        chances = arcs.chances
         if not structure.in_order:
             self.order = structure.order
             place = np.empty(arcs.size, dtype=np.int32)
@@ -145,11 +152,11 @@ class Factorisation:
             )
             chances, targets, indptr = by_source.data, by_source.indices, by_source.indptr
             sources = np.repeat(np.arange(arcs.size, dtype=np.int32), np.diff(indptr))
-            jump = jump[self.order]
+            leak, outflow = leak[self.order], outflow[self.order]
         self._pieces = []
         for offsets in _runs(structure.offsets):
             span = slice(indptr[offsets[0]], indptr[offsets[-1]])
-            piece = _Piece(offsets, (sources[span], targets[span], chances[span]), jump)
+            piece = _Piece(offsets, (sources[span], targets[span], chances[span]), leak, outflow)
             self._pieces.append(piece)
 
     @property
@@ -161,12 +168,15 @@ class Factorisation:
 
     @property
     def pivots(self) -> NDArray[np.float64]:
-        """What each state is left with when it is eliminated, in the units of the outflow."""
-        pivots = np.ones(len(self.outflow))
+        """The chance to leave each state for later ones when it is eliminated.
+
+        It is 0 where no flow has come so far, be it for want of arcs or by underflow.
+        """
+        pivots = np.zeros(self._pieces[-1].last)
         for piece in self._pieces:
             if "solver" in piece.__dict__:
                 pivots[piece.first : piece.last] = piece.solver.pivots
-        return self._restored(pivots) * self.outflow
+        return self._restored(pivots)
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the visits to each state from b >= 0, shape (m, k): (I - T)^-1 b."""
@@ -176,13 +186,11 @@ class Factorisation:
             if part.any():
                 part[:] = piece.solver.visits(part)
                 np.add.at(f, piece.targets, f[piece.sources] * piece.chances[:, None])
-        return self._restored(f) / self.outflow[:, None]
+        return self._restored(f)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the sum of r >= 0, shape (m, k), over the visits from each: (I - T)^-T r."""
-        y = r / self.outflow[:, None]
-        if self.order is not None:
-            y = y[self.order]
+        y = r.copy() if self.order is None else r[self.order]
         for piece in reversed(self._pieces):
             np.add.at(y, piece.sources, y[piece.targets] * piece.chances[:, None])
             part = y[piece.first : piece.last]

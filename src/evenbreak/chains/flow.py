@@ -1,14 +1,15 @@
 """One forward substitution through the states alone in their class and the small classes.
 
-The chain is watched only when it moves (self-loops are gone and each state's arcs sum to
-1). Where no state can be met twice, the flow f through the states from a density b obeys
+A state that is never met again is watched only when it moves: with P[i, j] the arc from j
+to i over the sum of all arcs out of j, the flow f through the states from a density b obeys
 
     f[i] = b[i] + sum over j of P[i, j] f[j],
 
-upstream states first: a triangular system whose terms all have one sign. A small class of
-more than one state enters it with each state twice: as it is entered and as it is left,
-joined by the factors of `blocks`. So the whole is triangular, its size is at most twice
-the number of states, and both I - P and its transpose are solved in one call.
+upstream states first: a triangular system whose terms all have one sign, and the visits
+are f[j] over the sum of the arcs out of j. A small class of more than one state enters it
+with each state twice: as it is entered and as it is left, joined by the factors of
+`blocks`. So the whole is triangular, its size is at most twice the number of states, and
+both I - T and its transpose are solved in one call.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ __all__ = ["Flow"]
 
 
 class Flow:
-    """(I - P) factored for consecutive classes of a jump chain, all of them small.
+    """(I - T) factored for consecutive classes, all of them small.
 
     Parameters
     ----------
@@ -39,6 +40,8 @@ class Flow:
     leak
         shape (m,): the chance to leave for other states, given the state; only read where
         a class has more than one state.
+    outflow
+        shape (m,): the chance to leave the state; only read where it is alone in its class.
     offsets
         shape (classes + 1,): the first state of each class, and m.
     """
@@ -49,17 +52,21 @@ class Flow:
         targets: Places,
         chances: NDArray[np.float64],
         leak: NDArray[np.float64],
+        outflow: NDArray[np.float64],
         offsets: Places,
     ) -> None:
         m = int(offsets[-1])
         sizes = np.diff(offsets)
-        self.pivots = np.ones(m)
+        self.pivots = outflow
+        self._unit = outflow
         if len(sizes) == m:
             self._enter = self._leave = None
-            self._system = _unit_lower(m, sources, targets, chances)
+            self._system = _unit_lower(m, sources, targets, chances / outflow[sources])
             return
         label = np.repeat(np.arange(len(sizes)), sizes)
         twice = sizes > 1
+        self.pivots = outflow.copy()
+        self._unit = np.where(twice[label], 1.0, outflow)
         width = np.where(twice, 2 * sizes, 1)
         begin = np.cumsum(width) - width
         number = np.arange(m) - offsets[label]
@@ -70,7 +77,7 @@ class Flow:
         across = ~inside
         columns = [self._leave[sources[across]]]
         rows = [self._enter[targets[across]]]
-        entries = [chances[across]]
+        entries = [chances[across] / self._unit[sources[across]]]
         leaks = leak + np.bincount(sources[across], chances[across], m)
         inner = _Inner(sources[inside], targets[inside], chances[inside], label)
         for size, classes in stacks(sizes):
@@ -89,12 +96,14 @@ class Flow:
         )
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return (I - P)^-1 b for b >= 0 of shape (m, k)."""
-        return self._solve(self._system, b, self._enter, self._leave, lower=True)
+        """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
+        flow = self._solve(self._system, b, self._enter, self._leave, lower=True)
+        return flow / self._unit[:, None]
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return (I - P)^-T r for r >= 0 of shape (m, k)."""
-        return self._solve(self._system.T, r, self._leave, self._enter, lower=False)
+        """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
+        given = r / self._unit[:, None]
+        return self._solve(self._system.T, given, self._leave, self._enter, lower=False)
 
     @staticmethod
     def _solve(

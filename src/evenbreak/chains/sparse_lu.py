@@ -1,11 +1,11 @@
 """A sparse factorisation for one large class, refined, and certified where possible.
 
-For classes that are too large for elimination free of subtraction. A = I - P of a jump
-chain is factored by SuperLU and the answer refined with residuals in the platform's
-extended precision. A is an M-matrix, so that its inverse is nonnegative; hence, if some
-e >= 0 has A e >= |b - A x| (which is checked, with the rounding of the check itself), no
-entry of x is off by more than its entry of e. A small residual alone would prove nothing
-about a chain that is slow to leave its states.
+For classes that are too large for elimination free of subtraction. A = I - T, its columns
+scaled to a diagonal of ones, is factored by SuperLU and the answer refined with residuals
+in the platform's extended precision. A is an M-matrix, so that its inverse is nonnegative;
+hence, if some e >= 0 has A e >= |b - A x| (which is checked, with the rounding of the check
+itself), no entry of x is off by more than its entry of e. A small residual alone would
+prove nothing about a chain that is slow to leave its states.
 
 References: Skeel 1980 for the refinement; Rump 1999, "INTLAB", and Neumaier 1999 for
 bounds by M-matrices.
@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array, diags_array
+from scipy.sparse import csc_array, diags_array, eye_array
 from scipy.sparse.linalg import splu
 
 from evenbreak.errors import AccuracyError
@@ -34,25 +34,25 @@ _ROUNDS = 6
 
 
 class SparseFactorisation:
-    """I - P factored, for one large class of a jump chain.
+    """I - T factored, for one large class.
 
     Parameters
     ----------
     T
-        sparse, shape (m, m): the arcs within the class; columns and `leak` sum to about 1.
+        sparse, shape (m, m): the arcs within the class; no diagonal.
     leak
         shape (m,): the chance to leave the class, given the state; not all zero.
     """
 
     def __init__(self, T: csc_array, leak: NDArray[np.float64]) -> None:
         m = len(leak)
-        self.pivots = np.ones(m)
         self.residual: float | None = None
         wide = T.astype(np.longdouble)
         self._arcs = {False: wide.tocsr(), True: csc_array(wide).T}
         diagonal: Wide = np.add(wide.sum(axis=0), leak, dtype=np.longdouble)
         self._diagonal = diagonal
-        A = csc_array(diags_array(diagonal.astype(np.float64)) - T)
+        self.pivots = diagonal.astype(np.float64)
+        A = csc_array(eye_array(m) - T @ diags_array(1.0 / self.pivots))
         try:
             self._lu = splu(
                 A,
@@ -67,11 +67,11 @@ class SparseFactorisation:
             ) from None
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return (I - P)^-1 b for b >= 0 of shape (m, k)."""
+        """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
         return self._columns(b, transposed=False)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return (I - P)^-T r for r >= 0 of shape (m, k)."""
+        """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
         return self._columns(r, transposed=True)
 
     def _columns(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
@@ -102,15 +102,22 @@ class SparseFactorisation:
     def _refined(self, b: Wide, *, transposed: bool) -> tuple[Wide, Wide]:
         """Return x and b - A x (A transposed on request), after steps of refinement."""
         arcs = self._arcs[transposed]
-        trans = "T" if transposed else "N"
         x, residual, smallest = np.zeros_like(b), b, np.inf
         best = x, residual
         for _ in range(_ROUNDS):
-            step = self._lu.solve(residual.astype(np.float64), trans)  # type: ignore[call-overload]
-            x = x + step
+            x = x + self._step(residual.astype(np.float64), transposed=transposed)
             residual = b - (self._diagonal * x - arcs @ x)
             size = float(np.abs(residual).max())
             if not size < smallest:
                 break
             best, smallest = (x, residual), size
         return best
+
+    def _step(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
+        """Return A^-1 b (A transposed on request), as far as the factors are right."""
+        x: NDArray[np.float64]
+        if transposed:
+            x = self._lu.solve(b / self.pivots, "T")  # type: ignore[call-overload]
+            return x
+        x = self._lu.solve(b)
+        return x / self.pivots

@@ -127,8 +127,11 @@ class TransientPart:
             return given.copy()
         columns = given.reshape(len(self.states), -1)
         x, doubtful = self.attempt(columns, transposed=transposed)
-        for k in np.flatnonzero(doubtful.any(axis=0)):
-            x[:, k] = wide_solve(self._arcs, self._leak, columns[:, k], transposed=transposed)
+        again = np.flatnonzero(doubtful.any(axis=0))
+        if len(again):
+            x[:, again] = wide_solve(
+                self._arcs, self._leak, columns[:, again], transposed=transposed
+            )
         if not np.isfinite(x).all():
             raise AccuracyError(
                 "an expected number of visits, or a sum over them, is larger than any float; "
