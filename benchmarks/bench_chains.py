@@ -179,11 +179,11 @@ def metropolis(heights: np.ndarray, one: np.ndarray, other: np.ndarray, degree: 
     )
 
 
-def grid_chain() -> tuple[Chain, np.ndarray]:
-    """Return hills and valleys on a 70 x 70 grid, 2^-60 deep."""
-    x, y = np.indices((70, 70))
+def grid_chain(side: int = 70) -> tuple[Chain, np.ndarray]:
+    """Return hills and valleys on a square grid, 2^-60 deep."""
+    x, y = np.indices((side, side))
     heights = np.round(30.0 * (np.sin(0.3 * x) * np.cos(0.4 * y) + 1.0)).ravel()
-    number = np.arange(4900).reshape(70, 70)
+    number = np.arange(side * side).reshape(side, side)
     one = np.concatenate([number[1:].ravel(), number[:, 1:].ravel()])
     other = np.concatenate([number[:-1].ravel(), number[:, :-1].ravel()])
     return metropolis(heights, one, other, 8.0), heights
@@ -261,3 +261,42 @@ def test_general_class(
         f"{worst(limit.probability, exact)}, residual {limit.residual}, bare {worst(bare(), exact)}"
     )
     beside(f"{name} / splu", ours, bare, rounds=1 if name[0] == "5" else 3, note=note)
+
+
+# Chains of small blocks ----------------------------------------------------------------
+
+
+def small_blocks_chain(blocks: int) -> Chain:
+    """Return blocks of three states that go round and at times on to the next block."""
+    draw = np.random.default_rng(5)
+    state = np.arange(3 * blocks)
+    base = state - state % 3
+    last = state >= 3 * (blocks - 1)
+    sources = np.concatenate([state, state, state[~last]])
+    targets = np.concatenate(
+        [
+            base + (state + 1) % 3,
+            base + (state + 2) % 3,
+            base[~last] + 3 + draw.integers(0, 3, (~last).sum()),
+        ]
+    )
+    weights = draw.uniform(0.05, 1.0, sources.size)
+    chances = weights / np.bincount(sources, weights)[sources]
+    return chain_from_arrays(range(3 * blocks), sources, targets, chances)
+
+
+@pytest.mark.parametrize("blocks", [12_500, 50_000])
+def test_many_small_blocks(beside: Beside, blocks: int) -> None:
+    chain = small_blocks_chain(blocks)
+    inner = 3 * (blocks - 1)
+    begin = np.zeros(inner)
+    begin[0] = 1.0
+
+    def bare() -> np.ndarray:
+        system = csc_array(eye_array(inner) - chain.matrix[:inner, :inner])
+        return splu(system).solve(begin)
+
+    def ours() -> Any:
+        return stochastic_limit(fresh(chain), 0)
+
+    beside(f"{blocks:,} blocks of 3 states / splu", ours, bare)

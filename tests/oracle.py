@@ -9,7 +9,7 @@ obeys  q_i x_i = sum_j p_ij x_j.
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, isfinite, lcm
 
 from evenbreak.chains import Chain
 
@@ -150,6 +150,8 @@ def worst_relative_error(found: Sequence[float], exact: Sequence[Fraction]) -> f
     """
     worst = Fraction(0)
     for x, y in zip(map(float, found), exact, strict=True):
+        if not isfinite(x):
+            return float("inf")
         if y >= SMALLEST_NORMAL:
             worst = max(worst, abs(Fraction(x) - y) / y)
         elif not 0 <= x <= float(SMALLEST_NORMAL) or (y == 0 and x != 0):

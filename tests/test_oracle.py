@@ -53,6 +53,7 @@ def test_period() -> None:
 def test_errors_are_seen() -> None:
     assert oracle.worst_relative_error([0.5, 0.0], [HALF, Fraction(0)]) == 0.0
     assert oracle.worst_relative_error([0.5000001], [HALF]) > 1e-7
+    assert oracle.worst_relative_error([float("nan")], [HALF]) == float("inf")
     assert oracle.worst_relative_error([1e-300], [Fraction(0)]) == float("inf")
     assert oracle.worst_relative_error([-1e-320], [Fraction(1, 10**320)]) == float("inf")
     assert oracle.worst_relative_error([0.0], [Fraction(1, 10**320)]) == 0.0
