@@ -42,7 +42,7 @@ def beside(benchmark: Any) -> Callable[..., float]:
         mine, floor = (statistics.median(column) for column in zip(*pairs, strict=True))
         benchmark.group = question
         benchmark.extra_info.update(ours=mine, bare=floor, ratio=mine / floor, note=note)
-        benchmark.pedantic(ours, rounds=min(rounds, 5))
+        benchmark.pedantic(ours, rounds=min(rounds, 3))
         _ROWS.append((question, mine, floor, note))
         return mine / floor
 
