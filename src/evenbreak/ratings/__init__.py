@@ -1,7 +1,8 @@
 """From match results to ratings with uncertainty.
 
-`scale` says what a rating difference means, `results` holds what was played, and
-`fit` estimates Bradley-Terry ratings from it.
+`scale` says what a rating difference means, `results` holds what was played,
+`consistency` says whether it can be true, and `fit` estimates Bradley-Terry ratings
+from it.
 """
 
 from evenbreak._lazy import attach
@@ -10,7 +11,8 @@ __getattr__, __dir__, __all__ = attach(
     __name__,
     {
         "scale": ["SCALES", "Scale", "scale_of"],
-        "results": ["Played", "Problem", "Results", "find_problems"],
+        "results": ["Played", "Results"],
+        "consistency": ["Problem", "find_problems"],
         "fit": ["Ratings", "fit"],
     },
 )

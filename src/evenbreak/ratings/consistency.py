@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Results
 
 __all__ = ["Problem", "find_problems"]
 
@@ -37,7 +36,6 @@ def find_problems(results: Results) -> list[Problem]:
     both, and the racks against all of these. Forfeits and 0-0 rows are not held to
     their race: they were not played out.
 
-    >>> from evenbreak.ratings.results import Results
     >>> season = Results.from_names(["Ann"], ["Bo"], [4], [5], race_a=[7], race_b=[5], winner=[1])
     >>> for problem in find_problems(season):
     ...     print(problem.row, problem.column, problem.message)

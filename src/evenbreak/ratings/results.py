@@ -1,7 +1,8 @@
-"""What was played, column by column, and whether it can be true.
+"""What was played, column by column.
 
 A `Results` holds one match a row, as arrays. It knows no file: whoever reads one
-builds a `Results`, asks `find_problems` and says in which line each problem is.
+builds a `Results`, asks `evenbreak.ratings.consistency` whether it can be true, and
+says in which line each problem is.
 """
 
 from __future__ import annotations
@@ -14,9 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.errors import InputError
-from evenbreak.ratings.consistency import Problem, find_problems
 
-__all__ = ["FORMATS", "Played", "Problem", "Results", "find_problems"]
+__all__ = ["FORMATS", "Played", "Results"]
 
 FORMATS = ("", "winner", "loser", "alternate", "a", "b")
 """Break formats in the order of their codes in `Results.break_format`; 0 is not stated."""

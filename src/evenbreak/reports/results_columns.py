@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.ratings.results import FORMATS, Results, find_problems
+from evenbreak.ratings.consistency import find_problems
+from evenbreak.ratings.results import FORMATS, Results
 from evenbreak.reports.cells import Values, read_cells, whole_numbers
 from evenbreak.reports.problems import quoted
 from evenbreak.reports.read_table import Table
