@@ -47,5 +47,8 @@ __getattr__, __dir__, __all__ = attach(
         "matches.length": ["match_length"],
         "matches.scores": ["final_scores"],
         "matches.scalar": ["match_odds"],
+        "ratings.results": ["Results"],
+        "ratings.fit": ["fit"],
+        "handicaps.fair": ["fair_races"],
     },
 )

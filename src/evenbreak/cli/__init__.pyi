@@ -1,0 +1,1 @@
+from evenbreak.cli.base import main as main

@@ -1,0 +1,16 @@
+from evenbreak.games.ahead import Ahead as Ahead
+from evenbreak.games.breaks import BREAK_FORMATS as BREAK_FORMATS
+from evenbreak.games.breaks import BreakFormat as BreakFormat
+from evenbreak.games.breaks import alternate_breaks as alternate_breaks
+from evenbreak.games.breaks import loser_breaks as loser_breaks
+from evenbreak.games.breaks import player_1_breaks as player_1_breaks
+from evenbreak.games.breaks import player_2_breaks as player_2_breaks
+from evenbreak.games.breaks import winner_breaks as winner_breaks
+from evenbreak.games.catalogue import CATALOGUE as CATALOGUE
+from evenbreak.games.drill import Drill as Drill
+from evenbreak.games.match import Match as Match
+from evenbreak.games.one_ball import OneBall as OneBall
+from evenbreak.games.one_ball import OneBallLookAhead as OneBallLookAhead
+from evenbreak.games.race import Race as Race
+from evenbreak.games.rack import Rack as Rack
+from evenbreak.games.series import Series as Series

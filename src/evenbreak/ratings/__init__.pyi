@@ -1,0 +1,9 @@
+from evenbreak.ratings.consistency import Problem as Problem
+from evenbreak.ratings.consistency import find_problems as find_problems
+from evenbreak.ratings.fit import Ratings as Ratings
+from evenbreak.ratings.fit import fit as fit
+from evenbreak.ratings.results import Played as Played
+from evenbreak.ratings.results import Results as Results
+from evenbreak.ratings.scale import SCALES as SCALES
+from evenbreak.ratings.scale import Scale as Scale
+from evenbreak.ratings.scale import scale_of as scale_of
