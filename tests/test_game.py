@@ -1,11 +1,22 @@
 """Diagrams of games, made by a walk or from the game's own arrays."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
-from evenbreak.errors import GameError
+from evenbreak.errors import GameError, InputError
 from evenbreak.game import ArcArrays, Game, arcs_of, graph_of
-from evenbreak.games import OneBall, OneBallLookAhead, Race, Rack
+from evenbreak.games import (
+    Ahead,
+    Drill,
+    OneBall,
+    OneBallLookAhead,
+    Race,
+    Rack,
+    Series,
+    winner_breaks,
+)
 
 
 class Coin:
@@ -78,3 +89,22 @@ def test_the_most_states() -> None:
     assert len(graph_of(race, max_states=15)) == 15
     with pytest.raises(GameError, match="more than 14 states; is its graph finite"):
         graph_of(race, max_states=14)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Race(3, 3, Rack([0.4, 0.5])),
+        lambda: Race(3, 3, Rack([0.4, 0.5]), win_by=2),
+        lambda: Race(2, 2, Race(2, 2, Rack([0.4, 0.5]))),
+        lambda: Race(2, 2, Rack(0.5, [0.4, 0.5]), breaks=winner_breaks),
+        lambda: Ahead(2, 2, Rack([0.4, 0.5])),
+        lambda: Series(Rack([0.4, 0.5], 0.5), breaks=winner_breaks),
+        lambda: OneBall([0.4, 0.5], 0.5),  # type: ignore[arg-type]
+        lambda: OneBallLookAhead([0.4, [0.4, 0.5]]),  # type: ignore[list-item]
+        lambda: Drill([0.4, [0.4, 0.5]]),  # type: ignore[list-item]
+    ],
+)
+def test_a_graph_has_no_room_for_arrays(make: Callable[[], Game]) -> None:
+    with pytest.raises(InputError, match="one number"):
+        graph_of(make())

@@ -14,7 +14,7 @@ from evenbreak.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["one_of", "probability", "whole"]
+__all__ = ["number_probability", "one_of", "probability", "whole"]
 
 
 def probability(value: Any, name: str) -> Any:
@@ -54,6 +54,20 @@ def probability(value: Any, name: str) -> Any:
             raise InputError(f"{name} is {value!r}, not a probability; give a number from 0 to 1")
         return number
     return _probabilities(value, name)
+
+
+def number_probability(value: Any, name: str) -> float:
+    """Return `value` as a float if it is one probability, not an array of them.
+
+    >>> number_probability([0.4, 0.5], "p1")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: p1 is [0.4, 0.5]; give one number from 0 to 1
+    """
+    checked = probability(value, name)
+    if not isinstance(checked, float):
+        raise InputError(f"{name} is {value!r}; give one number from 0 to 1")
+    return checked
 
 
 def _probabilities(value: Any, name: str) -> NDArray[Any] | float:

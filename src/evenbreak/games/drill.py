@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from evenbreak.checks import probability, whole
+from evenbreak.checks import number_probability, whole
 from evenbreak.errors import InputError
 
 __all__ = ["Drill"]
@@ -38,7 +38,7 @@ class Drill:
 
     def __post_init__(self) -> None:
         levels = tuple(
-            probability(p, f"success at level {i}") for i, p in enumerate(self.success, 1)
+            number_probability(p, f"success at level {i}") for i, p in enumerate(self.success, 1)
         )
         if not levels:
             raise InputError("success is empty; give the chance of success at each level")
@@ -51,7 +51,7 @@ class Drill:
         >>> Drill.progressive(0.5, levels=4).success
         (1.0, 0.5, 0.25, 0.125)
         """
-        base = probability(p, "p")
+        base = number_probability(p, "p")
         return cls([base**i for i in range(whole(levels, "levels", at_least=1))])
 
     @property

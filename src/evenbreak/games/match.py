@@ -108,8 +108,14 @@ class Match:
         return self.rack.break_matters
 
     @property
+    def innermost_rack(self) -> Rack:
+        """The rack of the racks, where sets are made of sets."""
+        return self.rack if isinstance(self.rack, Rack) else self.rack.innermost_rack
+
+    @property
     def start(self) -> Any:
         """The state before the first rack."""
+        self.innermost_rack.of_numbers()
         return self.open(self.first_breaker)
 
     def open(self, breaker: int) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 
-from evenbreak.checks import probability
+from evenbreak.checks import number_probability
 from evenbreak.errors import InputError
 
 __all__ = ["OneBall", "OneBallLookAhead"]
@@ -33,8 +33,8 @@ class OneBall:
     p2: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "p1", probability(self.p1, "p1"))
-        object.__setattr__(self, "p2", probability(self.p2, "p2"))
+        object.__setattr__(self, "p1", number_probability(self.p1, "p1"))
+        object.__setattr__(self, "p2", number_probability(self.p2, "p2"))
 
     @property
     def start(self) -> str:
@@ -85,11 +85,11 @@ class OneBallLookAhead:
     after: float = 0.5
 
     def __post_init__(self) -> None:
-        shots = tuple(probability(p, f"shot {i}") for i, p in enumerate(self.shots, 1))
+        shots = tuple(number_probability(p, f"shot {i}") for i, p in enumerate(self.shots, 1))
         if not shots:
             raise InputError("shots is empty; give the chance of at least one shot")
         object.__setattr__(self, "shots", shots)
-        object.__setattr__(self, "after", probability(self.after, "after"))
+        object.__setattr__(self, "after", number_probability(self.after, "after"))
 
     @property
     def start(self) -> str:

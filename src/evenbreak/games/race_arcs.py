@@ -107,7 +107,7 @@ def race_arcs(
     Raises
     ------
     InputError
-        if the break format answers anything but 1 or 2.
+        if the break format answers anything but 1 or 2, or the rack holds arrays.
 
     >>> from evenbreak.games import winner_breaks
     >>> arcs = race_arcs((1, 1), Rack(0.6, 0.5), winner_breaks, 2, (0, 0))
@@ -127,7 +127,7 @@ def race_arcs(
             nxt = breaks(breaker, winner) if breaks and rack.break_matters else 1
             one_of(nxt, "the next breaker by the break format", (1, 2))
             targets[:, j, k] = after_loss[on] * count + (k * count + nxt - 1)
-            chances[j, k] = rack.chance(winner, breaker)
+            chances[j, k] = rack.of_numbers().chance(winner, breaker)
     reached, sources, targets, probabilities = _reached(
         a.size * count,
         (on[:, None] * count + np.arange(count, dtype=on.dtype)).ravel(),

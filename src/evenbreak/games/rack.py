@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from evenbreak.checks import one_of, probability
+from evenbreak.errors import InputError
 
 __all__ = ["Rack"]
 
@@ -62,3 +63,21 @@ class Rack:
             return self.p1 if player == 1 else 1.0 - self.p1
         own = self.p1 if breaker == 1 else self.p2
         return own if player == breaker else 1.0 - own
+
+    def of_numbers(self) -> Rack:
+        """Return the rack itself if it holds numbers: a graph has no room for arrays.
+
+        Raises
+        ------
+        InputError
+            if p1 or p2 is an array.
+
+        >>> Rack([0.4, 0.5]).of_numbers()
+        Traceback (most recent call last):
+        ...
+        evenbreak.errors.InputError: p1 is an array; a graph takes one number, loop over them
+        """
+        for name, value in (("p1", self.p1), ("p2", self.p2)):
+            if value is not None and not isinstance(value, float):
+                raise InputError(f"{name} is an array; a graph takes one number, loop over them")
+        return self

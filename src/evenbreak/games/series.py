@@ -49,6 +49,7 @@ class Series:
     def __post_init__(self) -> None:
         if not isinstance(self.rack, Rack):
             raise InputError(f"rack is {self.rack!r}; give a Rack(p) or a Rack(p1, p2)")
+        self.rack.of_numbers()
         one_of(self.first_breaker, "first_breaker", (1, 2))
 
     @property
