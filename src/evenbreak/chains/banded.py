@@ -18,8 +18,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
-from scipy.linalg import solve_triangular
-from scipy.linalg.blas import dgemm
+from scipy.linalg.blas import dgemm, dtrsm
 from scipy.sparse import csc_array, csgraph
 
 if TYPE_CHECKING:
@@ -30,6 +29,9 @@ if TYPE_CHECKING:
 __all__ = ["BandedElimination", "band_order"]
 
 _PANEL = 96
+# Products smaller than this are not spread over threads by BLAS; for small windows it would
+# cost more to wake the threads than to do the work.
+_NARROW, _UNTHREADED = 256, 2**18
 _STEP = 512
 
 
@@ -135,9 +137,7 @@ def _solve(
     Entries off the diagonal are negative and b is not: all terms have one sign.
     """
     lower = part == "pivots"
-    x: NDArray[np.float64] = solve_triangular(
-        factor, b, trans=trans, lower=lower, unit_diagonal=not lower, check_finite=False
-    )
+    x: NDArray[np.float64] = dtrsm(1.0, factor, b, lower=lower, trans_a=trans, diag=not lower)
     return x
 
 
@@ -148,14 +148,19 @@ def _eliminate(W: NDArray[np.float64], count: int, pivots: NDArray[np.float64]) 
     eliminated states hold their arcs to later states, their rows the arcs from later states
     divided by the pivot, and the rest is the window without them.
     """
-    for first in range(0, count, _PANEL):
-        last = min(first + _PANEL, count)
-        _eliminate_panel(W, first, last, pivots)
+    narrow = len(W) <= _NARROW
+    panel = max(_UNTHREADED // W.size, 4) if narrow else _PANEL
+    for first in range(0, count, panel):
+        last = min(first + panel, count)
+        _eliminate_panel(W, first, last, W.shape[1] if narrow else last, pivots)
         if last == W.shape[1]:
             return
+        if narrow:
+            W[last:, last:] += W[last:, first:last] @ W[first:last, last:]
+            continue
         top = -W[first:last, first:last]
         np.fill_diagonal(top, pivots[first:last])
-        rows = solve_triangular(top, W[first:last, last:], lower=True, check_finite=False)
+        rows = dtrsm(1.0, top, W[first:last, last:], lower=True)
         W[first:last, last:] = rows
         columns = W[:, first:last].copy(order="F")
         columns[:last] = 0.0
@@ -164,15 +169,15 @@ def _eliminate(W: NDArray[np.float64], count: int, pivots: NDArray[np.float64]) 
 
 
 def _eliminate_panel(
-    W: NDArray[np.float64], first: int, last: int, pivots: NDArray[np.float64]
+    W: NDArray[np.float64], first: int, last: int, width: int, pivots: NDArray[np.float64]
 ) -> None:
-    """Eliminate the states first..last, leaving the columns after them as they are."""
-    square = W[:last]
+    """Eliminate the states first..last; bring only their rows, up to `width`, up to date."""
+    rows = W[:last]
     for k in range(first, last):
         # The column below the panel is brought up to date only now, by one product.
         below = W[last:, k]
         below += W[last:, first:k] @ W[first:k, k]
-        pivots[k] = square[k + 1 :, k].sum() + below.sum()
-        row = square[k, k + 1 : last]
+        pivots[k] = rows[k + 1 :, k].sum() + below.sum()
+        row = rows[k, k + 1 : width]
         row /= pivots[k]
-        square[k + 1 :, k + 1 : last] += np.outer(square[k + 1 :, k], row)
+        rows[k + 1 :, k + 1 : width] += np.outer(rows[k + 1 :, k], row)
