@@ -120,6 +120,27 @@ def test_quantiles_of_a_match_that_takes_a_trillion_racks() -> None:
         assert found == pytest.approx(2 * log(level) / log1p(-chance), rel=1e-11)
 
 
+def test_a_match_of_more_racks_than_a_float_can_square() -> None:
+    # Player 1 breaks at leads 0 and 2 and, up to parts of p, wins a rack with chance p there;
+    # from 0 one such rack leads to 2 or loses the match, from 2 it leads to 0 or wins it.
+    p = 1e-300
+    odds = match_odds(Ahead(3, 3, Rack(p, p), breaks=alternate_breaks))
+    assert odds.p_win_1 == pytest.approx(1 / 3, rel=1e-12)
+    # Each of these comes after 1 / 2p turns of two racks; there are 2 of them on average,
+    # and a number with the law 1/2, 1/4, ... of such waits is again exponential.
+    assert odds.mean_games == pytest.approx(2 / p, rel=1e-12)
+    assert odds.sd_games == pytest.approx(2 / p, rel=1e-12)
+    assert odds.games_p50 == pytest.approx(2 * log(2) / p, rel=1e-9)
+
+
+def test_a_mean_that_no_float_holds_is_none() -> None:
+    odds = match_odds(Ahead(3, 3, Rack(1e-310, 1e-310), breaks=alternate_breaks))
+    assert odds.p_never_ends == 0.0
+    assert odds.mean_games is odds.sd_games is None
+    assert odds.games_p50 is not None
+    assert odds.games_p50 > 10**310
+
+
 def test_a_long_lead_needs_no_patience() -> None:
     odds = match_odds(Ahead(60, 60, Rack(0.5)))
     assert odds.mean_games == pytest.approx(3600, rel=1e-12)

@@ -42,6 +42,9 @@ WORDS = {
 LONGEST_LEAD, MOST_SCORES = 200, 20_000
 """Limits on matches other than the plain race, so that no answer takes more than some seconds."""
 
+MANY_RACKS = 10**9
+"""From here on a terminal shows three digits of a number of racks."""
+
 EXAMPLES = """\b
 Examples:
   evenbreak odds 612 521 --scale fargo --race 7:5
@@ -187,4 +190,6 @@ def match_text(match: Match) -> str:
 def _text(key: str, value: float) -> str:
     if key.startswith("p_"):
         return chance_text(value)
+    if value >= MANY_RACKS:
+        return f"{value:.3g}"
     return f"{value:.2f}" if isinstance(value, float) else str(value)

@@ -144,10 +144,10 @@ def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-1
     games = np.arange(chances.shape[-1])
     if outcomes is None:
         mean = (games * chances).sum(axis=-1)
-        variance = ((games - mean[..., np.newaxis]) ** 2 * chances).sum(axis=-1)
+        sd = np.sqrt(((games - mean[..., np.newaxis]) ** 2 * chances).sum(axis=-1))
         left = 0.0
     else:
-        _, mean, variance = outcomes.length
+        _, mean, sd = outcomes.length
         left = np.maximum(1.0 - chances.sum(axis=-1) - never, 0.0)
     possible = chances.reshape(-1, games.size).any(axis=0)
     first = int(possible.argmax())
@@ -155,7 +155,7 @@ def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-1
         games=games[first:],
         probability=chances[..., first:],
         mean=_unless_endless(mean, never, shape),
-        sd=_unless_endless(np.sqrt(variance), never, shape),
+        sd=_unless_endless(sd, never, shape),
         p_never_ends=plain(never, shape),
         tail_mass=plain(left, shape),
         bounded=bounded,

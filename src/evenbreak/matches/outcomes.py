@@ -1,16 +1,20 @@
 """How a match comes out, from how its racks (or sets) come out.
 
 A unit, rack or set, begun by a breaker comes out as (winner, next breaker), each
-outcome with its chance and the mean and variance of the racks it takes. The score
+outcome with its chance and the mean and standard deviation of the racks it takes. The score
 after each unit is a small Markov chain; absorbing it gives the outcomes of the match
 in the same form, so that a match is a unit of a longer match. Floats and arrays of
 one shape are treated alike.
+
+A length may be as long as 1e300 racks, of which no float holds the square: squares are
+taken in units of the longest mean.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any, NamedTuple
 
 from evenbreak.games.match import Match, Score
@@ -22,11 +26,11 @@ __all__ = ["Outcome", "Outcomes", "outcomes_of", "unit_outcomes"]
 
 
 class Outcome(NamedTuple):
-    """The chance of one outcome; mean and variance of its length in racks, given it."""
+    """The chance of one outcome; mean and standard deviation of its racks, given it."""
 
     chance: Any
     mean: Any
-    variance: Any
+    sd: Any
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,7 @@ class Outcomes:
 
     @property
     def length(self) -> Outcome:
-        """Chance that the match ends, and mean and variance of its racks if it does."""
+        """Chance that the match ends, and mean and standard deviation of its racks if it does."""
         return _mixture(list(self.by_result.values()))
 
 
@@ -62,7 +66,7 @@ def outcomes_of(match: Match, *, lengths: bool = True) -> Outcomes:
     match
         a race or an n-ahead match, of racks or of sets to any depth; floats or arrays.
     lengths
-        whether means and variances are wanted too; they are 0 if not.
+        whether means and standard deviations are wanted too; they are 0 if not.
 
     >>> from evenbreak.games import Race, Rack
     >>> round(outcomes_of(Race(3, 1, Race(3, 3, Rack(2 / 3)))).p_win(1), 12)
@@ -103,8 +107,26 @@ def _mixture(parts: list[Outcome]) -> Outcome:
         return parts[0]
     chance = sum((part.chance for part in parts), 0.0)
     mean = ratio(sum((part.chance * part.mean for part in parts), 0.0), chance)
-    spread = sum((part.chance * (part.variance + (part.mean - mean) ** 2) for part in parts), 0.0)
-    return Outcome(chance, mean, ratio(spread, chance))
+    unit = _unit_of_length([mean, *(part.sd for part in parts)])
+    spread = sum((part.chance * _square(part.sd, part.mean - mean, unit) for part in parts), 0.0)
+    return Outcome(chance, mean, unit * ratio(spread, chance) ** 0.5)
+
+
+def _square(sd: Any, surprise: Any, unit: Any) -> Any:
+    return (sd / unit) ** 2 + (surprise / unit) ** 2
+
+
+def _unit_of_length(lengths: Iterable[Any]) -> Any:
+    """Return the greatest of some lengths, 1 at least, for each place of arrays."""
+    return reduce(_greater, lengths, 1.0)
+
+
+def _greater(x: Any, y: Any) -> Any:
+    if isinstance(x, float) and isinstance(y, float):
+        return max(x, y)
+    import numpy as np
+
+    return np.maximum(x, y)
 
 
 def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outcomes:
@@ -165,7 +187,7 @@ def _with_length(
     """Return the outcome whose chance from each state is `reach`, with its length.
 
     Every reward is weighted with the chance that this outcome follows, which makes
-    the sums those of the chain given the outcome. The variance adds up squared
+    the sums those of the chain given the outcome. The spread adds up squared
     surprises (how far each unit moves the mean), so it is right when it is tiny.
     """
 
@@ -176,17 +198,18 @@ def _with_length(
 
     weighted = chain.solve(reward=mean_reward)
     mean: dict[Any, Any] = {state: ratio(weighted[state], reach[state]) for state in arcs}
+    unit = _unit_of_length(mean.values())
 
     def variance_reward(state: Any) -> Any:
         return sum(
             (
                 o.chance
                 * reach.get(target, 0.0)
-                * (o.variance + (o.mean + mean.get(target, 0.0) - mean[state]) ** 2)
+                * _square(o.sd, o.mean + mean.get(target, 0.0) - mean[state], unit)
                 for target, o in arcs[state].items()
             ),
             0.0,
         )
 
     spread = chain.solve(reward=variance_reward)[start]
-    return Outcome(reach[start], mean[start], ratio(spread, reach[start]))
+    return Outcome(reach[start], mean[start], unit * ratio(spread, reach[start]) ** 0.5)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from evenbreak.checks import one_of, probability, whole
 from evenbreak.errors import InputError
@@ -19,8 +19,7 @@ from evenbreak.matches.quantiles import quantile_of
 __all__ = ["RaceLaw", "race_law"]
 
 
-@dataclass(frozen=True)
-class RaceLaw:
+class RaceLaw(NamedTuple):
     """Who wins a race and after how many racks, as one joint distribution.
 
     Parameters

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from typing import NamedTuple
 
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.parameters import innermost
-from evenbreak.matches.quantiles import quantile_of
 from evenbreak.matches.races import RaceLaw, race_law
 
 __all__ = ["Odds", "RaceLaw", "match_odds", "race_law"]
 
 
-@dataclass(frozen=True)
-class Odds:
+class Odds(NamedTuple):
     """What there is to know about one match before its next rack.
 
     Everything is conditional on the match's start score and first breaker.
@@ -31,7 +28,7 @@ class Odds:
         P(the match goes on for ever).
     mean_games, sd_games
         mean and standard deviation of the racks still to be played, sets included rack
-        by rack; None if the match may never end.
+        by rack; None if the match may never end, or no float holds so large a number.
     games_p50, games_p90
         the smallest number of racks within which the match ends with chance .5, .9;
         None if it never reaches that chance, or only after more than 100,000 racks of a
@@ -99,18 +96,19 @@ def match_odds(match: Match) -> Odds:
         )
     # A plain race, the commonest question by far, is answered without loading what follows.
     from evenbreak.matches.outcomes import outcomes_of
+    from evenbreak.matches.rack_by_rack import length_quantiles
 
     outcomes = outcomes_of(match)
     ends = outcomes.never == 0.0
     length = outcomes.length
-    p50, p90 = _quantiles(match, length.chance, (0.5, 0.9))
+    p50, p90 = length_quantiles(match, length.chance, (0.5, 0.9))
     shutout_1, shutout_2 = _shutouts(match)
     return Odds(
         p_win_1=outcomes.p_win(1),
         p_win_2=outcomes.p_win(2),
         p_never_ends=outcomes.never,
-        mean_games=length.mean if ends else None,
-        sd_games=math.sqrt(length.variance) if ends else None,
+        mean_games=length.mean if ends and math.isfinite(length.mean) else None,
+        sd_games=length.sd if ends and math.isfinite(length.sd) else None,
         games_p50=p50,
         games_p90=p90,
         p_hill_hill=None,
@@ -133,71 +131,3 @@ def _shutouts(match: Match) -> tuple[float | None, float | None]:
             a, b = (a + 1, b) if player == 1 else (a, b + 1)
         chances.append(chance if match.decided(a, b) == player else 0.0)
     return chances[0], chances[1]
-
-
-def _quantiles(match: Match, ends: float, levels: tuple[float, float]) -> list[int | None]:
-    """Return the quantiles of the length; `ends` is the chance that the match ends at all."""
-    wanted = [q for q in levels if q <= ends * (1.0 + _ROUNDING)]
-    walk = _Walk(match)
-    while wanted and walk.ended < wanted[-1] * (1.0 + _ROUNDING) and walk.mass:
-        walk.play_a_rack()
-        if walk.steps > _PATIENCE:
-            found = _slow_quantiles(match, walk.moves, wanted)
-            return found + [None] * (len(levels) - len(found))
-    beyond = max(0.0, 1.0 - walk.ended)
-    return [quantile_of(walk.chances, q, beyond=beyond) if q in wanted else None for q in levels]
-
-
-_ROUNDING = 1e-9
-_PATIENCE = 200_000
-
-_Moves = dict[Any, list[tuple[Any, float]]]
-
-
-def _slow_quantiles(match: Match, moves: _Moves, levels: list[float]) -> list[int | None]:
-    """Return the quantiles of a match that is too long for plain numbers, by way of numpy."""
-    from evenbreak.matches.length import match_length
-    from evenbreak.matches.slow_ends import MOST_STATES, quantiles_by_doubling
-
-    if len(moves) <= MOST_STATES:
-        return list(quantiles_by_doubling(moves, match.start, levels))
-    length = match_length(match, tail=0.5 * (1.0 - levels[-1]))
-    reached = 1.0 - length.p_never_ends - length.tail_mass
-    return [length.quantile(q) if q <= reached else None for q in levels]
-
-
-class _Walk:
-    """Play of a match rack by rack, all its courses at once."""
-
-    def __init__(self, match: Match) -> None:
-        self.moves: _Moves = _all_moves(match)
-        self.mass: dict[Any, float] = {}
-        self.chances: list[float] = []
-        self.ended = 0.0
-        self.steps = 0
-        self._settle({match.start: 1.0})
-
-    def play_a_rack(self) -> None:
-        """Move the mass on by one rack; what is over is taken off."""
-        after: dict[Any, float] = {}
-        for state, held in self.mass.items():
-            for target, chance in self.moves[state]:
-                after[target] = after.get(target, 0.0) + held * chance
-        self.steps += len(self.mass)
-        self._settle(after)
-
-    def _settle(self, mass: dict[Any, float]) -> None:
-        self.mass = {state: held for state, held in mass.items() if self.moves[state]}
-        over = math.fsum(held for state, held in mass.items() if not self.moves[state])
-        self.chances.append(over)
-        self.ended += over
-
-
-def _all_moves(match: Match) -> _Moves:
-    moves: _Moves = {}
-    queue = [match.start]
-    for state in queue:
-        if state not in moves:
-            moves[state] = list(match.moves(state).items())
-            queue.extend(target for target, _ in moves[state])
-    return moves
