@@ -62,6 +62,15 @@ class TransientPart:
             return _InPlainPython(self._arcs, self._leak)
         return Factorisation(self._arcs, self._leak, self._outflow)
 
+    @cached_property
+    def _steps(self) -> NDArray[np.float64]:
+        """The steps before the states are left, from each; nothing of them can underflow.
+
+        What is lost from r at one state is lost at each visit to it. The visits themselves
+        lose only what is lost of the flow through a state over its pivot.
+        """
+        return self._factor.values(np.ones((len(self.states), 1)))[:, 0]
+
     @property
     def residual(self) -> float | None:
         """None where each entry of the answers so far is right to about machine precision.
@@ -112,8 +121,12 @@ class TransientPart:
         """
         try:
             with np.errstate(all="ignore"):
-                x = self._factor.values(b) if transposed else self._factor.visits(b)
-                doubtful = _doubtful(x, self._factor.pivots)
+                if transposed:
+                    x, gain = self._factor.values(b), self._steps
+                else:
+                    x = self._factor.visits(b)
+                    gain = 1.0 / self._factor.pivots
+                doubtful = _doubtful(x, gain)
         except (np.linalg.LinAlgError, ZeroDivisionError):
             # A pivot, which is a sum of positive arcs, has vanished: it was below all floats.
             x, doubtful = np.full(b.shape, np.nan), np.ones(b.shape, dtype=bool)
@@ -170,19 +183,20 @@ class _InPlainPython:
         return np.array([self._elimination.values(column) for column in r.T.tolist()]).T
 
 
-def _doubtful(x: NDArray[np.float64], pivots: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _doubtful(x: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return where underflow may show in x, of shape (m, k); all where x has overflowed.
 
-    What underflows is lost by at most 2^-1074 a term, before it is divided by the pivot of
-    its state. That matters where it is not small beside x, unless x is below all normal
-    floats anyway.
+    What underflows is lost by at most 2^-1074 a term, times the largest of x, and `gain`,
+    of shape (m,), is what becomes of a loss. That matters where it is not small beside x,
+    unless x is below all normal floats anyway.
     """
     top = x.max()
     if not top < np.inf:
         return np.ones(x.shape, dtype=bool)
-    low: NDArray[np.bool_] = x * pivots[:, None] < 1e-290 * max(1.0, top)
+    scale = len(x) * max(1.0, top)
+    low: NDArray[np.bool_] = ~(x >= 1e-290 * scale * gain[:, None])
     if low.any():
         # All scaled by 2^600, so that the smallest numbers can be compared.
-        lost = len(x) * max(1.0, top) * 2.0**-474 / pivots[:, None]
-        low &= lost > np.maximum(1e-14 * (x * 2.0**600), 2.0**-422)
+        lost = scale * 2.0**-474 * gain[:, None]
+        low &= ~(lost <= np.maximum(1e-14 * (x * 2.0**600), 2.0**-422))
     return low
