@@ -120,22 +120,32 @@ def bare_race_arrays() -> tuple[int, np.ndarray, np.ndarray, np.ndarray]:
     return states + 2, sources, targets, np.repeat([p1, 1 - p1, 1 - p2, p2], m * n)
 
 
-def test_race_by_arrays(beside: Beside) -> None:
-    def bare() -> np.ndarray:
-        n, sources, targets, chances = bare_race_arrays()
-        matrix = csc_array(coo_array((chances, (targets, sources)), shape=(n, n)))
-        begin = np.zeros(n)
-        begin[0] = 1.0
-        return spsolve_triangular(eye_array(n, format="csc") - matrix, begin, lower=True)
+def bare_race_limit() -> np.ndarray:
+    n, sources, targets, chances = bare_race_arrays()
+    matrix = csc_array(coo_array((chances, (targets, sources)), shape=(n, n)))
+    begin = np.zeros(n)
+    begin[0] = 1.0
+    return spsolve_triangular(eye_array(n, format="csc") - matrix, begin, lower=True)
 
+
+def test_race_by_its_arrays(beside: Beside) -> None:
     def ours() -> Any:
         return stochastic_limit(chain_of(RACE))
 
     limit = ours()
     ends = np.array([state[0] == 300 for state in limit.states])
     win = limit.probability[ends].sum()
-    note = f"difference {abs(win / bare()[-2] - 1):.0e}"
-    beside("race 300:300, arrays to limit / spsolve_triangular", ours, bare, note=note)
+    note = f"difference {abs(win / bare_race_limit()[-2] - 1):.0e}"
+    beside("race 300:300, Race to limit / spsolve_triangular", ours, bare_race_limit, note=note)
+
+
+def test_race_by_the_same_arrays(beside: Beside) -> None:
+    def ours() -> Any:
+        n, sources, targets, chances = bare_race_arrays()
+        return stochastic_limit(chain_from_arrays(range(n), sources, targets, chances), 0)
+
+    note = f"difference {abs(ours()[180_000] / bare_race_limit()[-2] - 1):.0e}"
+    beside("race 300:300, the same arrays / spsolve_triangular", ours, bare_race_limit, note=note)
 
 
 def test_race_through_networkx(beside: Beside) -> None:
