@@ -196,7 +196,7 @@ def _doubtful(x: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray[np.b
     scale = len(x) * max(1.0, top)
     low: NDArray[np.bool_] = ~(x >= 1e-290 * scale * gain[:, None])
     if low.any():
-        # All scaled by 2^600, so that the smallest numbers can be compared.
-        lost = scale * 2.0**-474 * gain[:, None]
-        low &= ~(lost <= np.maximum(1e-14 * (x * 2.0**600), 2.0**-422))
+        # By logarithms, in which neither side can leave the range of floats.
+        lost = np.log2(scale) - 1074 + np.log2(gain)[:, None]
+        low &= ~(lost <= np.maximum(np.log2(x) - 47, -1022))
     return low
