@@ -14,7 +14,7 @@ from evenbreak.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["number_probability", "one_of", "probability", "whole"]
+__all__ = ["number_probabilities", "number_probability", "one_of", "probability", "whole"]
 
 
 def probability(value: Any, name: str) -> Any:
@@ -70,18 +70,36 @@ def number_probability(value: Any, name: str) -> float:
     return checked
 
 
+def number_probabilities(values: Any, name: str, each: str) -> tuple[float, ...]:
+    """Return `values` as one probability or more, the i-th of them called `each` i.
+
+    >>> number_probabilities([], "shots", "shot")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: shots is []; give a list of numbers from 0 to 1
+    """
+    listed = list(values) if hasattr(values, "__iter__") else []
+    if not listed:
+        raise InputError(f"{name} is {values!r}; give a list of numbers from 0 to 1")
+    return tuple(number_probability(value, f"{each} {i}") for i, value in enumerate(listed, 1))
+
+
 def _probabilities(value: Any, name: str) -> NDArray[Any] | float:
     import numpy as np
 
     try:
-        array = np.asarray(value, dtype=float)
+        array = np.asarray(value)
+        if array.dtype.kind in "SUc":
+            raise ValueError
+        array = array.astype(float, copy=False)
     except (TypeError, ValueError):
-        raise InputError(f"{name} is {value!r}, not an array of probabilities") from None
+        raise InputError(
+            f"{name} is {value!r}, not an array of probabilities; give numbers from 0 to 1"
+        ) from None
     wrong = ~((array >= 0) & (array <= 1))
     if wrong.any():
-        raise InputError(
-            f"{name} holds {array[wrong].flat[0]!r}, not a probability; give numbers from 0 to 1"
-        )
+        first = float(array[wrong].flat[0])
+        raise InputError(f"{name} holds {first!r}, not a probability; give numbers from 0 to 1")
     return float(array) if array.ndim == 0 else array
 
 
@@ -97,22 +115,24 @@ def whole(value: Any, name: str, *, at_least: int = 0) -> int:
     """
     try:
         number = int(value)
+        right = number >= at_least and bool(number == value) and not isinstance(value, str | bytes)
     except (TypeError, ValueError, OverflowError):
-        number = at_least - 1
-    if isinstance(value, (str, bytes)) or number != value or number < at_least:
+        right = False
+    if not right:
         raise InputError(f"{name} is {value!r}; give a whole number, {at_least} or more")
     return number
 
 
 def one_of(value: Any, name: str, choices: tuple[Any, ...]) -> Any:
-    """Return `value` if it is one of `choices`.
+    """Return the one of `choices` that `value` equals: 1 for 1.0 or True.
 
     >>> one_of(3, "first_breaker", (1, 2))
     Traceback (most recent call last):
     ...
     evenbreak.errors.InputError: first_breaker is 3; give 1 or 2
     """
-    if value not in choices:
+    try:
+        return choices[choices.index(value)]
+    except ValueError:  # of an array too: its comparisons have no one truth
         listed = " or ".join(repr(choice) for choice in choices)
-        raise InputError(f"{name} is {value!r}; give {listed}")
-    return value
+        raise InputError(f"{name} is {value!r}; give {listed}") from None

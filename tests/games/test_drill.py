@@ -40,7 +40,8 @@ def test_the_progressive_drill() -> None:
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: Drill([]), "success is empty"),
+        (lambda: Drill([]), r"success is \[\]; give a list"),
+        (lambda: Drill(0.5), r"success is 0\.5; give a list"),  # type: ignore[arg-type]
         (lambda: Drill([0.5, 1.5]), r"success at level 2 is 1\.5"),
         (lambda: Drill.progressive(-1), "p is -1"),
         (lambda: Drill.progressive(0.5, levels=0), "levels is 0"),

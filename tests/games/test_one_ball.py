@@ -57,7 +57,7 @@ def test_the_winners_of_the_shots() -> None:
     [
         (lambda: OneBall(1.2, 0.5), "p1 is 1.2"),
         (lambda: OneBall(0.5, float("nan")), "p2 is nan"),
-        (lambda: OneBallLookAhead([]), "shots is empty"),
+        (lambda: OneBallLookAhead([]), r"shots is \[\]; give a list"),
         (lambda: OneBallLookAhead([0.5, -1]), "shot 2 is -1"),
         (lambda: OneBallLookAhead([0.5], after=2), "after is 2"),
     ],

@@ -1,6 +1,7 @@
 from itertools import product
 from math import comb
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -184,7 +185,12 @@ def test_the_set_winner_breaks() -> None:
         ({"n": -1}, "n is -1"),
         ({"rack": 0.5}, "rack is 0.5"),
         ({"rack": Rack(0.5, 0.5)}, "breaks is missing"),
+        ({"breaks": "winner"}, "breaks is 'winner'; give a break format such as winner_breaks"),
+        ({"breaks": lambda b, w: b + w}, r"breaks\(1, 2\), the next breaker, is 3; give 1 or 2"),
         ({"first_breaker": 3}, "first_breaker is 3"),
+        ({"first_breaker": np.array([1, 2])}, "first_breaker is array"),
+        ({"score": (1, 1, 1)}, r"score is \(1, 1, 1\); give the games of both players"),
+        ({"score": 2}, "score is 2; give the games of both players"),
         ({"win_by": 0}, "win_by is 0"),
         ({"score": (-1, 0)}, "score of player 1 is -1"),
         ({"score": (0, 1.5)}, "score of player 2 is 1.5"),

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.errors import InputError
 from evenbreak.game import ArcArrays, arcs_of
 from evenbreak.games import BREAK_FORMATS, Race, Rack
 from evenbreak.games.race_arcs import ScoreStates
@@ -77,12 +76,6 @@ def test_a_race_that_is_over(score: tuple[int, int]) -> None:
 def test_other_races_have_no_arrays() -> None:
     assert Race(3, 3, Rack(0.5), win_by=2).arcs() is None
     assert Race(3, 3, Race(2, 2, Rack(0.5))).arcs() is None
-
-
-def test_a_format_that_names_no_player() -> None:
-    race = Race(3, 3, Rack(0.5, 0.5), breaks=lambda breaker, winner: breaker + winner)
-    with pytest.raises(InputError, match="the next breaker by the break format is 3"):
-        race.arcs()
 
 
 def test_states_are_made_when_asked_for() -> None:

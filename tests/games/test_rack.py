@@ -44,3 +44,9 @@ def test_no_player(who: object) -> None:
         Rack(0.5).chance(who)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="breaker is"):
         Rack(0.5).chance(1, who)  # type: ignore[arg-type]
+
+
+def test_arrays_fit_together_or_are_refused() -> None:
+    assert Rack([0.5, 0.6], [[0.1], [0.2]]).chance(1, 1).tolist() == [0.5, 0.6]
+    with pytest.raises(InputError, match=r"p1 and p2 have shapes \(2,\) and \(3,\)"):
+        Rack([0.5, 0.6], [0.1, 0.2, 0.3])

@@ -46,5 +46,7 @@ def test_nobody_wins_a_series(breaker: int) -> None:
 def test_what_a_series_cannot_be() -> None:
     with pytest.raises(InputError, match=r"rack is 0\.5"):
         Series(0.5, breaks=winner_breaks)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="breaks is 'winner'; give a break format"):
+        Series(Rack(0.5), breaks="winner")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="first_breaker is 0"):
         Series(Rack(0.5, 0.5), breaks=winner_breaks, first_breaker=0)

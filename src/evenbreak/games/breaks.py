@@ -7,12 +7,16 @@ rule of its own passes its own function.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import Any, TypeAlias
+
+from evenbreak.checks import one_of
+from evenbreak.errors import InputError
 
 __all__ = [
     "BREAK_FORMATS",
     "BreakFormat",
     "alternate_breaks",
+    "checked_format",
     "loser_breaks",
     "player_1_breaks",
     "player_2_breaks",
@@ -55,3 +59,25 @@ BREAK_FORMATS: dict[str, BreakFormat] = {
     "player 2": player_2_breaks,
 }
 """The usual formats by name."""
+
+
+def checked_format(breaks: Any) -> BreakFormat:
+    """Return `breaks` if it names the next breaker after every rack.
+
+    Raises
+    ------
+    InputError
+        if it is no function, or answers anything but 1 or 2.
+
+    >>> checked_format(lambda breaker, winner: winner - 1)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: breaks(1, 1), the next breaker, is 0; give 1 or 2
+    """
+    if not callable(breaks):
+        raise InputError(f"breaks is {breaks!r}; give a break format such as winner_breaks")
+    for breaker in (1, 2):
+        for winner in (1, 2):
+            after = breaks(breaker, winner)
+            one_of(after, f"breaks({breaker}, {winner}), the next breaker,", (1, 2))
+    return breaks  # type: ignore[no-any-return]

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from evenbreak.checks import number_probability, whole
-from evenbreak.errors import InputError
+from evenbreak.checks import number_probabilities, number_probability, whole
 
 __all__ = ["Drill"]
 
@@ -37,11 +36,7 @@ class Drill:
     success: Sequence[float]
 
     def __post_init__(self) -> None:
-        levels = tuple(
-            number_probability(p, f"success at level {i}") for i, p in enumerate(self.success, 1)
-        )
-        if not levels:
-            raise InputError("success is empty; give the chance of success at each level")
+        levels = number_probabilities(self.success, "success", "success at level")
         object.__setattr__(self, "success", levels)
 
     @classmethod

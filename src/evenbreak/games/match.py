@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
-from evenbreak.games.breaks import BreakFormat
+from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
 
 __all__ = ["Match"]
@@ -69,8 +69,16 @@ class Match:
                 "breaks is missing: in Rack(p1, p2) the break matters; "
                 "give for example breaks=winner_breaks"
             )
-        one_of(self.first_breaker, "first_breaker", (1, 2))
-        a, b = self.score
+        if self.breaks is not None:
+            checked_format(self.breaks)
+        first = one_of(self.first_breaker, "first_breaker", (1, 2))
+        object.__setattr__(self, "first_breaker", first)
+        try:
+            a, b = self.score
+        except (TypeError, ValueError):
+            raise InputError(
+                f"score is {self.score!r}; give the games of both players, as (2, 1)"
+            ) from None
         self._check_score(whole(a, "score of player 1"), whole(b, "score of player 2"))
 
     def _check_score(self, a: int, b: int) -> None:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 
-from evenbreak.checks import number_probability
-from evenbreak.errors import InputError
+from evenbreak.checks import number_probabilities, number_probability
 
 __all__ = ["OneBall", "OneBallLookAhead"]
 
@@ -85,9 +84,7 @@ class OneBallLookAhead:
     after: float = 0.5
 
     def __post_init__(self) -> None:
-        shots = tuple(number_probability(p, f"shot {i}") for i, p in enumerate(self.shots, 1))
-        if not shots:
-            raise InputError("shots is empty; give the chance of at least one shot")
+        shots = number_probabilities(self.shots, "shots", "shot")
         object.__setattr__(self, "shots", shots)
         object.__setattr__(self, "after", number_probability(self.after, "after"))
 

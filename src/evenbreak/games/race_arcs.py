@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.checks import one_of
 from evenbreak.game import ArcArrays
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.match import Score
@@ -107,7 +106,7 @@ def race_arcs(
     Raises
     ------
     InputError
-        if the break format answers anything but 1 or 2, or the rack holds arrays.
+        if the rack holds arrays.
 
     >>> from evenbreak.games import winner_breaks
     >>> arcs = race_arcs((1, 1), Rack(0.6, 0.5), winner_breaks, 2, (0, 0))
@@ -125,7 +124,6 @@ def race_arcs(
     for j, breaker in enumerate(breakers):
         for k, winner in enumerate((2, 1)):
             nxt = breaks(breaker, winner) if breaks and rack.break_matters else 1
-            one_of(nxt, "the next breaker by the break format", (1, 2))
             targets[:, j, k] = after_loss[on] * count + (k * count + nxt - 1)
             chances[j, k] = rack.of_numbers().chance(winner, breaker)
     reached, sources, targets, probabilities = _reached(

@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
-from evenbreak.games.breaks import BreakFormat
+from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
 
 __all__ = ["Series"]
@@ -50,7 +50,9 @@ class Series:
         if not isinstance(self.rack, Rack):
             raise InputError(f"rack is {self.rack!r}; give a Rack(p) or a Rack(p1, p2)")
         self.rack.of_numbers()
-        one_of(self.first_breaker, "first_breaker", (1, 2))
+        checked_format(self.breaks)
+        first = one_of(self.first_breaker, "first_breaker", (1, 2))
+        object.__setattr__(self, "first_breaker", first)
 
     @property
     def start(self) -> int:
