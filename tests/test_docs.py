@@ -14,7 +14,7 @@ from typing import NamedTuple
 import click
 import pytest
 
-from evenbreak.cli.base import COMMANDS, main
+from evenbreak.cli.base import COMMANDS, program
 from evenbreak.reports.results_columns import OPTIONAL, REQUIRED
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -192,7 +192,7 @@ def section(name: str) -> str:
 
 
 def command(name: str) -> click.Command:
-    found = main.get_command(click.Context(main), name)
+    found = program.get_command(click.Context(program), name)
     assert found is not None
     return found
 

@@ -1,5 +1,5 @@
 """Run the command line with `python -m evenbreak`."""
 
-from evenbreak.cli.base import main
+from evenbreak.cli import main
 
 main()

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 from click.testing import CliRunner, Result
 
-from evenbreak.cli import main
+from evenbreak.cli.base import program
 
 Run = Callable[..., Result]
 
@@ -15,7 +15,7 @@ def run() -> Run:
     """Run the words of a command line; `stdin` is text or bytes."""
 
     def run_words(*words: str, stdin: str | bytes | None = None) -> Result:
-        result = CliRunner().invoke(main, list(words), input=stdin)
+        result = CliRunner().invoke(program, list(words), input=stdin)
         assert result.exception is None or isinstance(result.exception, SystemExit)
         return result
 

@@ -9,7 +9,9 @@ import click
 import pytest
 
 from evenbreak import __version__
-from evenbreak.cli.base import COMMANDS, main, report_error
+from evenbreak.cli import base
+from evenbreak.cli.base import COMMANDS
+from evenbreak.cli.failures import report_error
 from evenbreak.errors import AccuracyError, ChainError, DataError, InputError
 
 ARCS = "source,target,probability\nS,W,0.6\nS,L,0.4\n"
@@ -51,7 +53,7 @@ def test_every_command_of_the_table_exists(run, name):
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_option_says_what_it_is(name):
-    command = main.get_command(click.Context(main), name)
+    command = base.program.get_command(click.Context(base.program), name)
     for option in command.params:
         assert isinstance(option, click.Argument) or option.help
 
@@ -96,7 +98,7 @@ def test_each_error_has_its_exit_code_and_a_line_for_each_problem(capsys, error,
 
 def test_errors_pass_through_where_the_caller_asks_for_them():
     with pytest.raises(click.UsageError, match="what is played is missing"):
-        main.main(["odds", "1", "2"], standalone_mode=False)
+        base.program.main(["odds", "1", "2"], standalone_mode=False)
 
 
 def test_ctrl_c_ends_with_130(tmp_path):

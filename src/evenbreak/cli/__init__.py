@@ -5,6 +5,19 @@ and prints. `base` holds the program itself; a command's module is imported only
 that command runs.
 """
 
-from evenbreak._lazy import attach
+import gc
 
-__getattr__, __dir__, __all__ = attach(__name__, {"base": ["main"]})
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Run the program on the words of the command line, and exit."""
+    # What a start makes lives to the end: the collector would look through it in vain
+    # several times over, and once more when all is done while a person waits.
+    gc.set_threshold(100_000)
+    try:
+        from evenbreak.cli.base import program
+
+        program()
+    finally:
+        gc.freeze()

@@ -1,1 +1,0 @@
-from evenbreak.cli.base import main as main
