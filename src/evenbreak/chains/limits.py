@@ -294,7 +294,8 @@ def limit_matrix(chain: Chain) -> csc_array:
     """Return the limits from all states; shape (n, n), column j is the limit from state j.
 
     Time and memory are those of one solve for each closed class that is entered from
-    outside, and of the entries that are not 0.
+    outside, and of the entries that are not 0. What `stochastic_limit` says of its
+    accuracy holds here too; entries of large classes come without their residual.
 
     Raises
     ------
