@@ -42,8 +42,16 @@ def test_a_shutout_is_counted_from_the_start_score() -> None:
     assert shutout_probability(race, (3, 2), player=2) == 0.0
     assert shutout_probability(Ahead(2, 2, Rack(0.5))) is None
     assert shutout_probability(Race(2, 2, Rack(0.5), win_by=3)) == 0.5**3
+    # A run so unlikely that it lies beyond the lengths of which any mass is followed.
+    rare = Race(20, 2, Rack([1e-6, 0.5]), win_by=2)
+    assert shutout_probability(rare) == pytest.approx([1e-120, 0.5**20], rel=1e-13, abs=0)
     sets = Race(2, 2, Race(2, 1, Rack([0.5, 0.2])))
     assert shutout_probability(sets) == pytest.approx([0.25**2, 0.04**2], rel=1e-15)
+    # Player 1 wins a set 1:0 or 1:1, so who breaks first in the next set is left to chance.
+    carried = Race(2, 9, Race(1, 2, Rack(0.6, 0.7), breaks=alternate_breaks))
+    by_next = {2: 0.6, 1: 0.4 * 0.3}, {1: 0.3, 2: 0.7 * 0.6}  # breaker 1, breaker 2
+    expected = sum(p * sum(by_next[then - 1].values()) for then, p in by_next[0].items())
+    assert shutout_probability(carried) == pytest.approx(expected, rel=1e-14)
 
 
 def test_final_scores_that_have_no_last_one() -> None:

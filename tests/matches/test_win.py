@@ -11,6 +11,7 @@ from evenbreak.errors import InputError
 from evenbreak.games import (
     BREAK_FORMATS,
     Ahead,
+    OneBall,
     Race,
     Rack,
     alternate_breaks,
@@ -18,7 +19,14 @@ from evenbreak.games import (
     winner_breaks,
 )
 from evenbreak.games.match import Match
-from evenbreak.matches import race_law, race_win_probability, win_probability
+from evenbreak.matches import (
+    final_scores,
+    match_length,
+    match_odds,
+    race_law,
+    race_win_probability,
+    win_probability,
+)
 
 PROBABILITY = st.floats(0.0, 1.0, allow_subnormal=False)
 GAMES = st.integers(1, 9)
@@ -229,8 +237,16 @@ def test_race_win_probability_is_the_beta_function_of_the_text() -> None:
         (0.5, "3", 2, "m is '3'; give whole numbers"),
         (0.5, 3, float("inf"), "n is inf; give whole numbers"),
         (0.5, [1, 0], 0, "both 0 somewhere"),
+        ([0.5, 0.6], [1, 2, 3], 4, r"shapes \(2,\) and \(3,\) and \(\); give shapes"),
     ],
 )
 def test_wrong_needs_are_refused(p: Any, m: Any, n: Any, message: str) -> None:
     with pytest.raises(InputError, match=message):
         race_win_probability(p, m, n)
+
+
+@pytest.mark.parametrize("ask", [win_probability, match_length, final_scores, match_odds])
+@pytest.mark.parametrize("game", [Rack(0.5), OneBall(0.4, 0.8), 0.5])
+def test_other_games_are_for_the_chains(ask: Any, game: Any) -> None:
+    with pytest.raises(InputError, match=r"give a Race or an Ahead, or solve chain_of"):
+        ask(game)

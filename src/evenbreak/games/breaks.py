@@ -16,7 +16,6 @@ __all__ = [
     "BREAK_FORMATS",
     "BreakFormat",
     "alternate_breaks",
-    "checked_format",
     "loser_breaks",
     "player_1_breaks",
     "player_2_breaks",

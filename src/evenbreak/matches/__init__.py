@@ -10,12 +10,8 @@ __getattr__, __dir__, __all__ = attach(
     __name__,
     {
         "length": ["MatchLength", "match_length"],
-        "scores": [
-            "FinalScores",
-            "final_scores",
-            "hill_hill_probability",
-            "shutout_probability",
-        ],
+        "scores": ["FinalScores", "final_scores", "hill_hill_probability"],
+        "shutout": ["shutout_probability"],
         "win": ["race_win_probability", "win_probability"],
         "scalar": ["Odds", "RaceLaw", "match_odds", "race_law"],
     },

@@ -7,6 +7,6 @@ from evenbreak.matches.scalar import race_law as race_law
 from evenbreak.matches.scores import FinalScores as FinalScores
 from evenbreak.matches.scores import final_scores as final_scores
 from evenbreak.matches.scores import hill_hill_probability as hill_hill_probability
-from evenbreak.matches.scores import shutout_probability as shutout_probability
+from evenbreak.matches.shutout import shutout_probability as shutout_probability
 from evenbreak.matches.win import race_win_probability as race_win_probability
 from evenbreak.matches.win import win_probability as win_probability

@@ -18,7 +18,7 @@ from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import Endings, race_endings
-from evenbreak.matches.parameters import innermost, shape_of, with_rack
+from evenbreak.matches.parameters import shape_of, with_rack
 
 __all__ = ["endings_of", "is_bounded"]
 
@@ -50,7 +50,7 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
         fewer where there are so many parameters that this would not fit in memory.
     """
     winner = match.decided(*match.score)
-    rack = innermost(match)
+    rack = match.innermost_rack
     shape = shape_of(rack)
     if winner is not None:
         return Endings(*(np.full((1, *shape), float(winner == player)) for player in (1, 2)))

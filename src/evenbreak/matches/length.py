@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.checks import probability
+from evenbreak.checks import number_probability
 from evenbreak.errors import AccuracyError
 from evenbreak.games.match import Match, Score
 from evenbreak.matches.endings import endings_of, is_bounded
@@ -78,7 +78,7 @@ class MatchLength:
         >>> match_length(Race(2, 2, Rack(0.5))).quantile(0.5)
         2
         """
-        q = probability(q, "q")
+        q = number_probability(q, "q")
         chances = self.probability
         if q <= 0.5:
             reached = (np.cumsum(chances, axis=-1) >= q * (1.0 - TIE)) & (chances > 0.0)
@@ -92,7 +92,7 @@ class MatchLength:
         if not self.bounded and ((ends >= q) & (q < 1.0) & ~found).any():
             raise AccuracyError(
                 f"the {q:g} quantile lies beyond the span of {self.span} racks; "
-                "ask for the length with a smaller tail"
+                "ask for the length with a smaller tail, or match_odds for the .5 and .9 quantiles"
             )
         at = self.games[reached.argmax(axis=-1)]
         if chances.ndim == 1:
@@ -134,7 +134,7 @@ def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-1
     (4.0, 80, True)
     """
     match, shape = broadcast(at_score(match, score))
-    tail = probability(tail, "tail")
+    tail = number_probability(tail, "tail")
     bounded = is_bounded(match)
     # A race of racks is too large for the chain of its scores, and needs no tail.
     outcomes = None if bounded else outcomes_of(match)

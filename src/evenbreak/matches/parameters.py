@@ -8,18 +8,34 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, TypeVar
 
+from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
 
-__all__ = ["at_score", "broadcast", "first_breaker", "innermost", "plain", "shape_of", "with_rack"]
+__all__ = [
+    "at_score",
+    "broadcast",
+    "checked_match",
+    "first_breaker",
+    "plain",
+    "shape_of",
+    "with_rack",
+]
 
 AnyMatch = TypeVar("AnyMatch", bound=Match)
 
 
-def innermost(match: Match) -> Rack:
-    """Return the rack that is played in the end, however many sets are around it."""
-    rack = match.rack
-    return rack if isinstance(rack, Rack) else innermost(rack)
+def checked_match(match: AnyMatch) -> AnyMatch:
+    """Return `match` if it is one; other games are answered by their chains.
+
+    >>> checked_match(Rack(0.5))  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: match is Rack(p1=0.5, p2=None); give a Race or an Ahead...
+    """
+    if not isinstance(match, Match):
+        raise InputError(f"match is {match!r}; give a Race or an Ahead, or solve chain_of(game)")
+    return match
 
 
 def first_breaker(match: Match) -> int:
@@ -35,7 +51,7 @@ def with_rack(match: AnyMatch, rack: Rack) -> AnyMatch:
 
 def broadcast(match: AnyMatch) -> tuple[AnyMatch, tuple[int, ...]]:
     """Return the match with p1 and p2 of one shape, and the shape; () for numbers."""
-    rack = innermost(match)
+    rack = match.innermost_rack
     shape = shape_of(rack)
     if not shape or rack.p2 is None:
         return match, shape
@@ -47,6 +63,8 @@ def broadcast(match: AnyMatch) -> tuple[AnyMatch, tuple[int, ...]]:
 
 def shape_of(rack: Rack) -> tuple[int, ...]:
     """Return the shape that p1 and p2 have together; () for numbers."""
+    if isinstance(rack.p1, float) and isinstance(rack.p2, float | None):
+        return ()
     import numpy as np
 
     return np.broadcast_shapes(np.shape(rack.p1), () if rack.p2 is None else np.shape(rack.p2))
@@ -54,6 +72,7 @@ def shape_of(rack: Rack) -> tuple[int, ...]:
 
 def at_score(match: AnyMatch, score: Score | None) -> AnyMatch:
     """Return the match from `score` on; its first breaker breaks the next rack."""
+    match = checked_match(match)
     return match if score is None else replace(match, score=score)
 
 

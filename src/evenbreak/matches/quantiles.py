@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from evenbreak.checks import probability as checked
+from evenbreak.checks import number_probability
 
 __all__ = ["TIE", "quantile_of"]
 
@@ -41,7 +41,7 @@ def quantile_of(probability: Sequence[float], q: float, *, beyond: float = 0.0) 
     >>> quantile_of([0.5, 0.3, 0.2], 0.5), quantile_of([0.5, 0.3], 0.9, beyond=0.2)
     (0, None)
     """
-    q = checked(q, "q")
+    q = number_probability(q, "q")
     if q <= 0.5:
         reached = 0.0
         for k, chance in enumerate(probability):

@@ -8,8 +8,7 @@ from typing import NamedTuple
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
-from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import innermost
+from evenbreak.matches.parameters import checked_match
 from evenbreak.matches.races import RaceLaw, race_law
 
 __all__ = ["Odds", "RaceLaw", "match_odds", "race_law"]
@@ -64,7 +63,7 @@ def match_odds(match: Match) -> Odds:
     Raises
     ------
     InputError
-        if the chances are arrays.
+        if the chances are arrays, or `match` is another game.
 
     Notes
     -----
@@ -75,7 +74,7 @@ def match_odds(match: Match) -> Odds:
     >>> odds.p_win_1, odds.mean_games, odds.games_p50, odds.p_hill_hill, odds.p_shutout_1
     (0.5, 2.5, 2, 0.5, 0.25)
     """
-    rack = innermost(match)
+    rack = checked_match(match).innermost_rack
     if not isinstance(rack.p1, float) or not isinstance(rack.p2, float | None):
         raise InputError("match holds arrays; use win_probability and match_length for those")
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
@@ -97,12 +96,12 @@ def match_odds(match: Match) -> Odds:
     # A plain race, the commonest question by far, is answered without loading what follows.
     from evenbreak.matches.outcomes import outcomes_of
     from evenbreak.matches.rack_by_rack import length_quantiles
+    from evenbreak.matches.shutout import shutout_probability
 
     outcomes = outcomes_of(match)
     ends = outcomes.never == 0.0
     length = outcomes.length
     p50, p90 = length_quantiles(match, length.chance, (0.5, 0.9))
-    shutout_1, shutout_2 = _shutouts(match)
     return Odds(
         p_win_1=outcomes.p_win(1),
         p_win_2=outcomes.p_win(2),
@@ -112,22 +111,6 @@ def match_odds(match: Match) -> Odds:
         games_p50=p50,
         games_p90=p90,
         p_hill_hill=None,
-        p_shutout_1=shutout_1,
-        p_shutout_2=shutout_2,
+        p_shutout_1=shutout_probability(match, player=1) if match.rack is rack else None,
+        p_shutout_2=shutout_probability(match, player=2) if match.rack is rack else None,
     )
-
-
-def _shutouts(match: Match) -> tuple[float | None, float | None]:
-    """Return the chance of a run of racks that wins before the other player has any."""
-    rack = match.rack
-    if not isinstance(match, Race) or not isinstance(rack, Rack):
-        return None, None
-    chances = []
-    for player in (1, 2):
-        (a, b), breaker, chance = match.score, match.first_breaker, 1.0
-        while match.decided(a, b) is None:
-            chance *= rack.chance(player, breaker)
-            breaker = match.breaks(breaker, player) if match.breaks else breaker
-            a, b = (a + 1, b) if player == 1 else (a, b + 1)
-        chances.append(chance if match.decided(a, b) == player else 0.0)
-    return chances[0], chances[1]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.checks import one_of, probability
+from evenbreak.checks import number_probability
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
@@ -20,7 +20,6 @@ __all__ = [
     "FinalScores",
     "final_scores",
     "hill_hill_probability",
-    "shutout_probability",
 ]
 
 _MOST_SETS = 10_000
@@ -77,7 +76,7 @@ def final_scores(match: Match, score: Score | None = None, *, tail: float = 1e-1
     {(2, 0): 0.25, (0, 1): 0.5, (1, 1): 0.25}
     """
     match, shape = broadcast(at_score(match, score))
-    tail = probability(tail, "tail")
+    tail = number_probability(tail, "tail")
     bounded = is_bounded(match)
     never = 0.0 if bounded else outcomes_of(match, lengths=False).never
     if isinstance(match.rack, Rack):
@@ -119,35 +118,6 @@ def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     ends = final_scores(match).probability
     decider = match.m + match.n - 1
     return plain(sum((chance for (a, b), chance in ends.items() if a + b == decider), 0.0), shape)
-
-
-def shutout_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
-    """Return P(`player` wins and the other scores nothing from the start score on).
-
-    None for n-ahead matches, which are about the lead and not about the score. The
-    other parameters and errors are those of `final_scores`.
-
-    >>> from evenbreak.games import Race, Rack
-    >>> shutout_probability(Race(2, 2, Rack(0.5)), player=2)
-    0.25
-    """
-    one_of(player, "player", (1, 2))
-    if not isinstance(match, Race):
-        return None
-    match, shape = broadcast(at_score(match, score))
-    ends = final_scores(match).probability
-    other = 2 - player
-    return plain(
-        sum(
-            (
-                chance
-                for end, chance in ends.items()
-                if match.decided(*end) == player and end[other] == match.score[other]
-            ),
-            0.0,
-        ),
-        shape,
-    )
 
 
 def _final(match: Match, player: int, k: int) -> Score:

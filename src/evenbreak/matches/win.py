@@ -44,7 +44,7 @@ def win_probability(match: Match, score: Score | None = None, *, player: int = 1
     Raises
     ------
     InputError
-        if the score cannot be reached, or `player` is not 1 or 2.
+        if the score cannot be reached, `match` is another game, or `player` is not 1 or 2.
 
     Notes
     -----
@@ -100,7 +100,7 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     ------
     InputError
         if p is not a probability, or m or n is not a whole number from 0 on, or both
-        are 0.
+        are 0, or the shapes do not broadcast.
 
     Notes
     -----
@@ -110,7 +110,14 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     array([0.75  , 0.5   , 0.3125])
     """
     needs_1, needs_2 = _needs(m, "m"), _needs(n, "n")
-    chance = betainc(needs_1, needs_2, probability(p, "p"))
+    chances = probability(p, "p")
+    try:
+        chance = betainc(needs_1, needs_2, chances)
+    except ValueError:
+        shapes = " and ".join(str(np.shape(part)) for part in (chances, needs_1, needs_2))
+        raise InputError(
+            f"p, m and n have shapes {shapes}; give shapes that broadcast together"
+        ) from None
     if not (needs_1.all() and needs_2.all()):
         won_1, won_2 = needs_1 == 0, needs_2 == 0
         if (won_1 & won_2).any():
