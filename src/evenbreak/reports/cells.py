@@ -21,7 +21,7 @@ __all__ = ["Values", "numbers", "read_cells", "whole_numbers"]
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
 _WHOLE = re.compile(r"[+-]?[0-9]+(\.0*)?", re.ASCII)
-_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)(e[+-]?[0-9]+)?", re.ASCII | re.IGNORECASE)
+_IN_NUMBERS = "0123456789+-.eE"
 LARGEST_WHOLE = 1_000_000
 LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of digits
 
@@ -78,9 +78,7 @@ def read_cells(
     """
     distinct, codes = table.texts(name)
     meant = [meaning(text) if text else None for text in distinct]
-    values = np.empty(len(distinct), dtype=dtype)
-    for place, value in enumerate(meant):
-        values[place] = empty if value is None else value
+    values = np.array([empty if value is None else value for value in meant], dtype=dtype)
     good = np.array([value is not None for value in meant], dtype=bool)
     if may_be_empty or name not in table:
         good |= np.array([not text for text in distinct], dtype=bool)
@@ -132,7 +130,10 @@ def numbers(table: Table, name: str, *, remedy: str) -> Values:
 
 def _number(text: str) -> float | None:
     # Python's float() also takes nan, inf, 1_000 and digits of other scripts.
-    if not _NUMBER.fullmatch(text):
+    if text.strip(_IN_NUMBERS):
         return None
-    number = float(text)
+    try:
+        number = float(text)
+    except ValueError:
+        return None
     return number if math.isfinite(number) else None

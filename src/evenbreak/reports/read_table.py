@@ -259,9 +259,12 @@ def _fits(line: int, row: list[str], width: int, problems: Problems) -> bool:
 
 def _stripped(raw: list[str], codes: NDArray[np.int64]) -> Texts:
     """Return a column with the blanks around its cells taken away."""
+    bare = [text.strip() for text in raw]
+    if bare == raw:  # as nearly always
+        return Texts(raw, codes)
     numbers: defaultdict[str, int] = defaultdict(count().__next__)
-    renumbered = np.array([numbers[text.strip()] for text in raw], dtype=np.int64)
-    return Texts(list(numbers), renumbered[codes] if len(raw) else codes)
+    renumbered = np.array([numbers[text] for text in bare], dtype=np.int64)
+    return Texts(list(numbers), renumbered[codes])
 
 
 def _listed(names: Sequence[str]) -> str:
