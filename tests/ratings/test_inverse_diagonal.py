@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from scipy import sparse
 
 from evenbreak.errors import AccuracyError
-from evenbreak.ratings import inverse_diagonal as module
 from evenbreak.ratings.fronts import fronts_of
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 
@@ -112,32 +111,6 @@ def test_a_league_in_divisions_is_cut_up_and_a_mixed_one_is_not():
     assert max(len(front.pivots) + len(front.rows) for front in cut) < 200
     low, high = mixed(rng)
     assert len(fronts_of(laplacian(700, low, high, np.ones(len(low)), 1.0))) == 1
-
-
-@pytest.mark.parametrize("row_sum", [1e-6, 1.0])
-def test_single_precision_keeps_six_digits_whatever_the_prior(monkeypatch, row_sum):
-    rng = np.random.default_rng(5)
-    low, high = mixed(rng)
-    matrix = laplacian(700, low, high, rng.uniform(0.05, 3, len(low)), row_sum)
-    double = inverse_diagonal(matrix, row_sum)
-    monkeypatch.setattr(module, "_SINGLE_PRECISION_FROM", 100)
-    single = inverse_diagonal(matrix, row_sum)
-    assert (single != double).any()
-    np.testing.assert_allclose(single, double, rtol=1e-5)
-
-
-def test_single_precision_is_not_used_where_the_condition_forbids_it(monkeypatch):
-    # Two halves that hardly met: without a prior their difference is all but unknown.
-    rng = np.random.default_rng(5)
-    low, high = random_pairs(rng, 200, 4000)
-    low, high = np.concatenate((low, low + 200, [0])), np.concatenate((high, high + 200, [200]))
-    weight = np.ones(len(low))
-    weight[-1] = 1e-3
-    matrix = laplacian(400, low, high, weight, 1e-4)
-    double = np.diagonal(np.linalg.inv(matrix.toarray()))
-    monkeypatch.setattr(module, "_SINGLE_PRECISION_FROM", 100)
-    assert module._dense_single(matrix, 1e-4) is None
-    np.testing.assert_allclose(module._dense(matrix, 1e-4), double, rtol=1e-9)
 
 
 @pytest.mark.parametrize("size", [1, 2, 5])

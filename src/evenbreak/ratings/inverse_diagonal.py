@@ -12,22 +12,17 @@ and of S⁻¹ only the entries that the block touches are needed (Takahashi, Fag
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import lapack
 
-from evenbreak.errors import AccuracyError
+from evenbreak.ratings.filled_in import filled_in_diagonal, not_definite
 from evenbreak.ratings.fronts import Front, fronts_of
 
 __all__ = ["inverse_diagonal"]
 
 Floats = NDArray[np.float64]
-
-_SINGLE_PRECISION_FROM = 2000
-"""Dense matrices of this size go to single precision where their condition allows it."""
 
 _TRACE = 1e-100
 
@@ -46,8 +41,9 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
     -------
     numpy.ndarray
         n values, with a relative error near rounding. A matrix of 2,000 rows or more that
-        fills in goes to single precision if its condition number is below 1000: the
-        error is then a few 1e-6 as a rule, and some 1e-4 at worst.
+        fills in is answered by cavities (see `filled_in`) where that is within 1 % at
+        worst, 1e-4 as a rule; failing that in single precision where its condition number
+        is below 1000: then within a few 1e-6 as a rule, and some 1e-4 at worst.
 
     Raises
     ------
@@ -60,7 +56,7 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
     """
     fronts = fronts_of(matrix)
     if len(fronts) == 1 and len(fronts[0].rows) == 0:
-        return _dense(matrix, row_sum)
+        return filled_in_diagonal(matrix, row_sum)
     return _come_back(fronts, *_eliminate(matrix, fronts))
 
 
@@ -131,58 +127,6 @@ def _inverse(block: Floats) -> Floats:
         return np.asarray(1.0 / block)
     factor, failed = lapack.dpotrf(block, lower=1)
     if failed:
-        raise _not_definite()
+        raise not_definite()
     inverse, _ = lapack.dpotri(factor, lower=1, overwrite_c=1)
     return np.asarray(np.tril(inverse) + np.tril(inverse, -1).T)
-
-
-def _dense(matrix: sparse.csc_array, row_sum: float) -> Floats:
-    """Return the diagonal for a matrix that is one front."""
-    if matrix.shape[0] >= _SINGLE_PRECISION_FROM:
-        diagonal = _dense_single(matrix, row_sum)
-        if diagonal is not None:
-            return diagonal
-    factor, failed = lapack.dpotrf(matrix.toarray(order="F"), lower=1, overwrite_a=1)
-    if failed:
-        raise _not_definite()
-    inverse, _ = lapack.dtrtri(factor, lower=1, overwrite_c=1)
-    return _square_sums(inverse)
-
-
-def _dense_single(matrix: sparse.csc_array, row_sum: float) -> Floats | None:
-    """Return the diagonal by single precision, or None if that is not sure to be enough.
-
-    All rows sum to τ, so 1/τ is the eigenvalue of H⁻¹ for the constant vector and, with
-    a weak prior, its largest by far. It is put aside exactly: with u constant,
-    diag H⁻¹ = diag (H + αuuᵀ)⁻¹ + α / (τ² + ατn), and what is left of a well-mixed
-    league has a small condition number.
-    """
-    size = matrix.shape[0]
-    degree = matrix.diagonal()
-    alpha = float(degree.mean()) / size
-    scale = 1.0 / np.sqrt(degree + alpha)
-    scale_single = scale.astype(np.float32)
-    block = np.multiply.outer(np.float32(alpha) * scale_single, scale_single).T
-    column = np.repeat(np.arange(size), np.diff(matrix.indptr))
-    block[matrix.indices, column] += (matrix.data * scale[matrix.indices] * scale[column]).astype(
-        np.float32
-    )
-    norm = float(np.abs(block).sum(axis=0).max())
-    factor, failed = lapack.spotrf(block, lower=1, overwrite_a=1)
-    if failed:
-        return None
-    reciprocal_condition, _ = lapack.spocon(factor, norm, uplo="L")
-    if reciprocal_condition < 1e-3:
-        return None
-    inverse, _ = lapack.strtri(factor, lower=1, overwrite_c=1)
-    return _square_sums(inverse) * scale**2 + alpha / (row_sum * (row_sum + alpha * size))
-
-
-def _square_sums(lower: NDArray[Any]) -> Floats:
-    """Return the sum of the squares of every column of a lower triangle."""
-    columns = (lower[k:, k] for k in range(len(lower)))
-    return np.array([column @ column for column in columns], dtype=np.float64)
-
-
-def _not_definite() -> AccuracyError:
-    return AccuracyError("the posterior's Hessian is singular to rounding; give a smaller prior_sd")
