@@ -153,3 +153,17 @@ def test_no_numpy_on_the_way():
         "sys.exit('numpy' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
+
+
+def test_of_many_races_the_best_are_those_of_the_whole_ranking():
+    p, target = 0.55, 0.3
+    whole = fair_races(p, games=(1, 12), target=target, top=1000)
+    assert len(whole) == 78
+    for top in (1, 2, 7, 40):
+        assert fair_races(p, games=(1, 12), target=target, top=top) == whole[:top]
+
+
+def test_a_long_even_race_is_even():
+    races = fair_races(0.5, games=(1, 400), top=200)
+    assert {(race.race_1, race.race_2) for race in races} == {(m, m) for m in range(1, 201)}
+    assert all(race.p_win_1 == pytest.approx(0.5, rel=1e-12) for race in races)

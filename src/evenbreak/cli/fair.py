@@ -15,6 +15,9 @@ __all__ = ["fair"]
 COLUMNS = ("race_a", "race_b", "p_win_a", "mean_games", "games_p90")
 HEADINGS = ("A needs", "B needs", "A wins", "games, mean", "9 of 10 within")
 
+MOST = 300
+"""The most races that are printed, so that no answer takes more than some seconds."""
+
 EXAMPLES = """\b
 Examples:
   evenbreak fair 612 521 --scale fargo --race-to 7
@@ -46,7 +49,12 @@ Examples:
     help="The chance that A should have to win the match.",
 )
 @click.option(
-    "--top", type=click.IntRange(1), metavar="K", default=5, show_default=True, help="How many."
+    "--top",
+    type=click.IntRange(1, MOST),
+    metavar="K",
+    default=5,
+    show_default=True,
+    help="How many.",
 )
 @wants_json
 def fair(

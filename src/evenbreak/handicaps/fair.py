@@ -2,20 +2,21 @@
 
 All races up to a length are worth knowing at once: W(m, n), player 1's chance when he
 needs m games and player 2 needs n, follows from W(m - 1, n) and W(m, n - 1), with who
-breaks next where the break matters.
+breaks next where the break matters: all races that can last L games from those of L - 1.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from heapq import nsmallest
 from typing import NamedTuple
 
 from evenbreak.checks import one_of, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
-from evenbreak.matches.scalar import race_law
+from evenbreak.matches.races import next_breaks, race_law
 
 __all__ = ["FairRace", "fair_races"]
 
@@ -43,6 +44,17 @@ class FairRace:
     p_win_1: float
     mean_games: float
     games_p90: int
+
+
+class _Fixed(NamedTuple):
+    """What one of the two players needs, whatever the other does."""
+
+    player: int
+    games: int
+
+    def m(self, longest: int) -> int:
+        """Return what player 1 needs in the race that can last so long."""
+        return self.games if self.player == 1 else longest + 1 - self.games
 
 
 class _Candidate(NamedTuple):
@@ -115,28 +127,24 @@ def fair_races(
     target, top = probability(target, "target"), whole(top, "top", at_least=1)
     if (games is None) == (race_to is None):
         raise InputError(f"games is {games!r} and race_to is {race_to!r}; give just one of the two")
-    wanted = _race_wanted(rack, whole(race_to, "race_to", at_least=1)) if games is None else None
-    low, high = _span(games) if wanted is None else (1, 2 * max(wanted) - 1)
-    candidates = sorted(
-        _Candidate(abs(chance - target), m + n - 1, m, n)
-        for m, n, chance in _win_table(rack, high, breaks, first_breaker)
-        if m + n - 1 >= low and (wanted is None or _fits(m, n, wanted))
-    )
+    if games is None:
+        fixed = _Fixed(_stronger(rack), whole(race_to, "race_to", at_least=1))
+        low, high = fixed.games, 2 * fixed.games - 1
+    else:
+        fixed = None
+        low, high = _span(games)
+    rows = _win_rows(rack, high, breaks, first_breaker)
     return [
         _describe(rack, m, n, breaks, first_breaker)
-        for _, _, m, n in _shortest_of_ties(candidates)[:top]
+        for _, _, m, n in _nearest(rows, low, fixed, target, top)[:top]
     ]
 
 
-def _race_wanted(rack: Rack, race_to: int) -> tuple[int, int]:
-    """Return what player 1, 2 needs, 0 for the weaker player's open number."""
+def _stronger(rack: Rack) -> int:
+    """Return the stronger player, 1 if they are equal."""
     # With p2 given, player 1 is the stronger if he holds his break more often.
     even = rack.chance(2) if rack.p2 is None else rack.p2
-    return (race_to, 0) if rack.p1 >= even else (0, race_to)
-
-
-def _fits(m: int, n: int, wanted: tuple[int, int]) -> bool:
-    return n <= m == wanted[0] if wanted[0] else m <= n == wanted[1]
+    return 1 if rack.p1 >= even else 2
 
 
 def _span(games: tuple[int, int] | None) -> tuple[int, int]:
@@ -148,31 +156,47 @@ def _span(games: tuple[int, int] | None) -> tuple[int, int]:
     return low, high
 
 
-def _win_table(
+def _win_rows(
     rack: Rack, high: int, breaks: BreakFormat | None, first_breaker: int
-) -> Iterator[tuple[int, int, float]]:
-    """Yield m, n and P(player 1 wins the race m:n), for all m + n - 1 <= high."""
-    if breaks is None or not rack.break_matters:
-        breakers, first = [1], 0
-        after = [(0, 0)]
-    else:
-        breakers, first = [1, 2], first_breaker - 1
-        after = [(breaks(breaker, 1) - 1, breaks(breaker, 2) - 1) for breaker in breakers]
-    won = [rack.chance(1, breaker) for breaker in breakers]
-    lost = [rack.chance(2, breaker) for breaker in breakers]
-    # rows[b][n]: player 1's chance of m:n when b breaks, for the m of the last round.
-    rows = [[1.0] * (high + 1) for _ in breakers]
-    for m in range(1, high + 1):
-        fresh = [[0.0] for _ in breakers]
-        for n in range(1, high - m + 2):
-            values = [
-                won[b] * rows[if_won][n] + lost[b] * fresh[if_lost][n - 1]
-                for b, (if_won, if_lost) in enumerate(after)
+) -> Iterator[list[float]]:
+    """Yield P(player 1 wins m:n) for m = 1, 2, ... and m + n - 1 = 1; then for 2, ... to `high`."""
+    steps = next_breaks(rack, breaks)
+    first = first_breaker - 1 if rack.break_matters else 0
+    # rows[b]: the chances when b breaks, from m = 0 (he has won) to n = 0 (he has lost).
+    rows = [[1.0, 0.0] for _ in steps]
+    for _ in range(high):
+        rows = [
+            [
+                1.0,
+                *(
+                    won * one_less + lost * other_less
+                    for one_less, other_less in zip(rows[if_won], rows[if_lost][1:], strict=False)
+                ),
+                0.0,
             ]
-            for row, value in zip(fresh, values, strict=True):
-                row.append(value)
-            yield m, n, values[first]
-        rows = fresh
+            for won, lost, if_won, if_lost in steps
+        ]
+        yield rows[first][1:-1]
+
+
+def _nearest(
+    rows: Iterable[list[float]], low: int, fixed: _Fixed | None, target: float, top: int
+) -> list[_Candidate]:
+    """Return the races nearest to the target in their order, `top` of them at least."""
+    distances = [
+        (longest, m, abs(row[m - 1] - target))
+        for longest, row in enumerate(rows, start=1)
+        if longest >= low
+        for m in (range(1, longest + 1) if fixed is None else [fixed.m(longest)])
+    ]
+    furthest = nsmallest(top, (distance for _, _, distance in distances))[-1] + _TIE
+    return _shortest_of_ties(
+        sorted(
+            _Candidate(distance, longest, m, longest + 1 - m)
+            for longest, m, distance in distances
+            if distance <= furthest
+        )
+    )
 
 
 def _shortest_of_ties(candidates: list[_Candidate]) -> list[_Candidate]:

@@ -16,7 +16,7 @@ from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.matches.quantiles import quantile_of
 
-__all__ = ["RaceLaw", "race_law"]
+__all__ = ["RaceLaw", "next_breaks", "race_law"]
 
 
 class RaceLaw(NamedTuple):
@@ -127,7 +127,7 @@ def race_law(
         raise InputError("breaks is missing: with p2 the break matters; give winner_breaks, ...")
     if need_1 <= 0 or need_2 <= 0:
         return _already_won(need_1, need_2)
-    steps = _steps(rack, breaks)
+    steps = next_breaks(rack, breaks)
     at = [[0.0] * (need_1 + 1) for _ in steps]
     at[first_breaker - 1 if rack.break_matters else 0][0] = 1.0
     win_1, win_2 = [0.0], [0.0]
@@ -155,8 +155,11 @@ def race_law(
     )
 
 
-def _steps(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, float, int, int]]:
-    """Return for each breaker: P(1 wins), P(2 wins), and the row of the next breaker after each."""
+def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, float, int, int]]:
+    """Return for each breaker P(1 wins), P(2 wins) and the place here of who breaks after each.
+
+    One entry stands for both breakers where the break does not matter.
+    """
     if breaks is None or not rack.break_matters:
         return [(rack.chance(1), rack.chance(2), 0, 0)]
     return [
