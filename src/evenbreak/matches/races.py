@@ -10,9 +10,9 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from evenbreak.checks import one_of, probability, whole
+from evenbreak.checks import number_probability, one_of, whole
 from evenbreak.errors import InputError
-from evenbreak.games.breaks import BreakFormat
+from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
 from evenbreak.matches.quantiles import quantile_of
 
@@ -118,9 +118,10 @@ def race_law(
     >>> round(law.p_win_1, 12), law.games
     (0.592592592593, [2, 3, 4])
     """
-    rack = Rack(p1, p2)
-    probability(rack.p1, "p1")
-    one_of(first_breaker, "first_breaker", (1, 2))
+    rack = Rack(number_probability(p1, "p1"), None if p2 is None else number_probability(p2, "p2"))
+    if breaks is not None:
+        checked_format(breaks)
+    first_breaker = one_of(first_breaker, "first_breaker", (1, 2))
     need_1 = whole(m, "m") - whole(score[0], "score of player 1")
     need_2 = whole(n, "n") - whole(score[1], "score of player 2")
     if rack.break_matters and breaks is None:
