@@ -226,7 +226,7 @@ def test_a_person_is_told_who_breaks_and_what_is_won():
         ("612 521 --scale 0 --race 7:5", "give npl, fargo, elo"),
         ("--p1 0.5 --p2 0.5 --breaks me --race 7:5", "'winner'"),
         ("--p 0.5 --race 7:7 --win-by 0", "win-by"),
-        ("--p 0.5 --ahead 500:500", "too long to work out"),
+        ("--p 0.5 --race 3:3 --win-by 101", "too long to work out"),
         ("--p 0.5 --race 30:30 --set 30:30", "too long to work out"),
     ],
 )

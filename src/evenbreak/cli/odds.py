@@ -39,8 +39,8 @@ WORDS = {
 }
 """What each quantity is called on a terminal."""
 
-LONGEST_LEAD, MOST_SCORES = 200, 20_000
-"""Limits on matches other than the plain race, so that no answer takes more than some seconds."""
+MOST_SCORES = 10_000
+"""Scores that a match other than the plain race may have, so that each answer takes seconds."""
 
 MANY_RACKS = 10**9
 """From here on a terminal shows three digits of a number of racks."""
@@ -160,13 +160,13 @@ def _refuse_giants(match: Match) -> None:
     win_by, inner = getattr(match, "win_by", None), match.rack
     if win_by == 1 and isinstance(inner, Rack):
         return
-    scores = match.m + match.n if win_by is None else match.m * match.n
+    scores = match.m + match.n if win_by is None else max(match.m, win_by) * max(match.n, win_by)
     if not isinstance(inner, Rack):
         scores *= inner.m * inner.n
-    if scores > MOST_SCORES or max(match.m, match.n, win_by or 0) > LONGEST_LEAD:
+    if scores > MOST_SCORES:
         refuse(
-            f"the {match_text(match)} is too long to work out here; "
-            f"ask for {LONGEST_LEAD} at the most, and for fewer in sets"
+            f"the {match_text(match)} is too long to work out here, with about {scores:,} scores; "
+            f"ask for one with {MOST_SCORES:,} at the most"
         )
 
 
