@@ -108,3 +108,22 @@ def test_the_most_states() -> None:
 def test_a_graph_has_no_room_for_arrays(make: Callable[[], Game]) -> None:
     with pytest.raises(InputError, match="one number"):
         graph_of(make())
+
+
+@pytest.mark.parametrize("chance", [-0.1, 1.5, float("inf"), float("nan")])
+def test_a_move_needs_a_probability(chance: float) -> None:
+    coin = Coin()
+    coin.moves = lambda _: {"heads": chance}  # type: ignore[method-assign]
+    with pytest.raises(GameError, match=r"'toss' -> 'heads' has probability .*; give a number"):
+        graph_of(coin)
+
+
+def test_a_sum_that_misses_one_by_rounding_is_a_probability() -> None:
+    coin = Coin()
+    coin.moves = lambda state: {"heads": 1.0 + 2**-52} if state == "toss" else {}  # type: ignore[method-assign]
+    assert graph_of(coin).edges["toss", "heads"]["probability"] > 1.0
+
+
+def test_what_is_no_game_is_refused() -> None:
+    with pytest.raises(GameError, match=r"Rack\(p1=0\.5, p2=None\) is no game"):
+        graph_of(Rack(0.5))  # type: ignore[arg-type]

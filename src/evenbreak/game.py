@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ArcArrays", "Game", "State", "arcs_of", "graph_of"]
 
+_ONE = 1.0 + 1e-9  # a sum of chances may miss 1 by rounding
+
 State: TypeAlias = Hashable
 """A situation of a game: a small tuple, string or number that prints well."""
 
@@ -77,8 +79,8 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     Raises
     ------
     GameError
-        if more than `max_states` states can be reached, a probability is negative or
-        not a number, or a state has moves of which none has a chance.
+        if `game` is none, more than `max_states` states can be reached, a probability is
+        not a number from 0 to 1, or a state has moves of which none has a chance.
 
     >>> from evenbreak.games import Rack, Race
     >>> arcs = arcs_of(Race(2, 1, Rack(0.75)))
@@ -91,6 +93,8 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     2 3 0.25
     2 4 0.75
     """
+    if not hasattr(game, "moves"):
+        raise GameError(f"{game!r} is no game; give an object with start, moves and winner")
     offer = getattr(game, "arcs", None)
     if offer is not None and (start is None or start == game.start):
         arcs: ArcArrays | None = offer()
@@ -113,7 +117,7 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
         before = len(targets)
         moves = game.moves(state)
         for target, chance in moves.items():
-            if chance > 0.0:
+            if 0.0 < chance <= _ONE:
                 i = position.setdefault(target, len(states))
                 if i == len(states):
                     states.append(target)
