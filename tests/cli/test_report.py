@@ -49,7 +49,7 @@ def test_the_demo_league_gives_three_files_and_a_sheet(demo):
     result, folder = demo
     assert result.exit_code == 0
     assert sorted(path.name for path in folder.iterdir()) == FILES
-    assert result.stdout.startswith("395 matches of 24 players, 2,599 games")
+    assert "\n395 matches of 24 players, 2,599 games." in result.stdout
     assert "The fairest races in which the stronger player needs 7 games." in result.stdout
     assert all(len(line) <= 80 for line in result.stdout.splitlines())
     assert result.stderr.splitlines()[-1] == (
@@ -303,14 +303,14 @@ def test_the_real_season(run, tmp_path):
 SLOW_REPORT = """
 import sys, time
 from pathlib import Path
-from evenbreak.cli import main
+from evenbreak.cli.base import program
 replace = Path.replace
 def slow(self, target):
     print("replacing", flush=True)
     time.sleep(0.2)
     return replace(self, target)
 Path.replace = slow
-main(["report", sys.argv[1], "--out", sys.argv[2]])
+program(["report", sys.argv[1], "--out", sys.argv[2]])
 """
 
 

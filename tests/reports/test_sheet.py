@@ -43,14 +43,17 @@ def test_a_small_league_to_the_letter():
         date=["2024-09-03", "2024-09-10", "2024-09-17"],
     )
     assert text_of(season, scale="fargo") == (
-        "3 matches of 3 players, 33 games, 2024-09-03 to 2024-09-17.\n"
-        "Ratings on a Fargo-like scale (100 points double the odds of a game), mean 500,\n"
-        "with their standard errors. They are nobody's official ratings.\n"
+        "FAIR RACES from r.csv, 2024-09-03 to 2024-09-17\n"
         "\n"
-        "#  player  rating     ±  games  won  lost\n"
-        "1  Ann      559.3  93.0     21   14     7\n"
-        "2  Bo       490.8  91.8     23   11    12\n"
-        "3  Cy       449.9  92.5     22    8    14\n"
+        "3 matches of 3 players, 33 games.\n"
+        "Ratings on a Fargo-like scale (100 points double the odds of a game), mean 500.\n"
+        "They are nobody's official ratings.\n"
+        "\n"
+        "#  player  rating   ±  games  won  lost\n"
+        "1  Ann        559  93     21   14     7\n"
+        "2  Bo         491  92     23   11    12\n"
+        "3  Cy         450  92     22    8    14\n"
+        "±: standard error of the rating.\n"
         "\n"
         "The fairest races in which the stronger player needs 7 games.\n"
         "Row: you. Column: your opponent. 7:4: you need 7 games, your opponent 4.\n"
@@ -83,6 +86,7 @@ def test_every_pair_is_printed_once_from_each_side():
 
 def test_a_long_list_is_cut_and_said_to_be():
     text = text_of(league(34), top=33)
+    assert "#: place among all 34 players." in text
     assert "3 more players are paired in matchups.csv." in text
     assert "1 more player is rated in ratings.csv" in text
 
@@ -93,9 +97,9 @@ def test_square_brackets_in_names_are_no_markup():
 
 def test_pairs_that_cannot_be_compared_are_told_apart():
     text = text_of(Results.from_names(["Ann", "Cy"], ["Bo", "Di"], [7, 7], [5, 4]))
-    assert "2 groups of players never met; ratings compare only within a group." in text
+    assert "2 groups of players never met;" in text
     assert "lost  group" in text
-    assert "(4 such pairs)" in text
+    assert "(4 such pairs)" in " ".join(text.split())
     assert "group" not in text_of(Results.from_names(["Ann"], ["Bo"], [7], [5]))
 
 
@@ -104,6 +108,20 @@ def test_what_was_left_out_is_told():
         ["Ann"] * 3, ["Bo"] * 3, [7, 0, 7], [5, 0, 0], forfeit=[False, False, True]
     )
     assert "Left out: 1 forfeited and 1 at 0-0." in text_of(season)
+
+
+def test_players_without_games_are_told_and_are_no_group():
+    season = Results.from_names(
+        ["Ann", "Ann", "Ann"], ["Bo", "Cy", "Di"], [7, 0, 0], [5, 0, 0], forfeit=[0, 1, 1]
+    )
+    text = " ".join(text_of(season).split())
+    assert "1 match of 2 players, 12 games. Left out: 2 forfeited." in text
+    assert "2 more players have no game: rated in the middle for want of knowledge." in text
+    assert "never met" not in text
+    (line,) = (
+        line for line in text_of(season, top=4).splitlines() if "Cy" in line and "80" in line
+    )
+    assert "0    0     0" in line
 
 
 def test_races_by_length_are_announced_as_such():

@@ -16,7 +16,7 @@ from evenbreak.reports.read_results import ResultsFile
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["dates_of", "ratings_frame", "scale_text", "summary_frame"]
+__all__ = ["count_groups", "dates_of", "file_name", "ratings_frame", "scale_text", "summary_frame"]
 
 
 def scale_text(scale: Scale) -> str:
@@ -60,7 +60,8 @@ def summary_frame(
 ) -> pd.DataFrame:
     """Return what a report was made of and how, as rows of key and value.
 
-    `anchor` is the mean rating of each component; the standard deviation of the prior
+    `components` counts those of players with games; `anchor` is the mean rating of each
+    component, so the rating of a player without games; the standard deviation of the prior
     is given in natural log-odds and in points of the scale.
     """
     import pandas as pd
@@ -68,7 +69,7 @@ def summary_frame(
     scale = ratings.scale
     first, last = dates_of(file.results)
     rows: dict[str, object] = {
-        "results_file": file.source.replace("\\", "/").rpartition("/")[2],
+        "results_file": file_name(file),
         "results_sha256": file.sha256,
         "matches_read": len(file.results),
         "matches_used": ratings.matches,
@@ -78,7 +79,8 @@ def summary_frame(
         "last_date": last,
         "games": int(ratings.won.sum()),
         "players": len(ratings.players),
-        "components": int(ratings.component.max()),
+        "players_without_games": int((ratings.games == 0).sum()),
+        "components": count_groups(ratings),
         "groups_of_similar_names": len(file.similar_names),
         "scale": f"{scale_text(scale)}; not an official rating",
         "points_per_doubling": scale.points_per_doubling,
@@ -95,6 +97,16 @@ def summary_frame(
     return pd.DataFrame(
         {"key": list(rows), "value": pd.Series(list(rows.values()), dtype="object")}
     )
+
+
+def count_groups(ratings: Ratings) -> int:
+    """Return how many groups of players never met; one without games is no group."""
+    return len(np.unique(ratings.component[ratings.games > 0]))
+
+
+def file_name(file: ResultsFile) -> str:
+    """Return the name of the results file without its folders."""
+    return file.source.replace("\\", "/").rpartition("/")[2]
 
 
 def dates_of(results: Results) -> tuple[str, str]:

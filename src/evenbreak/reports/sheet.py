@@ -13,7 +13,7 @@ from rich.text import Text
 
 from evenbreak.ratings.fit import Ratings
 from evenbreak.ratings.scale import Scale
-from evenbreak.reports.frames import dates_of, scale_text
+from evenbreak.reports.frames import count_groups, dates_of, file_name, scale_text
 from evenbreak.reports.matchups import RaceLimits
 from evenbreak.reports.read_results import ResultsFile
 
@@ -60,22 +60,34 @@ def sheet_text(
 
 def _heading(file: ResultsFile, ratings: Ratings) -> Iterator[str]:
     first, last = dates_of(file.results)
-    games = _count(int(ratings.won.sum()), "game", "games")
-    matches = _count(ratings.matches, "match", "matches")
     days = f", {first} to {last}" if first else ""
-    yield f"{matches} of {len(ratings.players):,} players, {games}{days}."
+    yield f"FAIR RACES from {file_name(file)}{days}"
+    yield ""
+    idle = int((ratings.games == 0).sum())
+    facts = [
+        f"{_count(ratings.matches, 'match', 'matches')} of {len(ratings.players) - idle:,} "
+        f"players, {_count(int(ratings.won.sum()), 'game', 'games')}."
+    ]
     left_out = [
         f"{count:,} {what}"
         for count, what in ((ratings.forfeits, "forfeited"), (ratings.empty, "at 0-0"))
         if count
     ]
     if left_out:
-        yield f"Left out: {' and '.join(left_out)}."
-    components = int(ratings.component.max())
-    if components > 1:
-        yield f"{components:,} groups of players never met; ratings compare only within a group."
-    yield (f"Ratings on {scale_text(ratings.scale)}, mean {ratings.anchor:g},")
-    yield "with their standard errors. They are nobody's official ratings."
+        facts.append(f"Left out: {' and '.join(left_out)}.")
+    if idle:
+        names = _count(idle, "more player has", "more players have")
+        facts.append(f"{names} no game: rated in the middle for want of knowledge.")
+    groups = count_groups(ratings)
+    if groups > 1:
+        facts.append(
+            f"{groups:,} groups of players never met; ratings compare only within a group."
+        )
+    yield " ".join(facts)
+    yield (
+        f"Ratings on {scale_text(ratings.scale)}, mean {ratings.anchor:g}. "
+        "They are nobody's official ratings."
+    )
 
 
 def _tables(
@@ -85,6 +97,8 @@ def _tables(
     listed = rated["player"].isin({*paired["player_a"], *paired["player_b"]})
     shown = rated[listed].head(MOST_PRINTED)
     yield _ratings_table(shown, _decimals(scale))
+    place = f"#: place among all {len(rated):,} players. " if len(rated) > len(shown) else ""
+    yield f"{place}±: standard error of the rating."
     yield ""
     if limits.race_to is not None:
         yield f"The fairest races in which the stronger player needs {limits.race_to} games."
@@ -111,7 +125,7 @@ def _count(number: int, one: str, many: str) -> str:
 
 def _decimals(scale: Scale) -> int:
     """Return how many decimals of a rating a person needs: about a hundredth of a doubling."""
-    return max(1, 2 - math.floor(math.log10(scale.points_per_doubling)))
+    return max(0, 2 - math.floor(math.log10(scale.points_per_doubling)))
 
 
 def _table() -> Table:
@@ -127,7 +141,7 @@ def _name(name: str) -> Text:
 def _ratings_table(ratings: pd.DataFrame, decimals: int) -> Table:
     """Return the table of ratings; # is the place among all players."""
     table = _table()
-    grouped = len(ratings["component"].unique()) > 1
+    grouped = len(set(ratings["component"][ratings["games"] > 0])) > 1
     table.add_column("#", justify="right")
     table.add_column("player", max_width=LONGEST_NAME)
     for heading in ("rating", "±", "games", "won", "lost", *(["group"] if grouped else [])):
@@ -196,5 +210,7 @@ def _remarks(matchups: pd.DataFrame) -> Iterator[str]:
         )
     missing = len(matchups) - len(offered)
     if missing:
-        yield (f"{NO_RACE} is a pair without a race: no chain of opponents links the two, so that")
-        yield f"their ratings cannot be compared ({_count(missing, 'such pair', 'such pairs')})."
+        yield (
+            f"{NO_RACE} is a pair without a race: no chain of opponents links the two, so that "
+            f"their ratings cannot be compared ({_count(missing, 'such pair', 'such pairs')})."
+        )
