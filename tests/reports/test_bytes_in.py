@@ -85,3 +85,10 @@ def test_what_is_no_text_is_refused_with_a_remedy(content, told):
     (problem,) = caught.value.problems
     assert problem.startswith(told)
     assert "save" in problem or "write" in problem
+
+
+def test_a_name_of_a_file_stays_on_one_line(tmp_path):
+    with pytest.raises(DataError) as caught:
+        content_of(tmp_path / "no\nsuch\x1b[31m\udcff.csv")
+    (problem,) = caught.value.problems
+    assert problem.endswith("no\\nsuch\\x1b[31m\\udcff.csv: there is no such file; check its name")

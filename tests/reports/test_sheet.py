@@ -132,3 +132,8 @@ def test_races_by_length_are_announced_as_such():
 def test_ratings_on_a_fine_scale_have_more_decimals():
     season = Results.from_names(["Ann"], ["Bo"], [7], [5])
     assert " 0.104 " in text_of(season, scale=0.5)
+
+
+def test_a_season_of_one_day_is_told_so():
+    season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2024-09-03"])
+    assert text_of(season).startswith("FAIR RACES from r.csv, 2024-09-03\n")

@@ -130,7 +130,9 @@ def report(
 
 
 def _say(message: str) -> None:
-    click.echo(message, err=True)
+    from evenbreak.reports.problems import printable
+
+    click.echo(printable(message), err=True)
 
 
 def _names(given: Sequence[str], players: Collection[str]) -> list[str]:

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from evenbreak.errors import DataError
+from evenbreak.reports.problems import printable
 
 __all__ = ["content_of", "encoding_of"]
 
@@ -25,8 +26,7 @@ def content_of(path: str | Path) -> tuple[str, bytes]:
         if sys.stdin is None:
             raise DataError(["stdin: is closed; name a file, or send one into the command"])
         return "stdin", sys.stdin.buffer.read()
-    # A name that is not text must still print.
-    source = str(path).encode("utf-8", "backslashreplace").decode()
+    source = printable(str(path))
     try:
         return source, Path(path).read_bytes()
     except FileNotFoundError:

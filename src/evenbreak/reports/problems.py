@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["Problems", "quoted"]
+__all__ = ["Problems", "printable", "quoted"]
 
 LONGEST_QUOTE = 40
 
@@ -23,6 +23,18 @@ def quoted(text: str) -> str:
     ("'six\\nhundred'", "'9999999999999999999999999999999999999999'...")
     """
     return repr(text) if len(text) <= LONGEST_QUOTE else repr(text[:LONGEST_QUOTE]) + "..."
+
+
+def printable(text: str) -> str:
+    r"""Return text with all that does not print escaped, so that it stays on one line.
+
+    >>> printable("Zoë's\nfile\x1b.csv")
+    "Zoë's\\nfile\\x1b.csv"
+    """
+    return "".join(
+        letter if letter.isprintable() else letter.encode("unicode_escape").decode()
+        for letter in text
+    )
 
 
 class Problems:

@@ -60,7 +60,7 @@ def read_arcs(path: str | Path) -> ArcsFile:
     """
     table = read_table(path, COLUMNS)
     whole = len(table.problems) == 0
-    p = numbers(table, "probability", remedy="write a number from 0 to 1").values
+    p = numbers(table, "probability", remedy="write one from 0 to 1, such as 0.25").values
     outside = np.flatnonzero((p < 0.0) | (p > 1.0))
     table.problems.add_rows(table.lines, outside, lambda row: _outside(p[row]))
     if all(column in table for column in COLUMNS):

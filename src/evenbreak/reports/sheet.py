@@ -60,7 +60,8 @@ def sheet_text(
 
 def _heading(file: ResultsFile, ratings: Ratings) -> Iterator[str]:
     first, last = dates_of(file.results)
-    days = f", {first} to {last}" if first else ""
+    days = f", {first}" if first else ""
+    days += f" to {last}" if last != first else ""
     yield f"FAIR RACES from {file_name(file)}{days}"
     yield ""
     idle = int((ratings.games == 0).sum())
