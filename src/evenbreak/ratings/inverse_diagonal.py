@@ -25,6 +25,7 @@ __all__ = ["inverse_diagonal"]
 Floats = NDArray[np.float64]
 
 _TRACE = 1e-100
+_NOTHING = np.zeros((0, 0))
 
 
 def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
@@ -61,12 +62,12 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
 
 
 def _eliminate(matrix: sparse.csc_array, fronts: list[Front]) -> tuple[list[Floats], list[Floats]]:
-    """Return F11⁻¹ and G of every front, children before parents."""
+    """Return R with RᵀR = F11⁻¹, and G, of every front, children before parents."""
     size = matrix.shape[0]
     position = np.zeros(size, dtype=np.intp)
     done = np.zeros(size, dtype=bool)
     updates: dict[int, Floats] = {}
-    inverses, links = [], []
+    roots, links = [], []
     for number, front in enumerate(fronts):
         index = np.concatenate((front.pivots, front.rows))
         position[index] = np.arange(len(index))
@@ -81,29 +82,29 @@ def _eliminate(matrix: sparse.csc_array, fronts: list[Front]) -> tuple[list[Floa
             block[np.ix_(at, at)] += updates.pop(child)
         done[front.pivots] = True
         own = len(front.pivots)
-        inverse = _without_traces(_inverse(block[:own, :own]))
-        link = _without_traces(_without_traces(block[own:, :own]) @ inverse)
-        updates[number] = block[own:, own:] - link @ block[:own, own:]
-        inverses.append(inverse)
-        links.append(link)
-    return inverses, links
+        root = _without_traces(_inverse_root(block[:own, :own]))
+        half = _without_traces(_without_traces(block[own:, :own]) @ root.T)
+        updates[number] = block[own:, own:] - half @ half.T
+        roots.append(root)
+        links.append(_without_traces(half @ root))
+    return roots, links
 
 
-def _come_back(fronts: list[Front], inverses: list[Floats], links: list[Floats]) -> Floats:
+def _come_back(fronts: list[Front], roots: list[Floats], links: list[Floats]) -> Floats:
     """Return the diagonal of the inverse, parents before children."""
     diagonal = np.zeros(sum(len(front.pivots) for front in fronts))
     position = np.zeros(len(diagonal), dtype=np.intp)
     known: dict[int, Floats] = {}
     for number in range(len(fronts) - 1, -1, -1):
-        front, link = fronts[number], links[number]
-        inverse = inverses[number]
-        whole = inverse
-        if len(front.rows):
-            outer = known.pop(number)
-            cross = -outer @ link
-            inverse = inverse - link.T @ cross
-            whole = np.block([[inverse, cross.T], [cross, outer]]) if front.children else inverse
-        diagonal[front.pivots] = np.diagonal(inverse)
+        front, root, link = fronts[number], roots[number], links[number]
+        outer = known.pop(number, _NOTHING)
+        cross = -outer @ link
+        # Most fronts have no children: their inverse is not made for its diagonal alone.
+        diagonal[front.pivots] = _sums(root, root) - _sums(link, cross)
+        if not front.children:
+            continue
+        inverse = root.T @ root - link.T @ cross
+        whole = np.block([[inverse, cross.T], [cross, outer]])
         position[front.pivots] = np.arange(len(front.pivots))
         position[front.rows] = len(front.pivots) + np.arange(len(front.rows))
         for child in front.children:
@@ -122,11 +123,17 @@ def _without_traces(block: Floats) -> Floats:
     return block
 
 
-def _inverse(block: Floats) -> Floats:
-    if len(block) == 1:
-        return np.asarray(1.0 / block)
+def _inverse_root(block: Floats) -> Floats:
+    """Return the lower triangle R with RᵀR = block⁻¹."""
+    if len(block) == 1 and block[0, 0] > 0.0:
+        return 1.0 / np.sqrt(block)
     factor, failed = lapack.dpotrf(block, lower=1)
     if failed:
         raise not_definite()
-    inverse, _ = lapack.dpotri(factor, lower=1, overwrite_c=1)
-    return np.asarray(np.tril(inverse) + np.tril(inverse, -1).T)
+    root, _ = lapack.dtrtri(factor, lower=1, overwrite_c=1)
+    return np.asarray(root)
+
+
+def _sums(x: Floats, y: Floats) -> Floats:
+    """Return the diagonal of xᵀy."""
+    return np.asarray(np.einsum("ij,ij->j", x, y))
