@@ -6,7 +6,14 @@ from typing import Any
 
 import click
 
-from evenbreak.cli.options import LONGEST, PlainCommand, chance, refuse, span, wants_json
+from evenbreak.cli.options import (
+    PlainCommand,
+    chance,
+    refuse,
+    refuse_both,
+    wants_json,
+    which_races,
+)
 from evenbreak.cli.output import aligned, chance_text, csv_text, print_json, to_terminal
 from evenbreak.cli.players import Players, player_options
 
@@ -28,18 +35,7 @@ Examples:
 
 @click.command(cls=PlainCommand, epilog=EXAMPLES)
 @player_options
-@click.option(
-    "--games",
-    metavar="LO..HI",
-    callback=span,
-    help="The most games that the match can take are from LO to HI.",
-)
-@click.option(
-    "--race-to",
-    type=click.IntRange(1, LONGEST),
-    metavar="N",
-    help="The stronger player needs N games; find what the weaker needs.",
-)
+@which_races
 @click.option(
     "--target",
     metavar="P",
@@ -72,11 +68,10 @@ def fair(
     """
     from evenbreak.handicaps.fair import fair_races
 
+    refuse_both(games, race_to)
     players = Players.of(**who)
     if games is None and race_to is None:
         refuse("how long is missing; give --games LO..HI or --race-to N")
-    if games is not None and race_to is not None:
-        refuse("--games and --race-to exclude each other; leave one out")
     races = fair_races(
         players.rack,
         games=games,

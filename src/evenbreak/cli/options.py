@@ -8,22 +8,27 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
-from typing import NoReturn
+from collections.abc import Callable, Sequence
+from typing import Any, NoReturn, TypeVar
 
 import click
 
 __all__ = [
+    "Command",
     "LONGEST",
     "NUMBER",
     "PlainCommand",
     "chance",
     "pair",
     "refuse",
+    "refuse_both",
     "score",
     "span",
     "wants_json",
+    "which_races",
 ]
+
+Command = TypeVar("Command", bound=Callable[..., Any])
 
 LONGEST = 1000
 """The most games that a race, a lead or a score can have here."""
@@ -116,3 +121,25 @@ wants_json = click.option(
     "--json", "as_json", is_flag=True, help="Print JSON, with floats in full precision."
 )
 """The option --json of every command."""
+
+
+def which_races(command: Command) -> Command:
+    """Add the options that say which races are offered: --games or --race-to."""
+    command = click.option(
+        "--race-to",
+        type=click.IntRange(1, LONGEST),
+        metavar="N",
+        help="Races in which the stronger player needs N games.",
+    )(command)
+    return click.option(
+        "--games",
+        metavar="LO..HI",
+        callback=span,
+        help="Races of which the longest possible match has LO to HI games.",
+    )(command)
+
+
+def refuse_both(games: tuple[int, int] | None, race_to: int | None) -> None:
+    """Refuse --games together with --race-to."""
+    if games is not None and race_to is not None:
+        refuse("--games and --race-to exclude each other; leave one out")

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple
 
 import click
 
-from evenbreak.cli.options import chance, refuse
+from evenbreak.cli.options import Command, chance, refuse
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale, scale_of
 
 __all__ = ["Players", "player_options"]
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 FORMATS = {
     "winner": BREAK_FORMATS["winner"],

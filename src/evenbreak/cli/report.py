@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from evenbreak.cli.options import LONGEST, refuse, span
+from evenbreak.cli.options import refuse, refuse_both, which_races
 from evenbreak.errors import DataError
 
 __all__ = ["report"]
@@ -41,19 +41,7 @@ Examples:
     metavar="npl|fargo|elo|POINTS",
     help="The scale of the ratings: POINTS of difference double the odds of a game.",
 )
-@click.option(
-    "--games",
-    metavar="LO..HI",
-    callback=span,
-    help="Offer races of which the longest possible match has so many games.",
-)
-@click.option(
-    "--race-to",
-    type=click.IntRange(1, LONGEST),
-    metavar="N",
-    help="Offer races in which the stronger player needs N games.  "
-    f"[default: {RACE_TO}, without --games]",
-)
+@which_races
 @click.option(
     "--players",
     multiple=True,
@@ -82,10 +70,10 @@ def report(
     RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a,
     score_b and, if you like, date, race_a, race_b, winner, first_break, break_format,
     racks, event and forfeit; - reads standard input. The sheet says how strong each
-    player is and which race is nearest to even for each pair.
+    player is and which race is nearest to even for each pair; races to 7, unless --games
+    or --race-to says otherwise.
     """
-    if games is not None and race_to is not None:
-        refuse("--games and --race-to exclude each other; leave one out")
+    refuse_both(games, race_to)
     if players and top is not None:
         refuse("--players and --top exclude each other; leave one out")
     from evenbreak.ratings.fit import fit
