@@ -14,9 +14,9 @@ from typing import Any, NoReturn, TypeVar
 import click
 
 __all__ = [
-    "Command",
     "LONGEST",
     "NUMBER",
+    "Command",
     "PlainCommand",
     "chance",
     "pair",
