@@ -167,3 +167,9 @@ def test_a_long_even_race_is_even():
     races = fair_races(0.5, games=(1, 400), top=200)
     assert {(race.race_1, race.race_2) for race in races} == {(m, m) for m in range(1, 201)}
     assert all(race.p_win_1 == pytest.approx(0.5, rel=1e-12) for race in races)
+
+
+@pytest.mark.parametrize("breaks", ["winner", lambda breaker, winner: breaker + winner])
+def test_a_format_that_names_no_player_is_refused(breaks):
+    with pytest.raises(InputError, match="breaks"):
+        fair_races(Rack(0.5, 0.6), race_to=5, breaks=breaks)

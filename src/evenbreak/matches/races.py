@@ -119,8 +119,6 @@ def race_law(
     (0.592592592593, [2, 3, 4])
     """
     rack = Rack(number_probability(p1, "p1"), None if p2 is None else number_probability(p2, "p2"))
-    if breaks is not None:
-        checked_format(breaks)
     first_breaker = one_of(first_breaker, "first_breaker", (1, 2))
     need_1 = whole(m, "m") - whole(score[0], "score of player 1")
     need_2 = whole(n, "n") - whole(score[1], "score of player 2")
@@ -163,6 +161,7 @@ def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, flo
     """
     if breaks is None or not rack.break_matters:
         return [(rack.chance(1), rack.chance(2), 0, 0)]
+    breaks = checked_format(breaks)
     return [
         (
             rack.chance(1, breaker),
