@@ -175,6 +175,15 @@ def on_terminal(*words, **environment):
     return text.decode().replace("\r\n", "\n")
 
 
+def test_a_person_reads_few_digits_of_very_many_racks():
+    never_holds = ["--p1", "1e-300", "--p2", "1e-300", "--breaks", "alternate"]
+    text = on_terminal("odds", *never_holds, "--ahead", "3:3")
+    assert "racks, mean" in text
+    assert " 2e+300\n" in text
+    assert " 1.39e+300\n" in text
+    assert " 4.61e+300\n" in text
+
+
 def test_a_person_at_a_terminal_reads_words():
     text = on_terminal("odds", "612", "521", "--scale", "fargo", "--race", "7:7", "--score", "1:2")
     assert text.startswith(
