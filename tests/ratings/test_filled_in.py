@@ -52,7 +52,7 @@ def test_cavities_know_more_than_how_many_games_a_player_has():
 def test_single_precision_keeps_six_digits_whatever_the_prior(row_sum):
     matrix = hessian(np.random.default_rng(5), 600, 12_000, row_sum)
     league = module._Levelled.of(matrix, row_sum)
-    assert module._by_cavities(league) is None  # too few games to be sure of 1 %
+    assert module._by_cavities(league) is None  # too few games to be sure
     found = filled_in_diagonal(matrix, row_sum)
     assert (found != module._in_double_precision(matrix)).any()
     np.testing.assert_allclose(found, exact(matrix), rtol=1e-5)
