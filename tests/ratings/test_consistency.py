@@ -15,6 +15,7 @@ WRONG = [
     ({"score": (7, 5), "race": (7, 5)}, "score_b", "both players reached their race"),
     ({"score": (6, 4), "race": (7, 5)}, "score_a", "nobody reached the race (6-4 in a race 7:5)"),
     ({"winner": 2}, "winner", "winner is b, but a won more games (7-5); write a, or give race_a"),
+    ({"score": (3, 3), "winner": 1}, "winner", "winner is a, but the score is tied (3-3)"),
     ({"score": (4, 5), "race": (7, 5), "winner": 1}, "winner", "but b reached the race"),
     ({"racks": "ab"}, "racks", "racks 'ab' is 1-1, but the score is 7-5"),
     ({"racks": "a/b"}, "racks", "other letters than a and b"),
@@ -31,7 +32,6 @@ RIGHT = [
     # The weaker player wins the handicap race with fewer games.
     {"score": (6, 5), "race": (7, 5), "winner": 2},
     {"score": (3, 3)},  # a session that ended level
-    {"score": (3, 3), "winner": 1},
     {"score": (4, 2), "race": (7, 7), "forfeit": True, "winner": 2},
     {"score": (0, 0), "race": (7, 7)},
     {"score": (2, 1), "race": (2, 2), "racks": "aba"},

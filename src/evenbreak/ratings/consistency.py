@@ -152,11 +152,11 @@ def _who_won(results: Results) -> NDArray[np.int8]:
 
 
 def _winners(results: Results) -> Iterator[_Finding]:
-    """Find stated winners who did not reach the race, or have fewer games without one."""
+    """Find stated winners who did not reach the race, or have no more games without one."""
     if results.winner is None:
         return
     stated, won = results.winner, _who_won(results)
-    race_a, _ = _stated_races(results)
+    race_a, race_b = _stated_races(results)
 
     def message(row: int) -> str:
         said, other = "ab"[stated[row] - 1], "ab"[won[row] - 1]
@@ -172,6 +172,15 @@ def _winners(results: Results) -> Iterator[_Finding]:
         )
 
     yield (stated > 0) & (won > 0) & (stated != won), "winner", message
+    tied = _finished(results) & (results.score_a == results.score_b) & (results.score_a > 0)
+    yield (
+        (stated > 0) & tied & (race_a == 0) & (race_b == 0),
+        "winner",
+        lambda row: (
+            f"winner is {'ab'[stated[row] - 1]}, but the score is tied ({_score(results, row)}); "
+            "correct the score, or give race_a and race_b if it was a handicap race"
+        ),
+    )
 
 
 def _racks(results: Results) -> Iterator[_Finding]:
