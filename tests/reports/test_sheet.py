@@ -8,6 +8,7 @@ from evenbreak.reports.frames import ratings_frame
 from evenbreak.reports.matchups import RaceLimits, matchups_frame, most_active
 from evenbreak.reports.read_results import ResultsFile
 from evenbreak.reports.sheet import sheet_text
+from evenbreak.reports.sheet_words import how_to_read
 
 
 @pytest.fixture(autouse=True)
@@ -127,6 +128,33 @@ def test_players_without_games_are_told_and_are_no_group():
 def test_races_by_length_are_announced_as_such():
     text = text_of(league(3), limits=RaceLimits((7, 13)))
     assert "The fairest races whose longest possible match has 7 to 13 games." in text
+
+
+def test_the_race_that_explains_the_table_is_in_the_table():
+    for limits in (RaceLimits(race_to=7), RaceLimits(race_to=1), RaceLimits((3, 9))):
+        text = text_of(league(5), limits=limits)
+        example = re.search(r"opponent\. (\d+:\d+): you need (\d+) games?, your", text)
+        assert example[1].startswith(f"{example[2]}:")
+        assert len(re.findall(rf"(?<!\d){example[1]}(?!\d)", text)) > 1
+    even = text_of(Results.from_names(["Ann"], ["Bo"], [7], [7]))
+    assert "opponent. 7:7: you need 7 games, your opponent 7." in even
+    apart = Results.from_names(["Ann", "Bo"], ["Cy", "Di"], [7, 7], [5, 5])
+    pair = matchups_frame(fit(apart), [0, 1], RaceLimits(race_to=7))
+    assert how_to_read(pair) == "Row: you. Column: your opponent."
+
+
+def test_one_game_is_no_games():
+    text = text_of(league(3), limits=RaceLimits((1, 1)))
+    assert "longest possible match has 1 game.\n" in text
+    assert "1:1: you need 1 game, your opponent 1." in text
+    assert "player needs 1 game.\n" in text_of(league(3), limits=RaceLimits(race_to=1))
+
+
+def test_races_of_several_lengths_are_accounted_for():
+    why = "Each pair gets the race nearest to even, whatever its length."
+    assert why in text_of(league(5), limits=RaceLimits((3, 13)))
+    assert why not in text_of(league(5), limits=RaceLimits((13, 13)))
+    assert why not in text_of(league(5))
 
 
 def test_ratings_on_a_fine_scale_have_more_decimals():

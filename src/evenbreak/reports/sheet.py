@@ -13,9 +13,23 @@ from rich.text import Text
 
 from evenbreak.ratings.fit import Ratings
 from evenbreak.ratings.scale import Scale
-from evenbreak.reports.frames import count_groups, dates_of, file_name, scale_text
 from evenbreak.reports.matchups import RaceLimits
 from evenbreak.reports.read_results import ResultsFile
+from evenbreak.reports.sheet_words import (
+    NO_RACE,
+    count_of,
+    decimals_of,
+    how_to_read,
+    left_out,
+    pairs_of,
+    played,
+    races_by_name,
+    remarks,
+    scale_sentences,
+    source_and_dates,
+    unlike_others,
+    which_races,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,7 +40,6 @@ MOST_PRINTED = 30
 """Players that are printed; the files hold all."""
 
 LONGEST_NAME = 24
-NO_RACE = "-"
 GAP = 2
 """Characters between two columns."""
 
@@ -59,36 +72,10 @@ def sheet_text(
 
 
 def _heading(file: ResultsFile, ratings: Ratings) -> Iterator[str]:
-    first, last = dates_of(file.results)
-    days = f", {first}" if first else ""
-    days += f" to {last}" if last != first else ""
-    yield f"FAIR RACES from {file_name(file)}{days}"
+    yield f"FAIR RACES from {source_and_dates(file)}"
     yield ""
-    idle = int((ratings.games == 0).sum())
-    facts = [
-        f"{_count(ratings.matches, 'match', 'matches')} of {len(ratings.players) - idle:,} "
-        f"players, {_count(int(ratings.won.sum()), 'game', 'games')}."
-    ]
-    left_out = [
-        f"{count:,} {what}"
-        for count, what in ((ratings.forfeits, "forfeited"), (ratings.empty, "at 0-0"))
-        if count
-    ]
-    if left_out:
-        facts.append(f"Left out: {' and '.join(left_out)}.")
-    if idle:
-        names = _count(idle, "more player has", "more players have")
-        facts.append(f"{names} no game: rated in the middle for want of knowledge.")
-    groups = count_groups(ratings)
-    if groups > 1:
-        facts.append(
-            f"{groups:,} groups of players never met; ratings compare only within a group."
-        )
-    yield " ".join(facts)
-    yield (
-        f"Ratings on {scale_text(ratings.scale)}, mean {ratings.anchor:g}. "
-        "They are nobody's official ratings."
-    )
+    yield " ".join([played(ratings), *left_out(ratings), *unlike_others(ratings)])
+    yield scale_sentences(ratings)
 
 
 def _tables(
@@ -97,36 +84,24 @@ def _tables(
     """Yield the ratings and the races of the players that are paired."""
     listed = rated["player"].isin({*paired["player_a"], *paired["player_b"]})
     shown = rated[listed].head(MOST_PRINTED)
-    yield _ratings_table(shown, _decimals(scale))
+    pairs = pairs_of(paired, set(shown["player"]))
+    yield _ratings_table(shown, decimals_of(scale))
     place = f"#: place among all {len(rated):,} players. " if len(rated) > len(shown) else ""
     yield f"{place}±: standard error of the rating."
     yield ""
-    if limits.race_to is not None:
-        yield f"The fairest races in which the stronger player needs {limits.race_to} games."
-    elif limits.games is not None:
-        low, high = limits.games
-        yield f"The fairest races whose longest possible match has {low} to {high} games."
-    yield "Row: you. Column: your opponent. 7:4: you need 7 games, your opponent 4."
-    for table in _race_tables(shown, paired, width):
+    yield from which_races(pairs, limits)
+    yield how_to_read(pairs)
+    for table in _race_tables(shown, pairs, width):
         yield ""
         yield table
     yield ""
-    yield from _remarks(paired)
+    yield from remarks(pairs)
     if listed.sum() > len(shown):
-        more = _count(listed.sum() - len(shown), "more player is", "more players are")
+        more = count_of(listed.sum() - len(shown), "more player is", "more players are")
         yield f"{more} paired in matchups.csv."
     if len(rated) > listed.sum():
-        more = _count(len(rated) - listed.sum(), "more player is", "more players are")
+        more = count_of(len(rated) - listed.sum(), "more player is", "more players are")
         yield f"{more} rated in ratings.csv; --top and --players say whom to pair."
-
-
-def _count(number: int, one: str, many: str) -> str:
-    return f"{number:,} {one if number == 1 else many}"
-
-
-def _decimals(scale: Scale) -> int:
-    """Return how many decimals of a rating a person needs: about a hundredth of a doubling."""
-    return max(0, 2 - math.floor(math.log10(scale.points_per_doubling)))
 
 
 def _table() -> Table:
@@ -162,7 +137,7 @@ def _ratings_table(ratings: pd.DataFrame, decimals: int) -> Table:
 
 def _race_tables(ratings: pd.DataFrame, matchups: pd.DataFrame, width: int) -> Iterator[Table]:
     """Yield the table of races, with as many columns at a time as fit."""
-    races = _races(matchups)
+    races = races_by_name(matchups)
     players = [
         (str(place), name) for place, name in zip(ratings.index + 1, ratings["player"], strict=True)
     ]
@@ -185,33 +160,3 @@ def _race_tables(ratings: pd.DataFrame, matchups: pd.DataFrame, width: int) -> I
             ]
             table.add_row(place, _name(name), *cells)
         yield table
-
-
-def _races(matchups: pd.DataFrame) -> dict[tuple[str, str], str]:
-    races = {}
-    rows: Any = matchups.dropna(subset=["race_a"]).itertuples(index=False)
-    for pair in rows:
-        races[pair.player_a, pair.player_b] = f"{pair.race_a}:{pair.race_b}"
-        races[pair.player_b, pair.player_a] = f"{pair.race_b}:{pair.race_a}"
-    return races
-
-
-def _remarks(matchups: pd.DataFrame) -> Iterator[str]:
-    """Yield what the numbers of the races come to."""
-    offered = matchups.dropna(subset=["race_a"])
-    if len(offered):
-        low, high = offered["p_win_a"].min(), offered["p_win_a"].max()
-        yield (
-            f"The stronger player wins these with a chance of {low:.3f}"
-            + (f" to {high:.3f}." if high > low else ".")
-        )
-        yield (
-            f"The longest of them lasts {offered['mean_games'].max():.1f} games on average; "
-            f"9 of 10 end within {offered['games_p90'].max()}."
-        )
-    missing = len(matchups) - len(offered)
-    if missing:
-        yield (
-            f"{NO_RACE} is a pair without a race: no chain of opponents links the two, so that "
-            f"their ratings cannot be compared ({_count(missing, 'such pair', 'such pairs')})."
-        )
