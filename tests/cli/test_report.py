@@ -329,7 +329,10 @@ def test_an_end_while_files_take_their_places_leaves_the_new_ones(demo, tmp_path
         assert process.stderr is not None
         assert process.stdout.readline() == b"replacing\n"
         process.send_signal(getattr(signal, ending))
-        assert process.wait(timeout=30) == code
+        try:
+            assert process.wait(timeout=30) == code
+        finally:
+            process.kill()
         assert b"Traceback" not in process.stderr.read()
     assert content(tmp_path) == content(new)
 

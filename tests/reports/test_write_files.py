@@ -158,7 +158,10 @@ def test_an_end_at_any_moment_leaves_whole_files(tmp_path, ending, after):
         assert writer.stdout.readline() == b"ready\n"
         time.sleep(after)
         writer.send_signal(getattr(signal, ending))
-        writer.wait(timeout=30)
+        try:
+            writer.wait(timeout=30)
+        finally:
+            writer.kill()
     if not folder.exists():
         return
     rounds = [set((folder / name).read_bytes().split()) for name in NAMES]
