@@ -1,27 +1,33 @@
 """Eigenvectors of a transition matrix: inverse iteration, LAPACK (small) and ARPACK (large).
 
-The vectors of eigenvalue 1 come from inverse iteration with one sparse factorisation of
-sigma I - M, sigma just above 1: begun from the uniform law of each closed class and from its
-indicator, it stays with that class, however often the eigenvalue repeats. The others are
-made biorthogonal to them: L = (Y R)^-1 Y for left vectors Y and right vectors R, which
-exists where neither set is defective and both belong to the same eigenvalues.
+How often eigenvalue 1 repeats, and where its vectors live, is known from the structure: once
+for each closed class, of which the right vector is the stationary law and the left one the
+chance to end there. Each is found by itself, so that other eigenvalues may come as near to
+1 as they like without mixing in, and comes with a bound on its error (see `lu_solves`). The
+others are projected off them and made biorthogonal: L = (Y R)^-1 Y for left vectors Y and
+right vectors R, which exists where neither set is defective and both belong to the same
+eigenvalues.
 """
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.linalg
 import scipy.sparse
 import scipy.sparse.linalg
+from scipy.sparse import csc_array
 
+from evenbreak.chains.lu_solves import LUSolves
 from evenbreak.chains.steps import evened
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
 __all__ = ["DENSE", "TOLERANCE", "UnitPairs", "leading_pairs", "no_basis"]
@@ -32,6 +38,7 @@ TOLERANCE = 1e-8
 """Residuals and error estimates above this are refused."""
 SHIFT = 1.0 + 1e-10
 """As near to eigenvalue 1 as a factorisation bears."""
+EPS = float(np.finfo(float).eps)
 
 
 class UnitPairs:
@@ -43,53 +50,82 @@ class UnitPairs:
         shape (n, closed classes): the stationary laws.
     left
         shape (closed classes, n): the chances to end in each class.
+    error
+        at least the sum of absolute errors of the limit that they give from any state: inf
+        where nothing can be said.
     """
 
     def __init__(self, chain: Chain) -> None:
+        self._chain = chain
         structure = chain.structure
-        M = evened(chain)
-        self.size = len(chain)
-        self.factors = scipy.sparse.linalg.splu(
-            (SHIFT * scipy.sparse.eye_array(self.size) - M).tocsc()
-        )
-        closed = [structure.members(int(c)) for c in np.flatnonzero(structure.closed)]
-        right = np.zeros((self.size, len(closed)))
-        for i, states in enumerate(closed):
-            right[states, i] = 1.0 / len(states)
-        left = (right > 0.0).T.astype(float)
-        for _ in range(3):
-            right = self.factors.solve(right)
-            right /= right.sum(axis=0)
-            left = self._solve_transposed(left.T).T * (SHIFT - 1.0)
-        self.right, self.left = right, np.asarray(np.linalg.solve(left @ right, left))
+        closed = np.flatnonzero(structure.closed)
+        n = len(chain)
+        self.right, self.left = np.zeros((n, len(closed))), np.zeros((len(closed), n))
+        worst = 0.0
+        with np.errstate(all="ignore"):  # what overflows has no bound, and is refused
+            for i, label in enumerate(closed.tolist()):
+                states = structure.members(label)
+                self.left[i, states] = 1.0
+                self.right[states, i], error = _law(chain, np.sort(states))
+                worst = max(worst, error)
+            self.error = float(worst + self._set_chances() + n * EPS)
 
-    def _solve_transposed(self, y: NDArray[Any]) -> NDArray[Any]:
-        return np.asarray(self.factors.solve(y, trans="T"))  # type: ignore[call-overload]
+    def _set_chances(self) -> float:
+        """Fill in the chances from the transient states; return what they miss in all."""
+        chain = self._chain
+        states = np.flatnonzero(~chain.structure.recurrent)
+        if not len(states):
+            return 0.0
+        solves = LUSolves(chain.arcs, states)
+        into = (chain.arcs.matrix().astype(np.longdouble)[:, states]).tocsr()
+        missed = np.zeros(len(states))
+        for row in self.left:
+            entered = into.T @ row.astype(np.longdouble)
+            row[states] = solves.solve(entered.astype(np.float64), transposed=True)
+            missed += solves.missed(row[states], entered, transposed=True)
+        return float(solves.error(missed, transposed=True).max())
+
+    @cached_property
+    def _factors(self) -> Any:
+        n = len(self._chain)
+        return scipy.sparse.linalg.splu(_shifted(evened(self._chain), n))
 
     def resolvent(self, x: NDArray[Any]) -> NDArray[Any]:
         """Return (SHIFT I - M)^-1 x with the eigenvalues 1 projected out."""
-        x = self.factors.solve(x - self.right @ (self.left @ x))
+        x = self._factors.solve(x - self.right @ (self.left @ x))
         return np.asarray(x - self.right @ (self.left @ x))
 
     def resolvent_transposed(self, y: NDArray[Any]) -> NDArray[Any]:
         """Return (SHIFT I - M)^-T y with the eigenvalues 1 projected out."""
-        y = self._solve_transposed(y - self.left.T @ (self.right.T @ y))
+        y = self._factors.solve(y - self.left.T @ (self.right.T @ y), trans="T")
         return np.asarray(y - self.left.T @ (self.right.T @ y))
 
-    def group_inverse_norm(self) -> float:
-        """Return an estimate of the 1-norm of the group inverse of I - M (Higham 2000)."""
-        operator = scipy.sparse.linalg.LinearOperator(
-            (self.size, self.size),
-            matvec=self.resolvent,
-            rmatvec=self.resolvent_transposed,
-            matmat=self.resolvent,
-            rmatmat=self.resolvent_transposed,
-            dtype=float,
-        )
-        # The estimator draws from numpy's global state: not where the answer is at hand.
-        if self.size <= DENSE:
-            return float(np.abs(self.resolvent(np.eye(self.size))).sum(axis=0).max())
-        return float(scipy.sparse.linalg.onenormest(operator))
+
+def _shifted(M: csc_array, n: int) -> csc_array:
+    return csc_array(SHIFT * scipy.sparse.eye_array(n) - M)
+
+
+def _law(chain: Chain, states: Places) -> tuple[NDArray[np.float64], float]:
+    """Return the stationary law of a closed class and a bound on its sum of errors.
+
+    A likely state is cut out, which one step of inverse iteration finds; the others then
+    solve A x = the arcs out of it. With a = A^-1 of what x misses there, the law is missed
+    by a - law sum(a), which is no more than 2 sum |a|.
+    """
+    m = len(states)
+    if m == 1:
+        return np.ones(1), 0.0
+    M = evened(chain)[:, states][states]
+    guess = scipy.sparse.linalg.splu(_shifted(M, m)).solve(np.full(m, 1.0 / m))
+    cut = int(np.argmax(guess))
+    rest = np.delete(np.arange(m), cut)
+    solves = LUSolves(chain.arcs, states[rest])
+    out = chain.arcs.matrix()[:, [int(states[cut])]].toarray()[states[rest], 0]
+    law = np.ones(m)
+    law[rest] = solves.solve(out)
+    law /= law.sum()
+    missed = solves.missed(law[rest], out.astype(np.longdouble) * law[cut])
+    return law, 2.0 * float(solves.error(missed).sum()) + m * EPS
 
 
 def leading_pairs(
@@ -109,11 +145,20 @@ def leading_pairs(
     if k == ones:
         return np.ones(ones), units.left, units.right
     values, left, right = pairs(chain, units, k - ones)
-    left, right = np.vstack([units.left, left]), np.hstack([units.right, right])
+    # The vectors of eigenvalue 1 are as they should be; only the others give way.
+    left = _normed((left - (left @ units.right) @ units.left).T).T
+    right = _normed(right - units.right @ (units.left @ right))
     overlap = left @ right
-    if not np.linalg.cond(overlap) <= 1.0 / TOLERANCE:
+    if not (np.isfinite(overlap).all() and np.linalg.cond(overlap) <= 1.0 / TOLERANCE):
         raise no_basis(k, ones, np.inf)
-    return np.concatenate([np.ones(ones), values]), np.linalg.solve(overlap, left), right
+    left = np.linalg.solve(overlap, left)
+    left, right = np.vstack([units.left, left]), np.hstack([units.right, right])
+    return np.concatenate([np.ones(ones), values]), left, right
+
+
+def _normed(columns: NDArray[Any]) -> NDArray[Any]:
+    lengths = np.linalg.norm(columns, axis=0)
+    return np.asarray(columns / np.where(lengths > 0.0, lengths, 1.0))
 
 
 def no_basis(k: int, ones: int, residual: float) -> AccuracyError:

@@ -6,9 +6,9 @@ its left vectors as the chances of ending there, so that the stochastic limit is
 sum R_i (L_i v) over the eigenvalues 1 (the source text's derivation after P5.22).
 
 This is the second route to the limit: it shares nothing with the eliminations of
-`stochastic_limit` but the chain's structure, and loses digits where they do not: error
-about eps ||(I - M)^#||, with (I - M)^# the group inverse (Meyer 1975), which grows as the
-chain mixes slowly. Every answer is checked and refused where it cannot be vouched for.
+`stochastic_limit` but the chain's arcs and structure, and loses digits where they do not, in
+chains that are slow or nearly fall apart. Every answer comes with a bound on its error that
+is proved with the answer (see `lu_solves`), and is refused where it cannot be vouched for.
 """
 
 from __future__ import annotations
@@ -35,7 +35,6 @@ MOST_ENTRIES = 20_000_000
 """More entries of vectors than this (k times n) are refused: they fill the memory."""
 LEADING = 6
 """Beyond `DENSE` this many eigenvalues are found unless more repeat at 1."""
-EPS = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,9 +59,8 @@ class Spectrum:
     residual
         the largest absolute entry of `M R - R diag(values)`, `L M - diag(values) L` and `L R - I`.
     limit_error
-        bound on the errors of the entries of `limit`, but for rounding in the bound itself:
-        the 1-norm of the group inverse of I - M times what the vectors of eigenvalue 1 miss
-        their equations by, and n eps for rounding.
+        bound on the sum of the absolute errors of `limit`, from any start: that of the laws
+        in `right` and of the chances in `left` that belong to eigenvalue 1.
     """
 
     chain: Chain
@@ -129,12 +127,14 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
         if the vectors asked for do not exist, or only barely: the matrix is defective
         (every race is: its states empty after finitely many racks, so eigenvalue 0 has
         too few vectors), or k cuts through a repeated eigenvalue. The eigenvalues 1 alone
-        (k = number of closed classes) are never defective.
+        (k = number of closed classes) are never defective. Or if other eigenvalues are so
+        near to 1 that no bound on the errors of its vectors can be proved.
 
     Notes
     -----
-    Up to 1000 states by LAPACK's geev; beyond, shifted inverse iteration for eigenvalue 1
-    and ARPACK in shift-invert mode for the others nearest to 1.
+    Eigenvalue 1 repeats as often as classes are closed, by the structure; its vectors solve
+    equations class by class. The others come from LAPACK's geev up to 1000 states; beyond,
+    those nearest to 1 from ARPACK in shift-invert mode.
 
     >>> from evenbreak.chains import Chain
     >>> from scipy.sparse import csc_array
@@ -156,6 +156,11 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
             "stochastic_limit"
         )
     pairs = UnitPairs(chain)
+    if not np.isfinite(pairs.error):
+        raise AccuracyError(
+            "nothing can be said of the errors of the eigenvectors of eigenvalue 1: the chain "
+            "is too slow or too nearly falls apart; use stochastic_limit"
+        )
     values, left, right = leading_pairs(chain, pairs, k)
     M = evened(chain)
     residual = max(
@@ -165,11 +170,7 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     )
     if not residual <= TOLERANCE:
         raise no_basis(k, units, residual)
-    ones = slice(units)
-    missed = float(np.abs(M @ right[:, ones] - right[:, ones]).sum(axis=0).max())
-    missed += float(np.abs(left[ones] @ M - left[ones]).max())
-    error = (missed + n * EPS) * pairs.group_inverse_norm()
-    return Spectrum(chain, _real(values), _real(right), _real(left), units, residual, error)
+    return Spectrum(chain, _real(values), _real(right), _real(left), units, residual, pairs.error)
 
 
 def _real(array: NDArray[Any]) -> NDArray[Any]:
