@@ -45,6 +45,54 @@ def exactly(chain, start, steps, ends=()):
         yield density
 
 
+class TestManySteps:
+    """Beyond what can be followed step by step: squares of M, or a refusal."""
+
+    @settings(max_examples=40, deadline=None)
+    @given(chains())
+    def test_squares_are_as_good_as_steps(self, chain):
+        """1000 steps of so few states are squared; a path never is."""
+        by_squares = propagate(chain, 0, 1000)
+        one_by_one = propagate(chain, 0, 1000, path=True)[-1]
+        np.testing.assert_allclose(by_squares, one_by_one, rtol=1e-12, atol=0)
+
+    def test_each_entry_keeps_its_digits(self):
+        """Still in A after n steps: (1 - 2^-20)^n, 1e-260 of it left in the end."""
+        stay = 1 - 2.0**-20
+        chain = chain_of([("A", "A", stay), ("A", "B", 2.0**-20)], start="A")
+        for n in (10, 10**6, 627_000_000):
+            found = propagate(chain, steps=n)
+            exact = math.exp(n * math.log1p(-(2.0**-20)))
+            np.testing.assert_allclose(found, [exact, -math.expm1(math.log(exact))], rtol=1e-7)
+
+    @pytest.mark.parametrize("n", [2, 100, 500])
+    def test_a_billion_steps_come_to_the_limit(self, n):
+        i = np.arange(n)
+        chain = chain_from_arrays(
+            list(range(n)), np.tile(i, 2), np.concatenate([i, (i + 1) % n]), np.full(2 * n, 0.5), 0
+        )
+        np.testing.assert_allclose(propagate(chain, 0, 10**9), 1 / n, rtol=1e-6)
+        assert propagate(chain, 0, 10**9).sum() == pytest.approx(1.0, abs=1e-12)
+
+    def test_a_period_is_kept(self):
+        ring = chain_of([(0, 1, 1.0), (1, 2, 1.0), (2, 0, 1.0)])
+        assert propagate(ring, 0, 10**9).tolist() == [0.0, 1.0, 0.0]
+
+    def test_refusals_say_what_to_do(self):
+        small = chain_of([(0, 1, 1.0), (1, 0, 1.0)], start=0)
+        with pytest.raises(InputError, match=r"give 4000000000 or fewer, .* stochastic limit"):
+            propagate(small, steps=10**30)
+        with pytest.raises(InputError, match="one by one"):
+            propagate(small, steps=10**9, path=True)
+        large = chain_from_arrays(
+            list(range(600)), np.arange(600), (np.arange(600) + 1) % 600, np.ones(600), start=0
+        )
+        with pytest.raises(InputError, match=r"600 states; give [0-9]+ or fewer"):
+            propagate(large, steps=10**8)
+        with pytest.raises(InputError, match="does not fit in memory; give 166665 or fewer"):
+            propagate(large, steps=200_000, path=True)
+
+
 class TestPropagate:
     def test_one_ball_by_hand(self):
         """P5.23: W after 1, 3, 5 innings is p1, p1 (1 + q1 q2), p1 (1 + q1 q2 + (q1 q2)^2)."""

@@ -22,7 +22,7 @@ from scipy.sparse import csc_array, csgraph, csr_array
 
 from evenbreak.chains.transient import TransientPart
 from evenbreak.checks import one_of, probability, whole
-from evenbreak.errors import AccuracyError, ChainError
+from evenbreak.errors import AccuracyError, ChainError, InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -35,6 +35,12 @@ TIE = 1e-12
 """A cumulative probability this near below q counts as q: sums of floats miss ties."""
 MOST_STEPS = 100_000
 """A quantile further off than this is refused rather than waited for."""
+MOST_APPLIED = 4_000_000_000
+"""More steps than this are refused: roundings of 2^-52 add up to 1e-6."""
+_SQUARED, _CALL = 500, 5000
+"""Up to so many states M may be squared; a step costs as much as so many more arcs."""
+_MOST_WORK, _MOST_ENTRIES = 5e10, 100_000_000
+"""A minute or so of steps, counted in arcs; the densities of a path, 0.8 GB of them."""
 
 
 def propagate(
@@ -61,16 +67,19 @@ def propagate(
     Raises
     ------
     InputError
-        if `steps` is not a whole number, 0 or more.
+        if `steps` is not a whole number from 0 to 4 billion, or so many steps of so large
+        a chain would take minutes, or would not fit in memory with `path`.
     ChainError
         if the start is not one.
 
     Notes
     -----
-    M is applied `steps` times: only sums of products of nonnegative numbers, so the
-    relative error of each entry is at most about steps * (arcs into a state) * 2^-52. Where
-    the arcs of a state miss 1 by a rounding they are scaled to it, so that no mass is
-    lost on the way. Source: P5.23.
+    M is applied `steps` times, or for very many steps of at most 500 states squared again
+    and again: only sums of products of nonnegative numbers, so the relative error of each
+    entry is at most about steps * (arcs into a state) * 2^-52, and n in place of the arcs
+    where M is squared. Where the arcs of a state miss 1 by a rounding they are scaled to
+    it, and so are the columns of the squares, so that no mass is lost on the way.
+    Source: P5.23.
 
     >>> from evenbreak.chains import chain_of
     >>> duel = chain_of([("S1", "W", 0.5), ("S1", "S2", 0.5), ("S2", "L", 0.5), ("S2", "S1", 0.5)])
@@ -82,7 +91,27 @@ def propagate(
            [0.25, 0.5 , 0.  , 0.25]])
     """
     steps = whole(steps, "steps")
+    if steps > MOST_APPLIED:
+        raise InputError(
+            f"steps is {steps}, after which rounding would show; give {MOST_APPLIED} or fewer, "
+            "or ask for the stochastic limit"
+        )
     v = chain.density(start)
+    one_by_one = steps * (_CALL + chain.matrix.nnz)
+    if not path and len(chain) <= _SQUARED and steps.bit_length() * len(chain) ** 3 < one_by_one:
+        return _by_squares(evened(chain).toarray(), v, steps)
+    if one_by_one > _MOST_WORK:
+        most = int(_MOST_WORK // (_CALL + chain.matrix.nnz))
+        raise InputError(
+            f"steps is {steps}, too many to take one by one in a chain of {len(chain)} states; "
+            f"give {most} or fewer, or ask for the stochastic limit"
+        )
+    if path and (steps + 1) * len(chain) > _MOST_ENTRIES:
+        most = max(_MOST_ENTRIES // len(chain) - 1, 0)
+        raise InputError(
+            f"steps is {steps}, and a path of so many densities of {len(chain)} states does not "
+            f"fit in memory; give {most} or fewer, or leave out the path"
+        )
     M = csr_array(evened(chain))
     if not path:
         for _ in range(steps):
@@ -93,6 +122,20 @@ def propagate(
     for t in range(steps):
         densities[t + 1] = M @ densities[t]
     return densities
+
+
+def _by_squares(
+    power: NDArray[np.float64], v: NDArray[np.float64], steps: int
+) -> NDArray[np.float64]:
+    """Return M^steps v by the squares of M, which is `power` at first."""
+    while steps:
+        if steps & 1:
+            v = power @ v
+        steps >>= 1
+        if steps:
+            power = power @ power
+            power /= power.sum(axis=0)
+    return v
 
 
 def evened(chain: Chain) -> csc_array:
@@ -117,6 +160,7 @@ class Passage:
         of the number of steps; None unless the target must be reached.
     mean_if_reached, variance_if_reached
         of the number of steps, given that the target is reached; None where it cannot be.
+        The variance is inf where it is larger than any float.
     certain
         whether the target must be reached, by the graph: then `p_never` is exactly 0.
     residual
@@ -308,9 +352,14 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
         p_never = float(v[lost].sum() + flow @ chance[vanish])
     mean = variance = None
     if p_reached > 0.0:
-        mean = float(visits @ hope / p_reached)
         left = np.divide(part.values(hope), hope, out=np.zeros_like(hope), where=hope > 0.0)
-        variance = _variance(chain, v, ends, states, visits, hope, left, mean) / p_reached
+        with np.errstate(over="ignore", invalid="ignore"):
+            mean = float(visits @ hope / p_reached)
+            variance = _variance(chain, v, ends, states, visits, hope, left, mean) / p_reached
+        if mean == np.inf:
+            raise AccuracyError("the mean number of steps is larger than any float")
+        # So many steps on average come from a state that is hard to leave: its mean squared.
+        variance = variance if np.isfinite(variance) else np.inf
     M = evened(chain)
     return Passage(
         p_reached=p_reached,
