@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.chains import chain_from_arrays, chain_of
-from evenbreak.errors import ChainError, GameError
+from evenbreak.errors import ChainError, EvenbreakError, GameError
 from evenbreak.game import graph_of
 from evenbreak.games import OneBall, Race, Rack, Series, winner_breaks
 
@@ -29,6 +29,20 @@ def test_the_matrix_is_canonical() -> None:
     assert matrix.indices.tolist() == chain.matrix.indices.tolist()
     assert matrix.indptr.tolist() == chain.matrix.indptr.tolist()
     assert chain.matrix.has_canonical_format
+
+
+@pytest.mark.parametrize("source", [None, 5, 0.5])
+def test_what_is_no_source_is_refused(source: object) -> None:
+    with pytest.raises(ChainError, match=r"the source is .*; give a game, a networkx.DiGraph, or"):
+        chain_of(source)  # type: ignore[arg-type]
+
+
+def test_a_game_with_arrays_of_chances_is_refused() -> None:
+    rack = Rack(np.array([0.25, 0.5]))
+    with pytest.raises(EvenbreakError, match="a graph takes one number"):
+        chain_of(Race(2, 2, rack))
+    with pytest.raises(EvenbreakError, match="a graph takes one number"):
+        chain_of(Series(rack, breaks=winner_breaks))
 
 
 # The rules -----------------------------------------------------------------------------

@@ -11,9 +11,11 @@ import oracle
 from evenbreak.chains import (
     Chain,
     absorption,
+    chain_of,
     expected_visits,
     factorisation,
     limit_matrix,
+    propagate,
     stationary_laws,
     stochastic_limit,
 )
@@ -292,3 +294,41 @@ def test_a_pivot_below_the_normal_floats_costs_no_digits():
     exact = oracle.limit(oracle.columns_of(chain), {0: Fraction(1)})
     found = stochastic_limit(chain, np.array([1.0, 0.0, 0.0])).probability
     assert oracle.worst_relative_error(found, exact) < 1e-14
+
+
+class TestMapping:
+    """A limit reads like a dictionary from states to probabilities."""
+
+    chain = chain_of([("rack", "won", 0.75), ("rack", "lost", 0.25)], start="rack")
+    limit = stochastic_limit(chain)
+
+    def test_all_at_once(self):
+        told = {"rack": 0.0, "won": 0.75, "lost": 0.25}
+        assert dict(self.limit) == told == self.limit
+        assert list(self.limit) == ["rack", "won", "lost"]
+        assert len(self.limit) == 3
+        assert list(self.limit.values()) == [0.0, 0.75, 0.25]
+        assert self.limit.to_dict() == told
+
+    def test_one_by_one(self):
+        assert "won" in self.limit
+        assert "drawn" not in self.limit
+        assert [] not in self.limit
+        assert self.limit.get("won") == 0.75
+        assert self.limit.get("drawn") is None
+        with pytest.raises(ChainError, match="state 'drawn' is not in the chain"):
+            self.limit["drawn"]
+
+    def test_a_limit_is_a_start(self):
+        assert propagate(self.chain, self.limit, 5).tolist() == self.limit.probability.tolist()
+
+    def test_repr(self):
+        assert repr(self.limit) == (
+            "<Limit over 3 states, period=1: 'won': 0.75, 'lost': 0.25, 'rack': 0>"
+        )
+        ring = stochastic_limit(chain_of([(k, (k + 1) % 8, 1.0) for k in range(8)]), 0)
+        assert repr(ring) == (
+            "<Limit over 8 states, period=8: 0: 0.125, 1: 0.125, 2: 0.125, 3: 0.125, 4: 0.125, ...>"
+        )
+        assert repr(self.chain) == "<Chain of 3 states, 4 arcs, start 'rack'>"
+        assert repr(ring.chain) == "<Chain of 8 states, 8 arcs, start None>"

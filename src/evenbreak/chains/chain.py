@@ -50,6 +50,13 @@ class Chain:
     def __len__(self) -> int:
         return len(self.states)
 
+    def __repr__(self) -> str:
+        n, arcs = len(self), self.matrix.nnz
+        return (
+            f"<Chain of {n} state{'s' * (n != 1)}, {arcs} arc{'s' * (arcs != 1)}, "
+            f"start {self.start!r}>"
+        )
+
     @cached_property
     def position(self) -> dict[Hashable, int]:
         """The position of each state in the matrix."""

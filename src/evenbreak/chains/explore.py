@@ -70,6 +70,11 @@ def chain_of(
     if hasattr(source, "adjacency"):
         arcs, own_start = _arcs_of_graph(source)
         return chain_from_arrays(*arcs, start=own_start if start is None else start)
+    if not isinstance(source, Iterable):
+        raise ChainError(
+            f"the source is {source!r}; give a game, a networkx.DiGraph, or a list of "
+            "(source, target, probability)"
+        )
     return chain_from_arrays(*_arcs_of_triples(source), start=start)
 
 

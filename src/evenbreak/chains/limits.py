@@ -9,7 +9,7 @@ it is the long-run average (Cesàro) limit.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +20,7 @@ from evenbreak.chains.factorisation import Factorisation, path_order
 from evenbreak.chains.line import line_law
 from evenbreak.chains.transient import TransientPart
 from evenbreak.chains.wide import wide_law
+from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,11 +38,12 @@ __all__ = [
 ]
 
 _COLUMNS = 64
+_SHOWN = 5
 
 
 @dataclass(frozen=True, eq=False)
-class Limit:
-    """A stochastic limit; `limit[state]` is the probability of a state.
+class Limit(Mapping[Hashable, float]):
+    """A stochastic limit: a mapping from each state to its probability, given the start.
 
     Parameters
     ----------
@@ -57,8 +59,11 @@ class Limit:
         units of the largest entry of their right-hand side.
 
     >>> from evenbreak.chains import chain_of
-    >>> stochastic_limit(chain_of([("rack", "won", 0.6), ("rack", "lost", 0.4)]), "rack")["won"]
+    >>> limit = stochastic_limit(chain_of([("rack", "won", 0.6), ("rack", "lost", 0.4)]), "rack")
+    >>> limit["won"]
     0.6
+    >>> limit
+    <Limit over 3 states, period=1: 'won': 0.6, 'lost': 0.4, 'rack': 0>
     """
 
     chain: Chain
@@ -78,6 +83,32 @@ class Limit:
 
     def __getitem__(self, state: Hashable) -> float:
         return float(self.probability[self.chain.index(state)])
+
+    def __iter__(self) -> Iterator[Hashable]:
+        return iter(self.states)
+
+    def __len__(self) -> int:
+        return len(self.chain)
+
+    def __contains__(self, state: object) -> bool:
+        return isinstance(state, Hashable) and state in self.chain.position
+
+    def get(self, state: Hashable, default: Any = None) -> Any:
+        """Return the probability of a state, or `default` where the chain has no such state."""
+        try:
+            return self[state]
+        except ChainError:
+            return default
+
+    def __repr__(self) -> str:
+        likeliest = np.argsort(-self.probability, kind="stable")[:_SHOWN].tolist()
+        shown = [f"{self.states[i]!r}: {self.probability[i]:.6g}" for i in likeliest]
+        more = ", ..." if len(self) > _SHOWN else ""
+        told = "" if self.residual is None else f", residual={self.residual:.3g}"
+        return (
+            f"<Limit over {len(self)} state{'s' * (len(self) != 1)}, period={self.period}{told}: "
+            f"{', '.join(shown)}{more}>"
+        )
 
     def to_dict(self) -> dict[Hashable, float]:
         """Return the probability of each state."""
