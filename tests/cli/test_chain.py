@@ -1,4 +1,5 @@
 import json
+import math
 from fractions import Fraction
 
 import pytest
@@ -52,6 +53,18 @@ def test_steps_print_the_density(run):
     assert limits(run("chain", "-", "--steps", "0", stdin=ONE_BALL).stdout)["S1"] == 1.0
 
 
+def test_a_billion_steps_are_as_soon_taken_as_ten(run):
+    arcs = HEADER + "A,A,0.999999999\nA,B,0.000000001\n"
+    told = limits(run("chain", "-", "--steps", "1000000000", stdin=arcs).stdout)
+    assert told["A"] == pytest.approx(math.exp(-1), rel=1e-6)
+
+
+def test_more_steps_than_can_be_followed_end_with_2_and_a_way_out(run):
+    result = run("chain", "-", "--steps", "1" + "0" * 30, stdin=ONE_BALL)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert "ask for the stochastic limit" in result.stderr
+
+
 def test_json_keys(run):
     told = answer(run, ONE_BALL)
     assert set(told) == {
@@ -100,12 +113,23 @@ def test_mean_steps_is_null_where_absorption_may_never_come(run):
     assert answer(run, arcs, "--start", "W")["mean_steps"] == 0
 
 
-def test_a_mean_beyond_all_floats_is_null_and_the_limit_is_still_told(run):
-    arcs = HEADER + "A,B,1e-300\nA,A,1\nB,C,1e-300\nB,A,1\n"
-    result = run("chain", "-", "--json", stdin=arcs)
+@pytest.mark.parametrize(
+    ("arcs", "limit"),
+    [
+        ("A,B,1e-320\nA,A,1\n", {"A": 0.0, "B": 1.0}),
+        ("A,B,1e-300\nA,A,1\nB,C,1e-300\nB,A,1\n", {"A": 0.0, "B": 0.0, "C": 1.0}),
+        (
+            "".join(f"{k},{k + 1},1e-308\n{k},{k},1\n" for k in range(3)),
+            {"0": 0.0, "1": 0.0, "2": 0.0, "3": 1.0},
+        ),
+    ],
+)
+def test_a_mean_beyond_all_floats_is_null_and_the_limit_is_still_told(run, arcs, limit):
+    result = run("chain", "-", "--json", stdin=HEADER + arcs)
     told = json.loads(result.stdout)
-    assert (told["limit"], told["mean_steps"]) == ({"A": 0.0, "B": 0.0, "C": 1.0}, None)
-    assert result.stderr.startswith("Note: mean_steps is null: ")
+    assert (told["limit"], told["mean_steps"]) == (limit, None)
+    assert result.stderr.startswith("Note: mean_steps is null because it could not be computed (")
+    assert result.stderr.endswith("absorption may be certain all the same\n")
 
 
 def test_a_mean_of_which_the_square_is_beyond_all_floats_is_told_quietly(run):

@@ -101,15 +101,16 @@ def _answer(built: Chain, limit: Limit, steps: int | None) -> dict[str, Any]:
 
 def _mean_steps(built: Chain) -> float | None:
     """Return the mean number of steps to absorption; None too where no float can hold it."""
-    import numpy as np
-
     from evenbreak.chains.steps import steps_to_absorption
 
     try:
-        with np.errstate(over="ignore", invalid="ignore"):  # in the variance, not asked for
-            return steps_to_absorption(built).mean
+        return steps_to_absorption(built).mean
     except AccuracyError as error:
-        click.echo(f"Note: mean_steps is null: {error}", err=True)
+        click.echo(
+            f"Note: mean_steps is null because it could not be computed ({error}); absorption "
+            "may be certain all the same",
+            err=True,
+        )
         return None
 
 
