@@ -117,17 +117,18 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
         before = len(targets)
         moves = game.moves(state)
         for target, chance in moves.items():
-            if 0.0 < chance <= _ONE:
+            try:
+                possible = bool(0.0 < chance <= _ONE)
+            except (TypeError, ValueError):  # a text, or an array of chances
+                raise _no_chance(state, target, chance) from None
+            if possible:
                 i = position.setdefault(target, len(states))
                 if i == len(states):
                     states.append(target)
                 targets.append(i)
                 chances.append(chance)
             elif chance != 0.0:
-                raise GameError(
-                    f"the move {state!r} -> {target!r} has probability {chance!r}; "
-                    "give a number from 0 to 1"
-                )
+                raise _no_chance(state, target, chance)
         if moves and len(targets) == before:
             raise GameError(
                 f"no move from {state!r} has a chance; "
@@ -141,6 +142,12 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
         np.repeat(np.arange(len(states)), arc_counts),
         np.array(targets, dtype=np.intp),
         np.array(chances, dtype=float),
+    )
+
+
+def _no_chance(state: Any, target: Any, chance: Any) -> GameError:
+    return GameError(
+        f"the move {state!r} -> {target!r} has probability {chance!r}; give a number from 0 to 1"
     )
 
 

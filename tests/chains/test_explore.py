@@ -44,6 +44,18 @@ def test_a_game_with_arrays_of_chances_is_refused() -> None:
     with pytest.raises(EvenbreakError, match="a graph takes one number"):
         chain_of(Series(rack, breaks=winner_breaks))
 
+    class Mine:
+        start = "rack"
+
+        def moves(self, state: str) -> dict[str, object]:
+            return {"won": np.array([0.25, 0.5])} if state == "rack" else {}
+
+        def winner(self, state: str) -> None:
+            return None
+
+    with pytest.raises(GameError, match=r"'rack' -> 'won' has probability array"):
+        chain_of(Mine())  # type: ignore[arg-type]
+
 
 # The rules -----------------------------------------------------------------------------
 
