@@ -5,12 +5,12 @@ from evenbreak.chains.limits import limit_matrix as limit_matrix
 from evenbreak.chains.limits import stochastic_limit as stochastic_limit
 from evenbreak.chains.mixing import mixing_time as mixing_time
 from evenbreak.chains.mixing import spectral_gap as spectral_gap
+from evenbreak.chains.powers import propagate as propagate
 from evenbreak.chains.rewards import long_run_reward as long_run_reward
 from evenbreak.chains.rewards import total_reward as total_reward
 from evenbreak.chains.sensitivity import sensitivity as sensitivity
 from evenbreak.chains.spectrum import spectrum as spectrum
 from evenbreak.chains.steps import first_passage as first_passage
-from evenbreak.chains.steps import propagate as propagate
 from evenbreak.chains.steps import steps_to_absorption as steps_to_absorption
 from evenbreak.chains.symbolic import symbolic_limit as symbolic_limit
 from evenbreak.errors import AccuracyError as AccuracyError

@@ -50,7 +50,7 @@ def test_a_game_with_arrays_of_chances_is_refused() -> None:
         def moves(self, state: str) -> dict[str, object]:
             return {"won": np.array([0.25, 0.5])} if state == "rack" else {}
 
-        def winner(self, state: str) -> None:
+        def winner(self, _: str) -> None:
             return None
 
     with pytest.raises(GameError, match=r"'rack' -> 'won' has probability array"):

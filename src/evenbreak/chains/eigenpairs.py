@@ -21,7 +21,7 @@ import scipy.sparse.linalg
 from scipy.sparse import csc_array
 
 from evenbreak.chains.lu_solves import LUSolves
-from evenbreak.chains.steps import evened
+from evenbreak.chains.powers import evened
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:

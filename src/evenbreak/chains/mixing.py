@@ -17,7 +17,7 @@ import scipy.sparse.csgraph
 import scipy.sparse.linalg
 
 from evenbreak.chains.limits import limit_matrix
-from evenbreak.chains.steps import evened
+from evenbreak.chains.powers import evened
 from evenbreak.errors import AccuracyError, ChainError, InputError
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ import numpy as np
 
 from evenbreak.chains.eigenpairs import DENSE, TOLERANCE, UnitPairs, leading_pairs, no_basis
 from evenbreak.chains.mixing import mixing_time, spectral_gap
-from evenbreak.chains.steps import evened
+from evenbreak.chains.powers import evened
 from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, ChainError, InputError
 

@@ -1,4 +1,4 @@
-"""A chain step by step: densities after n steps, and the steps to get somewhere.
+"""The steps that it takes to get somewhere: their distribution, mean and variance.
 
 With Q the states from which the target can be reached, h_j the chance to reach it from j
 and x_t = Q^t v, the passage time T has P(T > t and the target is reached) = h . x_t, hence
@@ -18,134 +18,24 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from scipy.sparse import csc_array, csgraph, csr_array
+from scipy.sparse import csgraph, csr_array
 
+from evenbreak.chains.powers import evened
 from evenbreak.chains.transient import TransientPart
 from evenbreak.checks import one_of, probability, whole
-from evenbreak.errors import AccuracyError, ChainError, InputError
+from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.chain import Chain
 
-__all__ = ["Passage", "first_passage", "propagate", "steps_to_absorption"]
+__all__ = ["Passage", "first_passage", "steps_to_absorption"]
 
 TIE = 1e-12
 """A cumulative probability this near below q counts as q: sums of floats miss ties."""
 MOST_STEPS = 100_000
 """A quantile further off than this is refused rather than waited for."""
-MOST_APPLIED = 4_000_000_000
-"""More steps than this are refused: roundings of 2^-52 add up to 1e-6."""
-_SQUARED, _CALL = 500, 5000
-"""Up to so many states M may be squared; a step costs as much as so many more arcs."""
-_MOST_WORK, _MOST_ENTRIES = 5e10, 100_000_000
-"""A minute or so of steps, counted in arcs; the densities of a path, 0.8 GB of them."""
-
-
-def propagate(
-    chain: Chain, start: Any = None, steps: int = 1, *, path: bool = False
-) -> NDArray[np.float64]:
-    """Return the density after a number of steps, given the start.
-
-    Parameters
-    ----------
-    chain
-        the chain, n states.
-    start
-        as in `Chain.density`.
-    steps
-        how many steps, 0 or more.
-    path
-        whether to return the densities after 0, 1, ..., `steps` steps.
-
-    Returns
-    -------
-    numpy.ndarray
-        shape (n,), or (steps + 1, n) with `path`; each density sums to 1.
-
-    Raises
-    ------
-    InputError
-        if `steps` is not a whole number from 0 to 4 billion, or so many steps of so large
-        a chain would take minutes, or would not fit in memory with `path`.
-    ChainError
-        if the start is not one.
-
-    Notes
-    -----
-    M is applied `steps` times, or for very many steps of at most 500 states squared again
-    and again: only sums of products of nonnegative numbers, so the relative error of each
-    entry is at most about steps * (arcs into a state) * 2^-52, and n in place of the arcs
-    where M is squared. Where the arcs of a state miss 1 by a rounding they are scaled to
-    it, and so are the columns of the squares, so that no mass is lost on the way.
-    Source: P5.23.
-
-    >>> from evenbreak.chains import chain_of
-    >>> duel = chain_of([("S1", "W", 0.5), ("S1", "S2", 0.5), ("S2", "L", 0.5), ("S2", "S1", 0.5)])
-    >>> duel.states
-    ['S1', 'W', 'S2', 'L']
-    >>> propagate(duel, "S1", 2, path=True)
-    array([[1.  , 0.  , 0.  , 0.  ],
-           [0.  , 0.5 , 0.5 , 0.  ],
-           [0.25, 0.5 , 0.  , 0.25]])
-    """
-    steps = whole(steps, "steps")
-    if steps > MOST_APPLIED:
-        raise InputError(
-            f"steps is {steps}, after which rounding would show; give {MOST_APPLIED} or fewer, "
-            "or ask for the stochastic limit"
-        )
-    v = chain.density(start)
-    one_by_one = steps * (_CALL + chain.matrix.nnz)
-    if not path and len(chain) <= _SQUARED and steps.bit_length() * len(chain) ** 3 < one_by_one:
-        return _by_squares(evened(chain).toarray(), v, steps)
-    if one_by_one > _MOST_WORK:
-        most = int(_MOST_WORK // (_CALL + chain.matrix.nnz))
-        raise InputError(
-            f"steps is {steps}, too many to take one by one in a chain of {len(chain)} states; "
-            f"give {most} or fewer, or ask for the stochastic limit"
-        )
-    if path and (steps + 1) * len(chain) > _MOST_ENTRIES:
-        most = max(_MOST_ENTRIES // len(chain) - 1, 0)
-        raise InputError(
-            f"steps is {steps}, and a path of so many densities of {len(chain)} states does not "
-            f"fit in memory; give {most} or fewer, or leave out the path"
-        )
-    M = csr_array(evened(chain))
-    if not path:
-        for _ in range(steps):
-            v = M @ v
-        return v
-    densities = np.empty((steps + 1, len(chain)))
-    densities[0] = v
-    for t in range(steps):
-        densities[t + 1] = M @ densities[t]
-    return densities
-
-
-def _by_squares(
-    power: NDArray[np.float64], v: NDArray[np.float64], steps: int
-) -> NDArray[np.float64]:
-    """Return M^steps v by the squares of M, which is `power` at first."""
-    while steps:
-        if steps & 1:
-            v = power @ v
-        steps >>= 1
-        if steps:
-            power = power @ power
-            power /= power.sum(axis=0)
-    return v
-
-
-def evened(chain: Chain) -> csc_array:
-    """Return the matrix of the chain with columns that sum to 1 to the last bit or so."""
-    M = chain.matrix
-    sums = np.asarray(M.sum(axis=0)).ravel()
-    if np.all(sums == 1.0):
-        return M
-    data = M.data / np.repeat(sums, np.diff(M.indptr))
-    return csc_array((data, M.indices, M.indptr), shape=M.shape)
 
 
 @dataclass(frozen=True, eq=False)

@@ -44,7 +44,7 @@ def chain(arcs: str, start: str | None, steps: int | None, as_json: bool) -> Non
     """
     from evenbreak.chains.explore import chain_from_arrays
     from evenbreak.chains.limits import stochastic_limit
-    from evenbreak.chains.steps import propagate
+    from evenbreak.chains.powers import propagate
     from evenbreak.reports.read_arcs import read_arcs
 
     file = read_arcs(arcs)
@@ -78,7 +78,7 @@ def _notes(limit: Limit) -> Iterator[str]:
 
 def _answer(built: Chain, limit: Limit, steps: int | None) -> dict[str, Any]:
     """Return what --json prints."""
-    from evenbreak.chains.steps import propagate
+    from evenbreak.chains.powers import propagate
 
     states, structure = built.states, built.structure
     classes = zip(structure.label.tolist(), structure.kinds, strict=True)
