@@ -250,3 +250,18 @@ def test_wrong_needs_are_refused(p: Any, m: Any, n: Any, message: str) -> None:
 def test_other_games_are_for_the_chains(ask: Any, game: Any) -> None:
     with pytest.raises(InputError, match=r"give a Race or an Ahead, or solve chain_of"):
         ask(game)
+
+
+@pytest.mark.parametrize("p", [1e-12, 1e-3, 0.999, 1 - 1e-12])
+@pytest.mark.parametrize("m", [3, 7, 9])
+def test_no_chance_is_above_one(p, m):
+    for match in (
+        Race(m, 7, Rack(p)),
+        Race(m, 7, Rack(p, p), breaks=winner_breaks),
+        Race(m, 7, Rack(p), win_by=2),
+        Ahead(m, 2, Rack(p, 1 - p), breaks=alternate_breaks),
+    ):
+        odds = match_odds(match)
+        chances = [odds.p_win_1, odds.p_win_2]
+        chances += [win_probability(match, player=player) for player in (1, 2)]
+        assert max(chances) <= 1.0

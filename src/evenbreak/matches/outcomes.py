@@ -50,7 +50,9 @@ class Outcomes:
 
     def p_win(self, player: int) -> Any:
         """P(`player` wins the match)."""
-        return sum((o.chance for (winner, _), o in self.by_result.items() if winner == player), 0.0)
+        chance = sum((o.chance for (won, _), o in self.by_result.items() if won == player), 0.0)
+        # Rounding may bring a sum above 1.
+        return min(chance, 1.0) if isinstance(chance, float) else chance.clip(max=1.0)
 
     @property
     def length(self) -> Outcome:

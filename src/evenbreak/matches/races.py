@@ -44,12 +44,12 @@ class RaceLaw(NamedTuple):
     @property
     def p_win_1(self) -> float:
         """P(player 1 wins the race)."""
-        return math.fsum(self.win_1)
+        return _total(self.win_1)
 
     @property
     def p_win_2(self) -> float:
         """P(player 2 wins the race); a sum of its own, so that it is right when tiny."""
-        return math.fsum(self.win_2)
+        return _total(self.win_2)
 
     @property
     def probability(self) -> list[float]:
@@ -152,6 +152,11 @@ def race_law(
         p_shutout_1=win_1[need_1],
         p_shutout_2=win_2[need_2],
     )
+
+
+def _total(chances: Sequence[float]) -> float:
+    """Return the sum of the chances of exclusive events, which rounding may bring above 1."""
+    return min(1.0, math.fsum(chances))
 
 
 def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, float, int, int]]:

@@ -75,7 +75,8 @@ def _win(match: Match, player: int) -> Any:
         mine, theirs = need if player == 1 else need[::-1]
         return betainc(mine, theirs, one)
     if isinstance(rack, Rack):
-        return race_endings(*need, rack, match.breaks, match.first_breaker)[player - 1].sum(axis=0)
+        endings = race_endings(*need, rack, match.breaks, match.first_breaker)[player - 1]
+        return np.minimum(endings.sum(axis=0), 1.0)  # rounding may bring a sum above 1
     return outcomes_of(match, lengths=False).p_win(player)
 
 
