@@ -36,9 +36,9 @@ Floats = NDArray[np.float64]
 _LARGE = 2000
 """From this many rows on, answers that are not good to rounding are taken for being fast."""
 
-_WELL_MIXED = 0.001
+_WELL_MIXED = 0.002
 """How far from certain an answer by cavities may be. As ρ² is at least the sum of any row of
-squares, no such sum is then above .01, and every round comes 100 times nearer."""
+squares, no such sum is then above .015, and every round comes 60 times nearer."""
 _ROUNDS = 6
 
 
@@ -75,7 +75,7 @@ class _Levelled:
 
 
 def _by_cavities(league: _Levelled) -> Floats | None:
-    """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.1 %."""
+    """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.2 %."""
     r, pull = league.r, league.pull
     rr, size = r * r, len(r)
     w = LinearOperator((size, size), lambda v: pull @ v - r * (r @ v) + rr * v, dtype=np.float64)

@@ -80,7 +80,7 @@ class Ratings:
         """The posterior standard deviation of each rating, in points.
 
         Good to rounding for up to 2,000 players, and for more who play in divisions; for
-        more who all play each other within 0.05 %, as a rule within 1e-5.
+        more who all play each other within 0.1 %, as a rule within 1e-5.
         """
         precision = self.prior_sd**-2
         variance = inverse_diagonal(hessian(self._pairs, self._skill, precision), precision)

@@ -42,7 +42,7 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
     -------
     numpy.ndarray
         n values, with a relative error near rounding. A matrix of 2,000 rows or more that
-        fills in is answered by cavities (see `filled_in`) where that is within 0.1 % at
+        fills in is answered by cavities (see `filled_in`) where that is within 0.2 % at
         worst, 1e-5 as a rule; failing that in single precision where its condition number
         is below 1000: then within a few 1e-6 as a rule, and some 1e-4 at worst.
 
