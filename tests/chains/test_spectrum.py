@@ -306,3 +306,51 @@ class TestNearlyDecoupled:
         assert error_of(found) <= found.limit_error
         assert np.sum(found.values == 1.0) >= 1
         np.testing.assert_allclose(found.left @ found.right, np.eye(9), atol=1e-8)
+
+
+class TestPeriods:
+    """Eigenvalues of modulus 1 are known from the structure, with their vectors."""
+
+    @pytest.mark.parametrize("coupling", [0.1, *COUPLINGS])
+    def test_two_pairs_that_are_hardly_joined(self, coupling):
+        arcs = [(0, 1, 1 - coupling), (0, 3, coupling), (1, 0, 1.0), (3, 2, 1.0)]
+        arcs += [(2, 3, 1 - 2 * coupling), (2, 1, 2 * coupling)]
+        chain = chain_of(arcs)
+        try:
+            found = spectrum(chain)
+        except AccuracyError:
+            assert coupling < 1e-12
+            return
+        assert found.values[:2].tolist() == [1.0, -1.0]
+        law = found.right[:, 0]
+        parity = np.array([{0: 1, 1: -1, 3: -1, 2: 1}[s] for s in chain.states])
+        np.testing.assert_array_equal(found.right[:, 1], law * parity)
+        np.testing.assert_array_equal(found.left[1], parity)
+        assert error_of(found) <= found.limit_error
+
+    @settings(max_examples=40, deadline=None)
+    @given(st.lists(st.integers(1, 5), min_size=1, max_size=3), st.integers(0, 2**32 - 1))
+    def test_rings_that_are_entered_from_outside(self, sizes, seed):
+        rng = np.random.default_rng(seed)
+        arcs = [((r, j), (r, (j + 1) % n), 1.0) for r, n in enumerate(sizes) for j in range(n)]
+        ways = [(r, 0) for r in range(len(sizes))] + ["S", "T"]
+        for state in ("S", "T"):
+            chances = rng.dirichlet(np.ones(len(ways)))
+            arcs += [(state, way, p) for way, p in zip(ways, chances, strict=True)]
+        chain = chain_of(arcs)
+        try:
+            found = spectrum(chain)
+        except AccuracyError:  # S and T may be defective
+            found = spectrum(chain, k=sum(sizes))
+        on_circle = found.values[: sum(sizes)]
+        np.testing.assert_allclose(np.abs(on_circle), 1.0, atol=1e-15)
+        roots = np.concatenate([np.exp(2j * np.pi * np.arange(n) / n) for n in sizes])
+        assert np.prod(2.5 - on_circle) == pytest.approx(np.prod(2.5 - roots), rel=1e-12)
+        assert np.all(np.abs(found.values[sum(sizes) :]) < 1.0 - 1e-9)
+        assert found.residual < 1e-9
+
+    def test_transient_states_that_go_round_for_ever_but_for_rounding(self):
+        arcs = [("A", "B", 1.0), ("B", "A", 1.0), ("S", "T", 1.0), ("T", "S", 1.0)]
+        chain = chain_of([*arcs, ("S", "A", 1e-17)])
+        with pytest.raises(AccuracyError, match="use stochastic_limit"):
+            spectrum(chain)

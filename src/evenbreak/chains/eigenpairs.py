@@ -3,10 +3,10 @@
 How often eigenvalue 1 repeats, and where its vectors live, is known from the structure: once
 for each closed class, of which the right vector is the stationary law and the left one the
 chance to end there. Each is found by itself, so that other eigenvalues may come as near to
-1 as they like without mixing in, and comes with a bound on its error (see `lu_solves`). The
-others are projected off them and made biorthogonal: L = (Y R)^-1 Y for left vectors Y and
-right vectors R, which exists where neither set is defective and both belong to the same
-eigenvalues.
+1 as they like without mixing in, and comes with a bound on its error (see `lu_solves`). A
+closed class of period d has the other d-th roots of 1 too. All others are projected off
+these and made biorthogonal: L = (Y R)^-1 Y for left vectors Y and right vectors R, which
+exists where neither set is defective and both belong to the same eigenvalues.
 """
 
 from __future__ import annotations
@@ -141,19 +141,74 @@ def leading_pairs(
         if there are no k independent vectors, or the iteration does not converge.
     """
     ones = units.right.shape[1]
-    pairs = _dense_others if len(chain) <= DENSE else _sparse_others
+    known: tuple[NDArray[Any], NDArray[Any], NDArray[Any]]
+    known = np.ones(ones), units.left, units.right
     if k == ones:
-        return np.ones(ones), units.left, units.right
-    values, left, right = pairs(chain, units, k - ones)
-    # The vectors of eigenvalue 1 are as they should be; only the others give way.
-    left = _normed((left - (left @ units.right) @ units.left).T).T
-    right = _normed(right - units.right @ (units.left @ right))
+        return known
+    if len(chain) <= DENSE:
+        known = _joined(known, roots_of_one(chain, units))
+        known = known[0][:k], known[1][:k], known[2][:, :k]
+    if k == len(known[0]):
+        return known
+    find = _dense_others if len(chain) <= DENSE else _sparse_others
+    values, left, right = find(chain, units, known[0], k - len(known[0]))
+    # The vectors that are known are as they should be; only the others give way.
+    left = _normed((left - (left @ known[2]) @ known[1]).T).T
+    right = _normed(right - known[2] @ (known[1] @ right))
     overlap = left @ right
     if not (np.isfinite(overlap).all() and np.linalg.cond(overlap) <= 1.0 / TOLERANCE):
         raise no_basis(k, ones, np.inf)
-    left = np.linalg.solve(overlap, left)
-    left, right = np.vstack([units.left, left]), np.hstack([units.right, right])
-    return np.concatenate([np.ones(ones), values]), left, right
+    return _joined(known, (values, np.linalg.solve(overlap, left), right))
+
+
+def roots_of_one(chain: Chain, units: UnitPairs) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+    """Return the eigenvalues of modulus 1 but for 1 itself, with left and right vectors.
+
+    A closed class of period d has the d-th roots w of 1, each once. Its right vector is the
+    stationary law, its left one 1 in the class, both turned by w once for each step of the
+    period; from the transient states L (w I - M) = 0 is solved.
+    """
+    structure, M = chain.structure, evened(chain)
+    outside = np.flatnonzero(~structure.recurrent)
+    T = csc_array(M[:, outside][outside])
+    n = len(chain)
+    values: list[complex] = []
+    left, right = [np.zeros((0, n))], [np.zeros((n, 0))]
+    for i, label in enumerate(np.flatnonzero(structure.closed).tolist()):
+        period = int(structure.periods[label])
+        roots = np.exp(2j * np.pi * np.arange(period) / period)
+        roots[np.arange(period) * 2 == period] = -1.0
+        inside = structure.label == label
+        # From 1 both ways round, so that conjugate pairs stay together.
+        for turn in sorted(range(1, period), key=lambda t: (min(t, period - t), t)):
+            turned = roots[turn * structure.phases % period]
+            row = np.where(inside, turned, 0.0)
+            if len(outside):
+                row[outside] = _turned_chances(T, roots[turn], M[:, outside].T @ row)
+            values.append(complex(roots[turn]))
+            left.append(row[None, :])
+            right.append((units.right[:, i] * turned.conj())[:, None])
+    return np.array(values, dtype=complex), np.vstack(left), np.hstack(right)
+
+
+def _turned_chances(T: csc_array, root: complex, entered: NDArray[Any]) -> NDArray[Any]:
+    """Return x with x (root I - T) = entered, for transient states T."""
+    A = csc_array((scipy.sparse.diags_array(np.full(len(entered), root)) - T).T)
+    try:
+        return np.asarray(scipy.sparse.linalg.splu(A).solve(entered.astype(complex)))
+    except RuntimeError:
+        raise AccuracyError(
+            "transient states go round for too long for the eigenvectors of modulus 1 to be "
+            "told apart; ask for the eigenvalues 1 alone, or use stochastic_limit"
+        ) from None
+
+
+def _joined(
+    some: tuple[NDArray[Any], NDArray[Any], NDArray[Any]],
+    more: tuple[NDArray[Any], NDArray[Any], NDArray[Any]],
+) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+    values, left, right = zip(some, more, strict=True)
+    return np.concatenate(values), np.vstack(left), np.hstack(right)
 
 
 def _normed(columns: NDArray[Any]) -> NDArray[Any]:
@@ -171,18 +226,19 @@ def no_basis(k: int, ones: int, residual: float) -> AccuracyError:
 
 
 def _dense_others(
-    chain: Chain, units: UnitPairs, k: int
+    chain: Chain, _: UnitPairs, known: NDArray[Any], k: int
 ) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     values, left, right = scipy.linalg.eig(evened(chain).toarray(), left=True, right=True)
     # Moduli that differ by rounding are ties, so that conjugate pairs stay together.
     order = np.lexsort((-values.imag, -values.real, -np.abs(values).round(10)))
-    ones = np.argsort(np.abs(values - 1.0), kind="stable")[: units.right.shape[1]]
-    order = order[~np.isin(order, ones)][:k]
+    for value in known:
+        order = np.delete(order, np.argmin(np.abs(values[order] - value)))
+    order = order[:k]
     return values[order], left[:, order].conj().T, right[:, order]
 
 
 def _sparse_others(
-    chain: Chain, units: UnitPairs, k: int
+    chain: Chain, units: UnitPairs, _: NDArray[Any], k: int
 ) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     n = len(chain)
     found = []

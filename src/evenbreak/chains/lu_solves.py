@@ -5,7 +5,8 @@ digits go where states are hard to leave; what is left of them is certified. I -
 that are left in the end is an M-matrix, its inverse nonnegative: if A e >= |b - A x| then
 no entry of x is off by more than its entry of e. The diagonal of A is the sum of the arcs,
 never 1 minus a self-loop, and both sides are computed in the platform's extended precision
-with their own rounding allowed for.
+with their own rounding allowed for (the bounds are wider where that is a double's, see
+`sparse_lu`).
 
 Reference: Rump 1999, "INTLAB", and Neumaier 1999, for bounds by M-matrices.
 """

@@ -8,6 +8,10 @@ This is the elimination of Grassmann, Taksar and Heyman in the order of cyclic r
 It works in the platform's extended precision: where all arcs are alike, each round repeats
 the rounding errors of the round before, and n units in the last place of a double would
 show at n = 10,000; and the arcs between states far apart are smaller than any double.
+
+Where a long double is no wider than a double (Windows, some ARM) there are no extra digits to
+work in: a line of n equal states may then be off by some n units in the last place, and arcs
+between states far apart may underflow, which the solves that use this notice.
 """
 
 from __future__ import annotations

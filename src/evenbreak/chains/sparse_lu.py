@@ -7,6 +7,10 @@ hence, if some e >= 0 has A e >= |b - A x| (which is checked, with the rounding 
 itself), no entry of x is off by more than its entry of e. A small residual alone would
 prove nothing about a chain that is slow to leave its states.
 
+Where a long double is no wider than a double (Windows, some ARM) the refinement gains nothing
+and the rounding of the check is that of doubles: the bounds still hold, but are wider, so
+that more answers carry a residual or are refused.
+
 References: Skeel 1980 for the refinement; Rump 1999, "INTLAB", and Neumaier 1999 for
 bounds by M-matrices.
 """

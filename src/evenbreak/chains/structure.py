@@ -126,6 +126,22 @@ class Structure:
             periods[home[inside][first]] = np.gcd.reduceat(slack, first)
         return periods
 
+    @cached_property
+    def phases(self) -> Places:
+        """The step of its period at which each state of a closed class is met; shape (n,).
+
+        Counted from the first state of the class; 0 outside the closed classes.
+
+        >>> from evenbreak.chains import chain_of
+        >>> chain_of([("A", "B", 1.0), ("B", "A", 1.0), ("S", "B", 1.0)]).structure.phases
+        array([0, 1, 0])
+        """
+        periods = np.maximum(self.periods, 1)
+        if (periods == 1).all():
+            return np.zeros(len(self.label), dtype=np.int64)
+        depth = self._depths(periods > 1) - 1
+        return np.asarray(np.where(self.recurrent, depth % periods[self.label], 0))
+
     def _depths(self, searched: NDArray[np.bool_]) -> Places:
         """Return the depth of each state of the `searched` classes in a tree of arcs.
 
