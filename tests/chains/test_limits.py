@@ -219,7 +219,8 @@ def test_a_large_class_carries_its_residual_unless_certified(monkeypatch):
     monkeypatch.undo()
     monkeypatch.setattr(factorisation, "_MOST_ENTRIES", 0)
     certified = stochastic_limit(Chain(chain.states, chain.matrix, 0))
-    assert certified.residual is None
+    if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # else it cannot be certified
+        assert certified.residual is None
     assert certified.probability == pytest.approx(exact.probability, rel=1e-12)
 
 

@@ -42,7 +42,8 @@ def test_certified_answers_are_right(chance, transposed):
     x = factor.values(b) if transposed else factor.visits(b)
     worst = np.max(np.abs(x[:, 0] / exact(T, leak, b[:, 0], transposed) - 1))
     assert worst < (1e-12 if factor.residual is None else 1e-6)
-    assert factor.residual is None or chance < 1e-3
+    if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # else fewer can be certified
+        assert factor.residual is None or chance < 1e-3
 
 
 @pytest.mark.parametrize("chance", [1e-13, 1e-16, 1e-19])
