@@ -135,6 +135,12 @@ def test_similar_names_are_listed(read):
     assert "'Ann Lee' and 'ann lee' may be one player" in file.warnings[0]
 
 
+def test_names_a_letter_apart_are_listed_unless_they_met(read):
+    rows = "2024-09-03,Bob,Cy,7,5\n2024-09-03,Bobb,Cy,7,5\n2024-09-03,Anna,Anne,7,5\n"
+    file = read(f"{HEADER}\n{rows}")
+    assert file.similar_names == (("Bob", "Bobb"),)
+
+
 def test_of_many_similar_names_twenty_groups_are_listed(read):
     letters = "abcdefghijklmnopqrstuvwxyz"
     rows = "".join(f"2024-09-03,Player{a * 9},PLAYER{a * 9},7,5\n" for a in letters)

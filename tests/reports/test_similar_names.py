@@ -23,6 +23,15 @@ from evenbreak.reports.similar_names import similar_names
         ("Winston Peake", "Wisnton Peake"),
         ("Winston Peake", "Winston Peak"),
         ("Winston Peake", "Winnston Peake"),
+        ("Bob", "Bobb"),
+        ("Ann", "Anne"),
+        ("Anna", "Anne"),
+        ("Anton Müller", "Anton Mueller"),
+        ("Jörg Groß", "Joerg Gross"),
+        ("Dave Jones", "David Jones"),
+        ("Jones, Dave", "David Jones"),
+        ("Chris B Lee", "Christopher B Lee"),
+        ("Dan Müller", "Daniel Mueller"),
     ],
 )
 def test_names_that_may_mean_one_player(one, other):
@@ -35,7 +44,13 @@ def test_names_that_may_mean_one_player(one, other):
         ("John Smith J", "John Smith K"),
         ("Player 0012", "Player 0013"),
         ("Team 12 East", "Team 13 East"),
-        ("Ann", "Anne"),
+        ("Tim", "Tom"),
+        ("Lee", "Leo"),
+        ("J Jones", "K Jones"),
+        ("Dave Jones", "David Janos"),
+        ("Dave", "David"),
+        ("Cambridge A", "Camden A"),
+        ("Table1 East", "Table2 East"),
         ("Winston Peake", "Winston Paeks"),
         ("Winston Peake", "Winsten Peaks"),
         ("!", "?"),
@@ -48,6 +63,24 @@ def test_names_that_mean_two_players(one, other):
 def test_groups_are_told_once_and_in_order():
     names = ["cy", "CY", "Cy", "Bo Petersen", "bo petersen"]
     assert similar_names(names) == [("Bo Petersen", "bo petersen"), ("CY", "Cy", "cy")]
+
+
+def test_no_group_is_part_of_another():
+    names = ["Dave Jones", "DAVE JONES", "David Jones", "Dave Janes"]
+    assert similar_names(names) == [
+        ("DAVE JONES", "Dave Jones", "David Jones"),
+        ("DAVE JONES", "Dave Janes"),
+        ("Dave Janes", "Dave Jones"),
+    ]
+
+
+def test_names_that_played_each_other_mean_two_players():
+    names = ["Anna", "Anne", "Bob", "Bobb", "Dan Lee", "Dana Lee", "Danny Lee"]
+    met = [("Anne", "Anna"), ("Dan Lee", "Dana Lee")]
+    assert similar_names(names, met) == [("Dan Lee", "Dana Lee", "Danny Lee"), ("Bob", "Bobb")]
+    met += [("Dana Lee", "Danny Lee"), ("Danny Lee", "Dan Lee")]
+    assert similar_names(names, met) == [("Bob", "Bobb")]
+    assert similar_names(["Ann", "ann"], [("ann", "Ann")]) == [("Ann", "ann")]
 
 
 @given(st.lists(st.text(max_size=12), max_size=12))

@@ -6,6 +6,8 @@ import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from evenbreak.ratings.results import Results
 from evenbreak.reports.problems import quoted
 from evenbreak.reports.read_table import read_table
@@ -72,10 +74,16 @@ def read_results(path: str | Path) -> ResultsFile:
         table.problems.raise_any()
     results = columns.checked()
     table.problems.raise_any()
-    groups = tuple(similar_names(results.players))
+    groups = tuple(similar_names(results.players, _met(results)))
     warnings = [*table.warnings, *columns.merged_names(), *_warnings(groups, table.source)]
     sha256 = hashlib.sha256(table.content).hexdigest()
     return ResultsFile(results, table.source, tuple(warnings), groups, sha256)
+
+
+def _met(results: Results) -> list[tuple[str, str]]:
+    """Return the names that played each other, each pair once for either order."""
+    pairs = np.unique(np.column_stack([results.player_a, results.player_b]), axis=0)
+    return [(results.players[a], results.players[b]) for a, b in pairs.tolist()]
 
 
 def _warnings(groups: tuple[tuple[str, ...], ...], source: str) -> list[str]:

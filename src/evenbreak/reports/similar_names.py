@@ -1,4 +1,4 @@
-"""Names that may mean one player: spelt in another case, with other blanks or accents, or mistyped.
+"""Names that may mean one player: spelt in another way, mistyped, or with a shortened given name.
 
 Mistyped names are found without comparing every pair: two words that differ by one
 letter (changed, left out or swapped with its neighbour) have a word in common among
@@ -11,49 +11,77 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
 from itertools import combinations
 
 __all__ = ["similar_names"]
 
-SHORTEST_MISTYPED = 8
-"""Letters that two names need before one other letter is taken for a slip."""
-
 SHORTEST_WORD = 4
-"""Letters that the word with the slip needs: J and K are initials, not slips."""
+"""Letters that the longer of two words needs before one is a slip: Tim is not Tom mistyped."""
+
+ALIKE = 3
+"""Letters that two given names share at their beginning if one may be short for the other."""
 
 # Letters that Unicode does not take apart into a letter and an accent.
 _PLAIN = str.maketrans(
     {"ø": "o", "ł": "l", "đ": "d", "ð": "d", "ı": "i", "æ": "ae", "œ": "oe", "þ": "th"}
 )
+_UMLAUT = re.compile("([aou])e")
 
 
-def similar_names(names: Iterable[str]) -> list[tuple[str, ...]]:
+def similar_names(
+    names: Iterable[str], met: Collection[tuple[str, str]] = ()
+) -> list[tuple[str, ...]]:
     """Return groups of different names that may mean one player.
 
-    First those that differ in case, blanks, accents or the order of words, then those
-    that one slip of the hand explains; both in the order of the names.
+    First those that differ in case, blanks, punctuation, accents (ä, a and ae are one) or
+    the order of words; then those that differ in given names with the same first three
+    letters; then those that one slip of the hand explains, in a word of four letters or
+    more. Each kind is in the order of the names, and no group is part of another.
+
+    Parameters
+    ----------
+    names
+        as they are written.
+    met
+        pairs of names that played each other: two players then, so that a group of the
+        latter two kinds in which all have met is left out. Of the first kind none is:
+        somebody has entered one player twice.
 
     >>> similar_names(["Ann Lee", "Lee, Ann", "Bo Petersen", "Bo Peterson", "Cy", "CY", "Di"])
     [('Ann Lee', 'Lee, Ann'), ('CY', 'Cy'), ('Bo Petersen', 'Bo Peterson')]
+    >>> similar_names(["Dave Jones", "David Jones", "Anna", "Anne"], met=[("Anne", "Anna")])
+    [('Dave Jones', 'David Jones')]
     """
-    words = {name: _words(name) for name in sorted(set(names))}
-    groups = set()
-    for key in (_run_together, _in_order):
-        alike = defaultdict(list)
-        for name, split in words.items():
-            if split:
-                alike[key(split)].append(name)
-        groups |= {tuple(group) for group in alike.values() if len(group) > 1}
-    slips = {(one, other) for one, other in _nearly_alike(words) if _slip(words[one], words[other])}
-    return [*sorted(groups), *sorted(slips)]
+    words = {name: split for name in sorted(set(names)) if (split := _words(name))}
+    bare = {name: tuple(map(_without_umlauts, split)) for name, split in words.items()}
+    kinds: tuple[Collection[tuple[str, ...]], ...] = (
+        {*_alike(bare, _run_together), *_alike(bare, _in_order)},
+        set(_alike(bare, _given_name)),
+        {pair for pair in _nearly_alike(words) if _slip(words[pair[0]], words[pair[1]])},
+    )
+    apart = {frozenset(pair) for pair in met}
+    ranked = [
+        (kind, group)
+        for kind, groups in enumerate(kinds)
+        for group in groups
+        if kind == 0 or any(frozenset(pair) not in apart for pair in combinations(group, 2))
+    ]
+    return [group for _, group in sorted(_largest(ranked))]
 
 
 def _words(name: str) -> tuple[str, ...]:
-    """Return the words of a name, without accents and in one case."""
-    apart = unicodedata.normalize("NFKD", name.casefold().translate(_PLAIN))
-    bare = "".join(letter for letter in apart if not unicodedata.combining(letter))
+    """Return the words of a name, given names first, without accents and in one case."""
+    last, _, given = name.partition(",")
+    plain = f"{given} {last}".casefold().translate(_PLAIN)
+    letters = unicodedata.normalize("NFKD", plain)
+    bare = "".join(letter for letter in letters if not unicodedata.combining(letter))
     return tuple(re.findall(r"[^\W_]+", bare))
+
+
+def _without_umlauts(word: str) -> str:
+    """Return a word with ae, oe and ue as a, o and u, as ä, ö and ü have become already."""
+    return _UMLAUT.sub(r"\1", word)
 
 
 def _run_together(words: tuple[str, ...]) -> str:
@@ -64,14 +92,45 @@ def _in_order(words: tuple[str, ...]) -> str:
     return " ".join(sorted(words))
 
 
-def _nearly_alike(words: dict[str, tuple[str, ...]]) -> Iterator[tuple[str, str]]:
-    """Yield pairs of names that may be one letter apart, each pair once."""
+def _given_name(words: tuple[str, ...]) -> Hashable:
+    """Return the beginning of a given name and all that follows it; None where there is none."""
+    given, *rest = words
+    if len(given) < ALIKE or not given.isalpha() or not rest or len(rest[-1]) == 1:
+        return None
+    return given[:ALIKE], *rest
+
+
+def _alike(
+    words: Mapping[str, tuple[str, ...]], key: Callable[[tuple[str, ...]], Hashable]
+) -> Iterator[tuple[str, ...]]:
+    """Yield the groups of names that have the same key."""
+    groups = defaultdict(list)
+    for name, split in words.items():
+        groups[key(split)].append(name)
+    groups.pop(None, None)
+    yield from (tuple(group) for group in groups.values() if len(group) > 1)
+
+
+def _largest(
+    ranked: Iterable[tuple[int, tuple[str, ...]]],
+) -> Iterator[tuple[int, tuple[str, ...]]]:
+    """Yield the groups that are not part of another, of equal ones the first."""
+    holding: dict[str, set[int]] = defaultdict(set)
+    by_size = sorted(ranked, key=lambda entry: (-len(entry[1]), entry))
+    for number, (kind, group) in enumerate(by_size):
+        if not set.intersection(*(holding[name] for name in group)):
+            yield kind, group
+        for name in group:
+            holding[name].add(number)
+
+
+def _nearly_alike(words: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str]]:
+    """Yield pairs of names that may be one letter apart."""
     shortened = defaultdict(list)
     for name, split in words.items():
-        if sum(map(len, split)) >= SHORTEST_MISTYPED:
-            for key in {split, *_one_letter_less(split)}:
-                shortened[key].append(name)
-    yield from {pair for group in shortened.values() for pair in combinations(group, 2)}
+        for key in {split, *_one_letter_less(split)}:
+            shortened[key].append(name)
+    yield from (pair for group in shortened.values() for pair in combinations(group, 2))
 
 
 def _one_letter_less(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
@@ -91,7 +150,7 @@ def _slip(one: tuple[str, ...], other: tuple[str, ...]) -> bool:
     if len(differing) != 1:
         return False
     a, b = differing[0]
-    if min(len(a), len(b)) < SHORTEST_WORD:
+    if max(len(a), len(b)) < SHORTEST_WORD:
         return False
     start = 0
     while start < min(len(a), len(b)) and a[start] == b[start]:
