@@ -87,7 +87,18 @@ def test_a_column_that_is_missing_is_no_further_problem():
 
 
 @pytest.mark.parametrize(
-    ("text", "value"), [("0.5", 0.5), (".5", 0.5), ("5e-1", 0.5), ("1", 1.0), ("-2.", -2.0)]
+    ("text", "value"),
+    [
+        ("0.5", 0.5),
+        (".5", 0.5),
+        ("5e-1", 0.5),
+        ("1", 1.0),
+        ("-2.", -2.0),
+        ("0,5", 0.5),
+        (",5", 0.5),
+        ("1,000", 1.0),
+        ("2,5e-1", 0.25),
+    ],
 )
 def test_numbers(text, value):
     table = table_of(text)
@@ -95,7 +106,10 @@ def test_numbers(text, value):
     assert told(table) == []
 
 
-@pytest.mark.parametrize("text", ["NaN", "inf", "-Infinity", "0,5", "1e999", "half", "1_0", ""])
+@pytest.mark.parametrize(
+    "text",
+    ["NaN", "inf", "-Infinity", ",", "0,5,0", "1,000.5", "1.000,5", "1e999", "half", "1_0", ""],
+)
 def test_what_is_no_number_is_told(text):
     table = table_of(text)
     assert math.isnan(numbers(table, "x", remedy="write 0.5").values[0])

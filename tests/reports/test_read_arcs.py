@@ -35,6 +35,14 @@ def test_probabilities_are_read_to_the_last_bit(arcs_file):
     assert arcs.probabilities.tolist() == [p, 1 - p]
 
 
+def test_a_spreadsheet_may_write_a_decimal_comma(tmp_path):
+    path = tmp_path / "arcs.csv"
+    path.write_text("sep=;\nsource;target;probability\nS;W;0,6\nS;L;,4\nT;S;1,000\n")
+    assert read_arcs(path).probabilities.tolist() == [0.6, 0.4, 1.0]
+    path.write_text("source,target,probability\nS,W,0,6\n")
+    assert problems(path)[0].startswith(":2: has 4 cells")
+
+
 def test_sums_may_miss_1_by_1e_9(arcs_file):
     assert len(read_arcs(arcs_file("a,b,0.5\na,a,0.5000000009\n")).states) == 2
     assert "sum to 1.000000002, not 1" in problems(arcs_file("a,b,0.5\na,a,0.500000002\n"))[0]

@@ -49,6 +49,29 @@ def test_header_names_in_any_case_and_by_their_aliases(read, header):
     assert read(f"{header}\nBo,5\n").cells("score") == ["5"]
 
 
+@pytest.mark.parametrize("first", ["sep={}", "SEP={}", '"sep={}"', "\ufeffsep={}", "sep={} "])
+@pytest.mark.parametrize("separator", [",", ";", "\t", "|"])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_first_line_may_say_the_separator(read, first, separator, end):
+    rows = [("name", "score", "note"), ("Zoë", "7", "a,b;c"), ("Bo", "x", "")]
+    lines = (separator.join(f'"{cell}"' for cell in row) for row in rows)
+    content = end.join([first.format(separator), *lines, ""])
+    table = read(content)
+    assert table.cells("name") == ["Zoë", "Bo"]
+    assert table.cells("note") == ["a,b;c", ""]
+    assert table.lines.tolist() == [3, 4]
+    assert table.content == content.encode()
+    assert table.warnings == ()
+    table.problems.raise_any()
+
+
+def test_a_separator_is_said_in_a_line_of_its_own(read):
+    table = read("sep=;name;score\nx;Bo;5\n")
+    assert (table.cells("name"), table.lines.tolist()) == (["Bo"], [2])
+    with pytest.raises(DataError, match="holds no rows"):
+        read("sep=;\n")
+
+
 def test_commas_in_other_columns_do_not_mislead_the_separator(read):
     table = read("name;a,b,c,d,e;score\nBo;x,y;5\n")
     assert table.cells("score") == ["5"]
@@ -85,7 +108,7 @@ def test_unknown_columns_are_told(read):
 
 def test_missing_and_doubled_columns_are_told_together(read):
     told = problems(read("name,player,points\nBo,Bo,5\n"))
-    assert told[0].startswith(": columns 'name' and 'player' both mean name")
+    assert told[0].startswith(":1: columns 'name' and 'player' both mean name")
     assert told[1].startswith(":1: there is no column 'score' among 'name', 'player', 'points'")
     assert "'games won'" in told[1]
 

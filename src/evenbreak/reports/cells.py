@@ -22,6 +22,7 @@ __all__ = ["Values", "numbers", "read_cells", "whole_numbers"]
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
 _WHOLE = re.compile(r"[+-]?[0-9]+(\.0*)?", re.ASCII)
 _IN_NUMBERS = "0123456789+-.eE"
+_DECIMAL_COMMA = re.compile(r"[^.,]*,[^.,]*")
 LARGEST_WHOLE = 1_000_000
 LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of digits
 
@@ -122,13 +123,19 @@ def whole_numbers(
 
 
 def numbers(table: Table, name: str, *, remedy: str) -> Values:
-    """Read a column of finite numbers with a decimal point; cells that are none are NaN."""
+    """Read a column of finite numbers; cells that are none are NaN.
+
+    A comma is read as the decimal point, as spreadsheets in many languages write it, and
+    never groups thousands.
+    """
     return read_cells(
         table, name, _number, wanted="a number", remedy=remedy, dtype=np.float64, empty=math.nan
     )
 
 
 def _number(text: str) -> float | None:
+    if _DECIMAL_COMMA.fullmatch(text):
+        text = text.replace(",", ".")
     # Python's float() also takes nan, inf, 1_000 and digits of other scripts.
     if text.strip(_IN_NUMBERS):
         return None

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from array import array
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
@@ -27,6 +28,9 @@ from evenbreak.reports.problems import Problems, quoted
 __all__ = ["Table", "Texts", "read_table"]
 
 SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab"}
+_DECLARED = re.compile(rb'(?:\xef\xbb\xbf)?"?sep=([^\w\s"\x80-\xff]|\t)"?[ \t]*(?=[\r\n])', re.I)
+"""The first line in which Excel says what separates the cells, such as sep=;"""
+
 ROWS_AT_A_TIME = 1024  # few enough to stay in the processor's cache
 
 
@@ -95,7 +99,8 @@ def read_table(
     r"""Read a CSV file as columns of text.
 
     UTF-8 with or without BOM, else Windows-1252 with a warning; comma, semicolon or
-    tab; LF, CRLF or CR; quoted cells may hold line ends. Names of columns are compared
+    tab, or what a first line such as `sep=|` says; LF, CRLF or CR; quoted cells may hold
+    line ends. Names of columns are compared
     without regard to case, blanks and punctuation. Blank rows are skipped, unknown
     columns are ignored with a warning.
 
@@ -129,14 +134,20 @@ def read_table(
     encoding, warnings = encoding_of(content, source)
     problems = Problems(source)
     names = {**required, **(optional or {})}
-    chunks = _chunks(content, encoding, _separator(content, encoding, names), problems)
+    declared = _DECLARED.match(content)
+    if declared:
+        # The line that names the separator stays as a blank one, so that lines keep their numbers.
+        body, separator = content[declared.end() :], declared[1].decode()
+    else:
+        body, separator = content, _separator(content, encoding, names)
+    chunks = _chunks(body, encoding, separator, problems)
     lines, rows = next(chunks)
     if not rows:
         problems.add(None, "holds no rows; write a header line and one line for each row below it")
         problems.raise_any()
     header_line, header = lines[0], rows[0]
     chunks = chain([(lines[1:], rows[1:])], chunks)
-    places, unused = _places(header, names, problems)
+    places, unused = _places(header, header_line, names, problems)
     missing = [name for name in required if name not in places]
     for name in missing:
         others = " or ".join(map(quoted, required[name][:3]))
@@ -198,7 +209,7 @@ def _chunks(
 
 
 def _places(
-    header: list[str], names: Mapping[str, Sequence[str]], problems: Problems
+    header: list[str], line: int, names: Mapping[str, Sequence[str]], problems: Problems
 ) -> tuple[dict[str, int], list[str]]:
     """Return where each known column is, and the columns that nobody asked for."""
     canonical = {_key(other): name for name, others in names.items() for other in (*others, name)}
@@ -210,7 +221,7 @@ def _places(
             unused += [title] if title.strip() else []
         elif name in places:
             problems.add(
-                None,
+                line,
                 f"columns {quoted(header[places[name]])} and {quoted(title)} both mean {name}; "
                 "leave one out",
             )
