@@ -84,20 +84,27 @@ def find_players(ratings: Ratings, names: Sequence[str]) -> list[int]:
     Raises
     ------
     InputError
-        if a name is not in the results; it lists the names that are most like it.
+        if names are not in the results; it lists all of them, each with the names that are
+        most like it.
     """
     exact = {name: place for place, name in enumerate(ratings.players)}
     folded: dict[str, list[int]] = {}
     for name, place in exact.items():
         folded.setdefault(name.casefold(), []).append(place)
     found: dict[int, None] = {}
+    unknown: dict[str, None] = {}
     for name in map(clean_name, names):
         places = [exact[name]] if name in exact else folded.get(name.casefold(), [])
-        if len(places) != 1:
+        if len(places) == 1:
+            found[places[0]] = None
+        else:
             near = [ratings.players[k] for k in places] or _like(name, ratings.players)
-            hint = f"; did you mean {' or '.join(map(repr, near))}?" if near else ""
-            raise InputError(f"players: there is no {name!r} in the results{hint}")
-        found[places[0]] = None
+            hint = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
+            unknown[f"{name!r}{hint}"] = None
+    if unknown:
+        raise InputError(
+            f"players: not in the results: {', '.join(unknown)}; write names as the results do"
+        )
     return list(found)
 
 
