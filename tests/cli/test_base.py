@@ -136,7 +136,7 @@ def test_a_full_disk_is_one_line():
             text=True,
         )
     assert done.returncode == 1
-    assert done.stderr == "Error: No space left on device\n"
+    assert done.stderr == "Error: standard output: No space left on device\n"
 
 
 def test_module_runs_as_a_program():

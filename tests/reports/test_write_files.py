@@ -85,6 +85,18 @@ def test_a_folder_in_the_place_of_a_file_changes_nothing(folder):
     assert sorted(path.name for path in folder.iterdir()) == list(NAMES)
 
 
+@pytest.mark.parametrize("place", ["sheet", "deep/sheet"])
+def test_a_file_in_the_place_of_a_folder_above_is_told(tmp_path, place):
+    above = tmp_path / "one.csv"
+    above.write_bytes(b"mine")
+    with pytest.raises(NotADirectoryError) as caught:
+        write_files(above / place, NEW)
+    assert caught.value.filename == str(above / place)
+    told = f"{above} is a file, so no folder can be in it; name another"
+    assert caught.value.strerror == told
+    assert content(tmp_path) == {"one.csv": b"mine"}
+
+
 @pytest.mark.parametrize("failing", [1, 2, 3])
 def test_an_interrupt_while_files_take_their_places_waits(folder, monkeypatch, failing):
     replace, calls = Path.replace, []

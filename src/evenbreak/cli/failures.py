@@ -17,6 +17,7 @@ from evenbreak.errors import DataError, EvenbreakError, InputError
 __all__ = ["report_error"]
 
 PROBLEMS_SHOWN = 20
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 FAILED, USAGE, BAD_DATA, INTERRUPTED = 1, 2, 3, 130
 
 
@@ -57,6 +58,9 @@ def _lines(error: BaseException) -> Iterator[str]:
             hidden = len(error.problems) - PROBLEMS_SHOWN
             if hidden > 0:
                 yield f"and {hidden:,} more problem{'s' if hidden > 1 else ''}"
+        case OSError(filename=None, errno=code) if code in NO_ROOM:
+            # Every file that is written is named in its error.
+            yield f"standard output: {error.strerror}"
         case OSError(filename=None):
             yield str(error.strerror or error)
         case OSError():

@@ -69,6 +69,13 @@ def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
 
 
 def _write_new(folder: Path, files: Mapping[str, bytes]) -> None:
+    for above in folder.parents:
+        if above.exists():
+            if not above.is_dir():
+                raise NotADirectoryError(
+                    errno.ENOTDIR, f"{above} is a file, so no folder can be in it; name another"
+                )
+            break
     folder.parent.mkdir(parents=True, exist_ok=True)
     staged = _temporary(folder)
     try:
