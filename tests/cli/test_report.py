@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 ROOT = Path(__file__).resolve().parents[2]
 DEMO = ROOT / "data" / "demo_league.csv"
 SEASON = ROOT.parent / "shared" / "data" / "snooker_2016_17_results.csv"
-FILES = ["matchups.csv", "ratings.csv", "summary.csv"]
+FILES = ["matchups.csv", "ratings.csv", "sheet.pdf", "summary.csv"]
 HEADER = "date,player_a,player_b,score_a,score_b\n"
 SMALL = HEADER + "2024-09-03,Ann,Bo,7,5\n2024-09-10,Bo,Cy,7,4\n2024-09-17,Ann,Cy,7,2\n"
 
@@ -45,7 +45,7 @@ def demo(run, page, tmp_path_factory):  # noqa: ARG001
     return run("report", str(DEMO), "--out", str(folder)), folder
 
 
-def test_the_demo_league_gives_three_files_and_a_sheet(demo):
+def test_the_demo_league_gives_its_files_and_a_sheet(demo):
     result, folder = demo
     assert result.exit_code == 0
     assert sorted(path.name for path in folder.iterdir()) == FILES
@@ -53,7 +53,7 @@ def test_the_demo_league_gives_three_files_and_a_sheet(demo):
     assert "The fairest races in which the stronger player needs 7 games." in result.stdout
     assert all(len(line) <= 80 for line in result.stdout.splitlines())
     assert result.stderr.splitlines()[-1] == (
-        f"Wrote ratings.csv, matchups.csv, summary.csv to {folder}"
+        f"Wrote ratings.csv, matchups.csv, summary.csv, sheet.pdf to {folder}"
     )
 
 
@@ -80,6 +80,7 @@ def test_the_columns_are_those_of_the_documentation(demo):
     assert (told["forfeits_left_out"], told["empty_left_out"]) == ("11", "2")
     assert "NPL-like scale" in told["scale"]
     assert "not an official rating" in told["scale"]
+    assert content(folder)["sheet.pdf"].startswith(b"%PDF")
 
 
 def test_the_true_order_of_the_demo_league_is_found(demo):
@@ -162,7 +163,10 @@ def test_a_name_with_a_comma_may_be_named_alone(run, tmp_path):
 
 def test_excel_gets_its_marks(run, tmp_path):
     assert run("report", str(DEMO), "--out", str(tmp_path), "--excel").exit_code == 0
-    for body in content(tmp_path).values():
+    for name, body in content(tmp_path).items():
+        if name == "sheet.pdf":
+            assert body.startswith(b"%PDF")
+            continue
         assert body.startswith(b"\xef\xbb\xbf")
         assert body.count(b"\r\n") == body.count(b"\n") > 10
 

@@ -31,7 +31,7 @@ Examples:
     required=True,
     metavar="DIR",
     type=click.Path(file_okay=False, path_type=Path),
-    help="Where ratings.csv, matchups.csv and summary.csv go; made if it is not there.",
+    help="Where ratings.csv, matchups.csv, summary.csv and sheet.pdf go; made if it is not there.",
 )
 @click.option(
     "--scale",
@@ -54,7 +54,9 @@ Examples:
     metavar="N",
     help=f"Pair the N players with the most games.  [default: {TOP}, without --players]",
 )
-@click.option("--excel", is_flag=True, help="Write the files as Excel likes them: BOM and CRLF.")
+@click.option(
+    "--excel", is_flag=True, help="Write the CSV files as Excel likes them: BOM and CRLF."
+)
 def report(
     results: str,
     out: Path,
@@ -71,17 +73,19 @@ def report(
     score_b and, if you like, date, race_a, race_b, winner, first_break, break_format,
     racks, event and forfeit; - reads standard input. The sheet says how strong each
     player is and which race is nearest to even for each pair; races to 7, unless --games
-    or --race-to says otherwise.
+    or --race-to says otherwise. It is printed, and sheet.pdf has it for paper.
     """
     refuse_both(games, race_to)
     if players and top is not None:
         refuse("--players and --top exclude each other; leave one out")
     from evenbreak.ratings.fit import fit
     from evenbreak.ratings.scale import scale_of
-    from evenbreak.reports.frames import ratings_frame, summary_frame
+    from evenbreak.reports.frames import file_name, ratings_frame, summary_frame
     from evenbreak.reports.matchups import RaceLimits, find_players, matchups_frame, most_active
+    from evenbreak.reports.paper import pdf_bytes
     from evenbreak.reports.read_results import read_results
     from evenbreak.reports.sheet import sheet_text
+    from evenbreak.reports.sheet_pages import sheet_pages
     from evenbreak.reports.to_csv import to_csv
     from evenbreak.reports.write_files import write_files
 
@@ -105,10 +109,12 @@ def report(
     rated = ratings_frame(ratings)
     paired = matchups_frame(ratings, chosen, limits)
     told = summary_frame(file, ratings, paired, limits)
+    pages = sheet_pages(file, ratings, limits, rated, paired)
     files = {
         "ratings.csv": to_csv(rated, excel=excel),
         "matchups.csv": to_csv(paired, excel=excel),
         "summary.csv": to_csv(told, excel=excel),
+        "sheet.pdf": pdf_bytes(pages, f"Fair races from {file_name(file)}"),
     }
     write_files(out, files)
     _say(f"Wrote {', '.join(files)} to {out}")

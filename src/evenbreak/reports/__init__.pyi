@@ -6,6 +6,7 @@ from evenbreak.reports.matchups import RaceLimits as RaceLimits
 from evenbreak.reports.matchups import find_players as find_players
 from evenbreak.reports.matchups import matchups_frame as matchups_frame
 from evenbreak.reports.matchups import most_active as most_active
+from evenbreak.reports.paper import pdf_bytes as pdf_bytes
 from evenbreak.reports.problems import Problems as Problems
 from evenbreak.reports.read_arcs import ArcsFile as ArcsFile
 from evenbreak.reports.read_arcs import read_arcs as read_arcs
@@ -14,5 +15,6 @@ from evenbreak.reports.read_results import read_results as read_results
 from evenbreak.reports.read_table import Table as Table
 from evenbreak.reports.read_table import read_table as read_table
 from evenbreak.reports.sheet import sheet_text as sheet_text
+from evenbreak.reports.sheet_pages import sheet_pages as sheet_pages
 from evenbreak.reports.to_csv import to_csv as to_csv
 from evenbreak.reports.write_files import write_files as write_files
