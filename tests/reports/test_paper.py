@@ -2,7 +2,7 @@ import re
 
 import matplotlib as mpl
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak.reports.paper import Paper, drawable, pdf_bytes, shortened, width_of
@@ -41,6 +41,7 @@ def test_the_same_page_gives_the_same_bytes_whatever_a_matplotlibrc_wishes():
 
 
 @given(st.text(max_size=20))
+@settings(max_examples=40)
 def test_any_text_can_be_written_without_a_warning(text):
     written = drawable(text)
     assert written.isprintable()

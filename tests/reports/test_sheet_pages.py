@@ -122,13 +122,13 @@ def test_bars_are_two_standard_errors_either_way():
 
 
 def test_more_players_than_paper_holds_are_told():
-    pages, _ = sheet_of(league(51), top=50)
+    pages, _ = sheet_of(league(50), top=49)
     told = texts(pages[0])
     assert (
-        f"Of 50 paired players the {MOST_PAIRED} strongest are on paper; matchups.csv has all."
+        f"Of 49 paired players the {MOST_PAIRED} strongest are on paper; matchups.csv has all."
         in told
     )
-    assert "The number at a name is its place among all 51 players." in told
+    assert "The number at a name is its place among all 50 players." in told
     names = {row for page in pages for row, _ in races_on(page)}
     assert len(names) == MOST_PAIRED
 
@@ -159,7 +159,7 @@ ODD_NAMES = [
     ("season", "options"),
     [
         *((league(10, name), {}) for name in ODD_NAMES),
-        (league(24, "W" * 60 + " {}"), {"limits": RaceLimits(race_to=120)}),
+        (league(14, "W" * 60 + " {}"), {"limits": RaceLimits(race_to=120)}),
         (league(24), {"source": "a file with a very long name " * 9 + ".csv"}),
         (league(2), {"limits": RaceLimits(race_to=1000)}),
         (league(3), {"scale": 1e300}),

@@ -92,6 +92,15 @@ def sheet_pages(
     rated, paired
         as `ratings_frame` and `matchups_frame` make them. Of the players in `rated` those
         that `paired` pairs are shown, the 48 strongest at most.
+
+    >>> from evenbreak.ratings import Results, fit
+    >>> from evenbreak.reports import ResultsFile, matchups_frame, ratings_frame
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> ratings, limits = fit(season), RaceLimits(race_to=7)
+    >>> paired = matchups_frame(ratings, [0, 1, 2], limits)
+    >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
+    >>> len(sheet_pages(file, ratings, limits, ratings_frame(ratings), paired))
+    1
     """
     listed = rated[rated["player"].isin({*paired["player_a"], *paired["player_b"]})]
     shown = listed.head(MOST_PAIRED)
@@ -109,24 +118,12 @@ def sheet_pages(
         for row in rows
     ]
     head = [f"{source_and_dates(file)}. {played(ratings)}", " ".join(which_races(pairs, limits))]
-    notes = [" ".join(remarks(pairs)), " ".join(unlike_others(ratings))]
-    if len(rated) > len(shown):
-        notes.append(f"The number at a name is its place among all {len(rated):,} players.")
-    if len(listed) > len(shown):
-        notes.append(
-            f"Of {len(listed):,} paired players the {len(shown)} strongest are on paper; "
-            "matchups.csv has all."
-        )
-    if any(UNKNOWN in drawable(name) for name in shown["player"]):
-        notes.append(
-            f"{UNKNOWN} is a letter that the font of this page lacks; the number at a name "
-            "is its row in ratings.csv, which has it whole."
-        )
     foot = [
         " ".join([scale_sentences(ratings), *left_out(ratings)]),
         f"evenbreak {__version__}, from results with the SHA-256 {file.sha256[:12]}…",
     ]
-    notes = _broken(notes, SMALL)
+    told = [" ".join(remarks(pairs)), " ".join(unlike_others(ratings))]
+    notes = _broken([*told, *_about_names(players, len(listed), len(rated))], SMALL)
     room = HEIGHT - 2 * MARGIN - HEADING - FOOTING - len(notes) * LEADING * SMALL / POINTS
     plan = _plan(players, races_by_name(pairs), decimals, room)
     pages = []
@@ -140,6 +137,22 @@ def sheet_pages(
         _lines(page, block.bottom + 0.42, notes, SMALL)
         pages.append(page.figure)
     return pages
+
+
+def _about_names(players: list[Player], paired: int, rated: int) -> Iterator[str]:
+    """Yield who is on paper of the players that are paired and rated, and by what name."""
+    if rated > len(players):
+        yield f"The number at a name is its place among all {rated:,} players."
+    if paired > len(players):
+        yield (
+            f"Of {paired:,} paired players the {len(players)} strongest are on paper; "
+            "matchups.csv has all."
+        )
+    if any(UNKNOWN in drawable(player.name) for player in players):
+        yield (
+            f"{UNKNOWN} is a letter that the font of this page lacks; the number at a name "
+            "is its row in ratings.csv, which has it whole."
+        )
 
 
 @dataclass(frozen=True)
