@@ -318,6 +318,14 @@ program(["report", sys.argv[1], "--out", sys.argv[2]])
 """
 
 
+def test_an_empty_folder_name_is_not_this_folder(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = run("report", str(DEMO), "--out", "")
+    assert result.exit_code == 2
+    assert "--out is empty" in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
 @pytest.mark.parametrize(("ending", "code"), [("SIGINT", 130), ("SIGTERM", -signal.SIGTERM)])
 def test_an_end_while_files_take_their_places_leaves_the_new_ones(demo, tmp_path, ending, code):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Collection, Sequence
-from pathlib import Path
 
 import click
 
@@ -30,7 +29,7 @@ Examples:
     "--out",
     required=True,
     metavar="DIR",
-    type=click.Path(file_okay=False, path_type=Path),
+    type=click.Path(file_okay=False),
     help="Where ratings.csv, matchups.csv, summary.csv and sheet.pdf go; made if it is not there.",
 )
 @click.option(
@@ -59,7 +58,7 @@ Examples:
 )
 def report(
     results: str,
-    out: Path,
+    out: str,
     scale_name: str,
     games: tuple[int, int] | None,
     race_to: int | None,
@@ -78,6 +77,8 @@ def report(
     refuse_both(games, race_to)
     if players and top is not None:
         refuse("--players and --top exclude each other; leave one out")
+    if not out.strip():
+        refuse("--out is empty; name a folder, or . for this one")
     from evenbreak.ratings.fit import fit
     from evenbreak.ratings.scale import scale_of
     from evenbreak.reports.frames import file_name, ratings_frame, summary_frame
