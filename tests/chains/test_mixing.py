@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak.chains import chain_from_arrays, chain_of, limit_matrix
-from evenbreak.chains.mixing import mixing_time, spectral_gap
+from evenbreak.chains.mixing import _average_of_powers, mixing_time, spectral_gap
 from evenbreak.errors import AccuracyError, ChainError, InputError
 from evenbreak.games import Ahead, OneBall, Race, Rack
 
@@ -48,6 +48,10 @@ class TestGap:
         chain = chain_of([(0, 1, 0.5), (0, 0, 0.5), (1, 2, 1.0), (2, 0, 1.0)])
         moduli = np.sort(np.abs(np.roots([1, -0.5, 0, -0.5])))
         assert spectral_gap(chain) == pytest.approx(1 - moduli[-2], rel=1e-12)
+
+    def test_a_bare_cycle_has_all_its_eigenvalues_on_the_unit_circle(self):
+        for n in (2, 3, 1500):
+            assert spectral_gap(chain_of([(i, (i + 1) % n, 1.0) for i in range(n)])) == 1.0
 
     def test_large_class(self):
         """Every state to 1 of 40 others evenly or to the hub: the rank-one part decides."""
@@ -102,6 +106,19 @@ class TestMixingTime:
     def test_periodic_chains_mix_on_average(self):
         assert mixing_time(chain_of(OneBall(0, 0)), 0.01) == 0
         assert mixing_time(walk(5), 0.01) < 60
+
+    @pytest.mark.parametrize("terms", [1, 2, 3, 6, 13])
+    def test_the_average_of_powers(self, terms):
+        M = walk(5, 0.25).matrix.toarray()
+        brute = sum(np.linalg.matrix_power(M, k) for k in range(terms)) / terms
+        assert _average_of_powers(M, terms) == pytest.approx(brute, rel=1e-14)
+
+    def test_a_common_period_beyond_64_bits(self):
+        """Rings of 16 prime lengths: once round them all takes some 3e19 steps."""
+        primes = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53]
+        arcs = [((p, k), (p, (k + 1) % p), 1.0) for p in primes for k in range(p)]
+        arcs += [("s", (p, 0), 1 / 16) for p in primes]
+        assert mixing_time(chain_of(arcs), 1e-9) == 0
 
     def test_a_race_mixes_when_it_is_over(self):
         assert mixing_time(chain_of(Race(3, 3, Rack(0.5))), 1e-6) == 5

@@ -9,6 +9,7 @@ do no harm here.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -81,6 +82,8 @@ def spectral_gap(chain: Chain) -> float:
 def _moduli(block: csc_array, period: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return moduli of a class but for the `period` on the unit circle, and their errors."""
     n = block.shape[0]
+    if period == n:
+        return np.empty(0), np.empty(0)
     line = _line(block)
     if line is not None:
         values = _ends_of_symmetric(*line)
@@ -185,9 +188,10 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
             f"the chain has {n} states; a mixing time needs {DENSE} or fewer, ask for spectral_gap"
         )
     structure = chain.structure
-    period = int(np.lcm.reduce(structure.periods[structure.closed]))
+    # Python's, for the least common multiple of a dozen periods may be beyond 64 bits.
+    period = math.lcm(*structure.periods[structure.closed].tolist())
     M = evened(chain).toarray()
-    average = _geometric_sum(M, period) / period
+    average = _average_of_powers(M, period)
     limit = limit_matrix(chain).toarray()
 
     def far(power: NDArray[np.float64]) -> bool:
@@ -212,12 +216,15 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
     return steps + 1
 
 
-def _geometric_sum(M: NDArray[np.float64], terms: int) -> NDArray[np.float64]:
-    """Return I + M + ... + M^(terms - 1) by doubling."""
-    if terms == 1:
-        return np.eye(len(M))
-    half = _geometric_sum(M, terms // 2)
-    total = half + np.linalg.matrix_power(M, terms // 2) @ half
-    if terms % 2:
-        total += np.linalg.matrix_power(M, terms - 1)
-    return np.asarray(total)
+def _average_of_powers(M: NDArray[np.float64], terms: int) -> NDArray[np.float64]:
+    """Return (I + M + ... + M^(terms - 1)) / terms by doubling, its columns summing to 1."""
+    eye = np.eye(len(M))
+    average, power, count = eye, M, 1
+    for bit in f"{terms:b}"[1:]:
+        average, power, count = (average + power @ average) / 2, power @ power, 2 * count
+        if bit == "1":
+            average = (eye + count * (M @ average)) / (count + 1)
+            power, count = M @ power, count + 1
+        # Roundings of the sums would double with each square.
+        power, average = power / power.sum(axis=0), average / average.sum(axis=0)
+    return average
