@@ -29,7 +29,7 @@ def test_a_start_is_a_state_a_mapping_an_array_or_the_chains_own(chain):
         ("d", "state 'd' is not in the chain; its states begin 'a', 'b', 'c'"),
         (["a"], "not in the chain"),
         ({"a": 0.5}, "sums to 0.5"),
-        ({"a": 1.5, "b": -0.5}, "probabilities that sum to 1"),
+        ({"a": 1.5, "b": -0.5}, "start density of state 'b' is negative"),
         ({"x": 1.0}, "'x' is not in the chain"),
         (np.array([1.0, 0.0]), "give (3,)"),
         (np.array([np.nan, 0.0, 1.0]), "sums to nan"),

@@ -94,8 +94,8 @@ class Chain:
         Raises
         ------
         ChainError
-            if a state is unknown, no start is known, or the density does not sum to 1
-            within 1e-9.
+            if a state is unknown, no start is known, or the density has a negative entry
+            or does not sum to 1 within 1e-9.
         """
         if start is None:
             start = self._own_start()
@@ -110,7 +110,12 @@ class Chain:
         else:
             v[self._search(start)] = 1.0
             return v
-        if not (np.all(v >= 0) and abs(v.sum() - 1.0) <= 1e-9):
+        if (v < 0.0).any():
+            state = self.states[int(np.flatnonzero(v < 0.0)[0])]
+            raise ChainError(
+                f"the start density of state {state!r} is negative; give probabilities"
+            )
+        if not abs(v.sum() - 1.0) <= 1e-9:
             raise ChainError(
                 f"the start density sums to {v.sum():.12g}; give probabilities that sum to 1"
             )
