@@ -65,6 +65,9 @@ class Sensitivity:
         shape (n, n), sparse, with the arcs of the chain: entry [i, j] is the derivative of
         `value` to the probability of the arc from j to i, its mass taken from the other
         arcs of j in proportion; 0 where j has no other arc.
+    residual
+        None where the solves behind these are right to about machine precision; else the
+        largest of theirs, as in `Limit`.
     """
 
     chain: Chain

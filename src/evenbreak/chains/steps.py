@@ -116,6 +116,9 @@ class Passage:
     def quantile(self, q: float) -> int | None:
         """Return the first t with P(reached within t steps) >= q; None where there is none.
 
+        What is within 1e-12 of q counts as q, so that ties do not hang on a rounding: of a
+        time without a largest value the quantile at 1 is that at 1 - 1e-12.
+
         Raises
         ------
         InputError
