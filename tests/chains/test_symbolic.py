@@ -155,3 +155,13 @@ def test_without_sympy(monkeypatch):
     monkeypatch.setattr(builtins, "__import__", refuse)
     with pytest.raises(ModuleNotFoundError, match=r"evenbreak\[symbolic\]"):
         symbolic_limit([("S", "S", 1)])
+
+
+@pytest.mark.parametrize(
+    "arc",
+    [("A", "B"), "A", 5, (["A"], "B", 1), ("A", "B", None), ("A", "B", "1 +"), ("A", "B", [1])],
+)
+def test_what_is_no_arc_is_refused(arc):
+    for k, arcs in ((1, [arc]), (2, [("S", "A", 1), arc])):
+        with pytest.raises(ChainError, match=rf"arc {k} is .*; give \(source, target, prob"):
+            symbolic_limit(arcs)

@@ -53,8 +53,8 @@ def symbolic_limit(
     Raises
     ------
     ChainError
-        if there are no arcs, an arc is listed twice, the probabilities of a state do not
-        sum to 1, or the start is unknown.
+        if there are no arcs, an arc is no (source, target, probability) or is listed
+        twice, the probabilities of a state do not sum to 1, or the start is unknown.
     ModuleNotFoundError
         if sympy is not installed.
 
@@ -97,11 +97,13 @@ def _diagram(source: Any, start: Hashable | None) -> tuple[nx.DiGraph[Any], Hash
     sympy = _sympy()
     arcs, own_start = _arcs(source)
     graph: nx.DiGraph[Any] = nx.DiGraph()
-    for origin, target, chance in arcs:
+    for k, arc in enumerate(arcs, 1):
+        origin, target, chance = _checked(k, arc)
         if graph.has_edge(origin, target):
             raise ChainError(f"the arc {origin!r} -> {target!r} is listed twice; list it once")
-        graph.add_edge(origin, target, probability=sympy.sympify(chance))
-    start = own_start if start is None else start
+        graph.add_edge(origin, target, probability=chance)
+    if start is None:
+        start = next(iter(graph)) if own_start is None else own_start
     if start not in graph:
         raise ChainError(f"the start {start!r} is not in the diagram; give one of its states")
     for state in graph:
@@ -120,7 +122,24 @@ def _diagram(source: Any, start: Hashable | None) -> tuple[nx.DiGraph[Any], Hash
     return graph, start
 
 
-def _arcs(source: Any) -> tuple[list[Arc], Hashable]:
+def _checked(k: int, arc: Any) -> Arc:
+    """Return the k-th arc with its probability as a sympy expression."""
+    sympy = _sympy()
+    try:
+        origin, target, chance = arc
+        hash(origin), hash(target)
+        formula = sympy.sympify(chance)
+    except (TypeError, ValueError):
+        formula = None
+    if not isinstance(formula, sympy.Expr):
+        raise ChainError(
+            f"arc {k} is {arc!r}; give (source, target, probability), states that can be "
+            "hashed and a number or a formula"
+        )
+    return origin, target, formula
+
+
+def _arcs(source: Any) -> tuple[list[Arc], Hashable | None]:
     arcs: list[Arc]
     if isinstance(source, nx.DiGraph):
         arcs = list(source.edges(data="probability"))
@@ -138,7 +157,7 @@ def _arcs(source: Any) -> tuple[list[Arc], Hashable]:
         arcs, starts = list(source), []
     if not arcs:
         raise ChainError("there are no arcs; give at least one (source, target, probability)")
-    return arcs, starts[0] if starts else arcs[0][0]
+    return arcs, starts[0] if starts else None
 
 
 def _is_closed(graph: nx.DiGraph[Any], members: set[Any]) -> bool:
