@@ -115,7 +115,7 @@ class Limit(Mapping[Hashable, float]):
         return dict(zip(self.states, self.probability.tolist(), strict=True))
 
 
-def stationary_laws(chain: Chain, classes: NDArray[np.bool_] | None = None) -> NDArray[np.float64]:
+def stationary_laws(chain: Chain) -> NDArray[np.float64]:
     """Return the stationary law of each closed class, side by side; shape (n,).
 
     Each entry is conditional on being in the closed class of its state: the entries of a
@@ -125,8 +125,6 @@ def stationary_laws(chain: Chain, classes: NDArray[np.bool_] | None = None) -> N
     ----------
     chain
         the chain.
-    classes
-        shape (classes,): which classes are wanted; the others have 0. All if not given.
 
     Raises
     ------
@@ -138,7 +136,7 @@ def stationary_laws(chain: Chain, classes: NDArray[np.bool_] | None = None) -> N
     >>> stationary_laws(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 1.0), (0, 1, 1.0)]))
     array([0.66666667, 0.33333333, 0.        ])
     """
-    return _stationary(chain, chain.structure.closed if classes is None else classes)[0]
+    return _stationary(chain, chain.structure.closed)[0]
 
 
 def _stationary(
