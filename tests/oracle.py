@@ -11,6 +11,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 from math import gcd, isfinite, lcm
 
+import numpy as np
+from scipy.sparse import csc_array, diags_array
+
 from evenbreak.chains import Chain
 
 SMALLEST_NORMAL = Fraction(2) ** -1022
@@ -26,6 +29,12 @@ def columns_of(chain: Chain) -> Columns:
         if i != j and p > 0:
             columns[j][i] = Fraction(p)
     return columns
+
+
+def with_loops(matrix: csc_array) -> csc_array:
+    """Return a matrix of arcs with the self-loops that are what the arcs leave over."""
+    rest = 1.0 - np.asarray(matrix.sum(axis=0)).reshape(-1)
+    return csc_array(matrix + diags_array(np.maximum(rest, 0.0)))
 
 
 def reach(columns: Columns, state: int) -> set[int]:

@@ -67,5 +67,22 @@ def test_arcs_leave_out_loops_and_stored_zeros_and_sum_duplicates():
     assert (arcs.sources.tolist(), arcs.targets.tolist()) == ([0], [1])
     assert arcs.chances.tolist() == [0.5]
     assert arcs.outflow.tolist() == [0.5, 0, 0]
-    raw = csc_array((np.array([0.25, 0.25, 0.5]), np.array([1, 1, 0]), np.array([0, 3, 3])), (2, 2))
+    raw = csc_array(
+        (np.array([0.25, 0.25, 0.5, 1.0]), np.array([1, 1, 0, 1]), np.array([0, 3, 4])), (2, 2)
+    )
     assert Chain(range(2), raw).arcs.chances.tolist() == [0.5]
+
+
+@pytest.mark.parametrize(
+    ("matrix", "message"),
+    [
+        ([[0.5, 0.0], [0.1, 1.0]], r"arcs out of state 'a' sum to 0\.6"),
+        ([[0.0, 0.0], [0.0, 1.0]], "arcs out of state 'a' sum to 0;"),
+        ([[1.5, 0.0], [-0.5, 1.0]], "outside 0 to 1"),
+        ([[np.nan, 0.0], [1.0, 1.0]], "outside 0 to 1"),
+        ([[1.0]], "shape"),
+    ],
+)
+def test_a_matrix_that_is_no_chain_is_refused(matrix, message):
+    with pytest.raises(ChainError, match=message):
+        Chain(["a", "b"], csc_array(np.array(matrix)))

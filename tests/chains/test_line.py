@@ -25,6 +25,8 @@ def random_line(draw):
             matrix[j, j] = 1.0
         elif draw.random() < 0.5:
             matrix[j, j] = 1.0 - matrix[:, j].sum()
+        else:
+            matrix[:, j] /= matrix[:, j].sum()
     return Chain(range(n), csc_array(matrix), 0)
 
 

@@ -8,7 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import oracle
-from evenbreak.chains import absorption, chain_of, limit_matrix, stochastic_limit
+from evenbreak.chains import (
+    absorption,
+    chain_of,
+    expected_visits,
+    limit_matrix,
+    stochastic_limit,
+)
 from evenbreak.games import Ahead, Drill, OneBall, Rack, Series, alternate_breaks, winner_breaks
 
 
@@ -138,3 +144,20 @@ def test_the_limit_is_the_average_of_one_period_of_powers(
         average += power / period
         power = chain.matrix @ power
     assert np.allclose(average, matrix, atol=1e-9)
+
+
+def test_a_class_reached_with_a_chance_below_all_floats_is_reached():
+    chain = chain_of(
+        [
+            ("s", "t", 1e-200),
+            ("s", "end", 1 - 1e-200),
+            ("t", "u", 1e-200),
+            ("t", "end", 1 - 1e-200),
+            ("u", "w", 1.0),
+            ("w", "u", 1.0),
+        ]
+    )
+    limit = stochastic_limit(chain, {"s": 1.0})
+    assert (limit["end"], limit["u"], limit.period) == (1.0, 0.0, 2)
+    assert stochastic_limit(chain, "s").period == 2
+    assert expected_visits(chain, "s")[chain.index("u")] == np.inf

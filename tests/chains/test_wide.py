@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
+import oracle
 from evenbreak.chains import Chain
 from evenbreak.chains.wide import wide_law, wide_solve
 
@@ -13,7 +14,7 @@ def test_a_law_beyond_all_floats_sums_to_one():
     n = 8
     matrix = np.roll(np.eye(n), 1, axis=0) * 1e-100
     matrix[0, 1:] += 0.5
-    law = wide_law(Chain(range(n), csc_array(matrix)).arcs)
+    law = wide_law(Chain(range(n), oracle.with_loops(csc_array(matrix))).arcs)
     assert law[0] == pytest.approx(1.0, rel=1e-15)
     assert law[1:4] == pytest.approx([2e-100, 4e-200, 8e-300], rel=1e-14)
     assert not law[5:].any()

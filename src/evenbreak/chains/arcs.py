@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csgraph, csr_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     Places: TypeAlias = NDArray[np.integer[Any]]
     """Positions of states, or numbers of classes."""
 
-__all__ = ["Arcs", "arcs_of"]
+__all__ = ["Arcs", "arcs_of", "reachable"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +95,24 @@ def arcs_of(matrix: csc_array) -> Arcs:
     if not keep.all():
         sources, targets, chances = sources[keep], targets[keep], chances[keep]
     return _arcs(size, sources, targets, chances)
+
+
+def reachable(
+    size: int, sources: Places, targets: Places, seeds: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Return which of the states arcs join to the `seeds`, themselves included; shape (size,).
+
+    >>> reachable(3, np.array([0, 1]), np.array([1, 0]), np.array([True, False, False]))
+    array([ True,  True, False])
+    """
+    # One search, from a root above all seeds.
+    roots = np.flatnonzero(seeds)
+    near = np.concatenate((sources, np.full(len(roots), size)))
+    far = np.concatenate((targets, roots))
+    graph = csr_array((np.ones(len(near)), (near, far)), shape=(size + 1, size + 1))
+    reached = np.zeros(size + 1, dtype=bool)
+    reached[csgraph.breadth_first_order(graph, size, return_predecessors=False)] = True
+    return reached[:-1]
 
 
 def _arcs(

@@ -23,14 +23,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from scipy.sparse import csc_array
 
-__all__ = ["Chain"]
+__all__ = ["Chain", "check_sums"]
+
+_SUM_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
 class Chain:
     """States and the transition matrix between them.
 
-    Build it with `chain_of`, which checks what it is given.
+    Build it with `chain_of`, from a game, a graph or arcs.
 
     Parameters
     ----------
@@ -41,11 +43,29 @@ class Chain:
         has the self-loop 1 (it absorbs).
     start
         the state in which the game begins, or None.
+
+    Raises
+    ------
+    ChainError
+        if the matrix is not column-stochastic: it names the state, its sum and the remedy.
     """
 
     states: Sequence[Hashable]
     matrix: csc_array
     start: Hashable | None = None
+
+    def __post_init__(self) -> None:
+        if isinstance(self.states, str):
+            object.__setattr__(self, "states", tuple(self.states))
+        n, matrix = len(self.states), self.matrix
+        if n == 0 or matrix.shape != (n, n):
+            raise ChainError(
+                f"the matrix has shape {matrix.shape} for {n} states; give one row and one "
+                "column for each state, and at least one state"
+            )
+        if not ((matrix.data >= 0.0) & (matrix.data <= 1.0)).all():
+            raise ChainError("the matrix has entries outside 0 to 1; give probabilities")
+        check_sums(self.states, matrix.T @ np.ones(n))
 
     def __len__(self) -> int:
         return len(self.states)
@@ -134,7 +154,7 @@ class Chain:
 
     def _search(self, state: Hashable) -> int:
         """Return the position of one state; cheaper than a dictionary of them all."""
-        if "position" in self.__dict__ or isinstance(self.states, str):
+        if "position" in self.__dict__:
             return self.index(state)
         try:
             return self.states.index(state)
@@ -157,3 +177,15 @@ class Chain:
     def _unknown(self, state: Hashable) -> ChainError:
         known = ", ".join(repr(known) for known in self.states[:5])
         return ChainError(f"state {state!r} is not in the chain; its states begin {known}")
+
+
+def check_sums(states: Sequence[Hashable], sums: NDArray[np.float64]) -> None:
+    """Raise a ChainError unless the arcs out of each state sum to 1 within 1e-9."""
+    wrong = np.flatnonzero(~(np.abs(sums - 1.0) <= _SUM_TOLERANCE))
+    if wrong.size:
+        first = wrong[0]
+        more = f" (and so for {wrong.size - 1} more)" if wrong.size > 1 else ""
+        raise ChainError(
+            f"the arcs out of state {states[first]!r} sum to {sums[first]:.12g}{more}; "
+            "give probabilities that sum to 1 within 1e-9, a self-loop included"
+        )

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
-from evenbreak.chains.chain import Chain
+from evenbreak.chains.chain import Chain, check_sums
 from evenbreak.errors import ChainError
 from evenbreak.game import ArcArrays, Game, arcs_of
 
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = ["chain_from_arrays", "chain_of"]
-
-_SUM_TOLERANCE = 1e-9
 
 
 def chain_of(
@@ -108,6 +106,7 @@ def chain_from_arrays(
     array([[0.25, 0.  ],
            [0.75, 1.  ]])
     """
+    states = tuple(states) if isinstance(states, str) else states
     j, i, p = _checked_arrays(states, sources, targets, probabilities)
     if start is not None and start not in states:
         raise ChainError(f"start is {start!r}, which is not a state of the chain")
@@ -120,7 +119,7 @@ def chain_from_arrays(
             raise _listed_twice(states, key)
         j, i, p = j[table.data], i[table.data], p[table.data]
     listed = np.bincount(j, minlength=n)
-    _check_sums(states, listed > 0, np.bincount(j, weights=p, minlength=n))
+    check_sums(states, np.where(listed > 0, np.bincount(j, weights=p, minlength=n), 1.0))
     loops = (i == j) & (p > 0.0)
     if loops.any():
         others = np.bincount(j, weights=np.where(loops, 0.0, p), minlength=n)
@@ -149,7 +148,7 @@ def _checked_arrays(
     if n == 0:
         raise ChainError("there are no states; give at least one")
     # States that are made when asked for are distinct by the way they are made.
-    if isinstance(states, (list, tuple, str)) and len(set(states)) < n:
+    if isinstance(states, (list, tuple)) and len(set(states)) < n:
         raise ChainError("a state is listed twice among the states; give each of them once")
     if not j.ndim == 1 or not j.shape == i.shape == p.shape:
         raise ChainError(
@@ -175,17 +174,6 @@ def _positions(given: ArrayLike) -> NDArray[np.int64]:
             f"sources and targets have type {positions.dtype}; give positions in `states`"
         )
     return positions.astype(np.int64, copy=False)
-
-
-def _check_sums(states: Sequence[Hashable], listed: NDArray[np.bool_], sums: NDArray[Any]) -> None:
-    wrong = np.flatnonzero(listed & (np.abs(sums - 1.0) > _SUM_TOLERANCE))
-    if wrong.size:
-        first = wrong[0]
-        more = f" (and so for {wrong.size - 1} more)" if wrong.size > 1 else ""
-        raise ChainError(
-            f"the arcs out of state {states[first]!r} sum to {sums[first]:.12g}{more}; "
-            "give probabilities that sum to 1 within 1e-9, a self-loop included"
-        )
 
 
 def _column_stochastic(

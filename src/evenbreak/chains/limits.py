@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
+from evenbreak.chains.arcs import reachable
 from evenbreak.chains.factorisation import Factorisation, path_order
 from evenbreak.chains.line import line_law
 from evenbreak.chains.transient import TransientPart
@@ -239,6 +240,15 @@ def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     return np.bincount(structure.label, arrivals, structure.count).astype(np.float64, copy=False)
 
 
+def _reached(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which closed classes can be reached, be it with a chance below all floats."""
+    arcs, structure = chain.arcs, chain.structure
+    seen = reachable(len(chain), arcs.sources, arcs.targets, v > 0.0)
+    reached = np.zeros(structure.count, dtype=bool)
+    reached[structure.label[seen]] = True
+    return reached & structure.closed
+
+
 def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     """Return the expected number of steps begun in each state, given the start; shape (n,).
 
@@ -259,8 +269,7 @@ def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     states = chain.transient.states
     visits = np.zeros(len(chain))
     visits[states] = chain.transient.visits(v[states])
-    reached = absorption(chain, v) > 0.0
-    visits[reached[chain.structure.label]] = np.inf
+    visits[_reached(chain, v)[chain.structure.label]] = np.inf
     return visits
 
 
@@ -312,7 +321,8 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     mass = absorption(chain, start)
     law, residual = _stationary(chain, mass > 0.0)
     law *= mass[structure.label]
-    period = math.lcm(*structure.periods[mass > 0.0].tolist())
+    reached = _reached(chain, chain.density(start))
+    period = math.lcm(*structure.periods[reached].tolist())
     return Limit(chain, law, period, _largest(_residual(chain), residual))
 
 

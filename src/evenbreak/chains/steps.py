@@ -18,8 +18,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from scipy.sparse import csgraph, csr_array
+from scipy.sparse import csr_array
 
+from evenbreak.chains.arcs import reachable
 from evenbreak.chains.powers import evened
 from evenbreak.chains.transient import TransientPart
 from evenbreak.checks import one_of, probability, whole
@@ -226,8 +227,8 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
     n, arcs = len(chain), chain.arcs
     before = ~ends[arcs.sources]
     source, target, chance = arcs.sources[before], arcs.targets[before], arcs.chances[before]
-    met = _reachable(n, source, target, v > 0.0) & ~ends
-    hopeful = met & _reachable(n, target, source, ends)
+    met = reachable(n, source, target, v > 0.0) & ~ends
+    hopeful = met & reachable(n, target, source, ends)
     lost = met & ~hopeful
     states = np.flatnonzero(hopeful)
     part = TransientPart(arcs, states)
@@ -295,17 +296,3 @@ def _spread(n: int, states: NDArray[np.intp], values: NDArray[np.float64]) -> ND
     spread = np.zeros(n)
     spread[states] = values
     return spread
-
-
-def _reachable(
-    n: int, sources: NDArray[Any], targets: NDArray[Any], seeds: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
-    """Return which of n states can be reached from the seeds, themselves included."""
-    roots = np.flatnonzero(seeds)
-    rows = np.concatenate([sources, np.full(len(roots), n)])
-    columns = np.concatenate([targets, roots])
-    graph = csr_array((np.ones(len(rows)), (rows, columns)), shape=(n + 1, n + 1))
-    found = csgraph.breadth_first_order(graph, n, return_predecessors=False)
-    reached = np.zeros(n + 1, dtype=bool)
-    reached[found] = True
-    return reached[:n]

@@ -17,8 +17,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csgraph, csr_array
 
+from evenbreak.chains.arcs import reachable
 from evenbreak.chains.elimination import Elimination
 from evenbreak.chains.factorisation import Factorisation
 from evenbreak.chains.wide import rows_of, wide_solve
@@ -154,17 +154,10 @@ class TransientPart:
 
     def _reached(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.bool_]:
         """Return the states that the graph joins to those where b is not 0."""
-        m = len(self.states)
         near, far = self._arcs.sources, self._arcs.targets
         if transposed:
             near, far = far, near
-        roots = np.flatnonzero(b)
-        near = np.concatenate((near, np.full(len(roots), m)))
-        far = np.concatenate((far, roots))
-        graph = csr_array((np.ones(len(near)), (near, far)), shape=(m + 1, m + 1))
-        reached = np.zeros(m + 1, dtype=bool)
-        reached[csgraph.breadth_first_order(graph, m, return_predecessors=False)] = True
-        return reached[:-1]
+        return reachable(len(self.states), near, far, b != 0.0)
 
 
 class _InPlainPython:
