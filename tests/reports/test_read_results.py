@@ -178,3 +178,18 @@ def test_any_cells_are_read_or_refused_in_their_lines(tmp_path_factory, rows):
     else:
         in_rows = len(file.results) == sum(any(row) for row in rows)
     assert in_rows
+
+
+def test_rows_that_stand_twice_are_told_with_the_line_of_the_first(tmp_path):
+    path = tmp_path / "r.csv"
+    row = "2024-01-01,Ann,Bo,5,3\n"
+    other = "2024-01-02,Ann,Bo,5,3\n"
+    path.write_text("date,player_a,player_b,score_a,score_b\n" + row + other + row + row)
+    (warning,) = [text for text in read_results(path).warnings if "earlier" in text]
+    assert ":4: 2 rows are the same as an earlier one" in warning
+
+
+def test_rows_without_dates_may_be_alike(tmp_path):
+    path = tmp_path / "r.csv"
+    path.write_text("player_a,player_b,score_a,score_b\nAnn,Bo,5,3\nAnn,Bo,5,3\n")
+    assert read_results(path).warnings == ()

@@ -5,7 +5,7 @@ sum over C of pi_C a_C(s), where a_C = (I - M_TT)^-T (M_CT^T 1) is the probabili
 ending in C and pi_C solves M_CC pi_C = pi_C, sum pi_C = 1. Both are linear systems over
 the field of rational functions of the symbols.
 
-Needs sympy (`pip install 'evenbreak[symbolic]'`).
+Needs sympy, which the extra `symbolic` brings along.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def _sympy() -> Any:
         import sympy
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
-            "formulas need sympy; install it with: pip install 'evenbreak[symbolic]'"
+            "formulas need sympy; install it with: pip install sympy"
         ) from error
     return sympy
 

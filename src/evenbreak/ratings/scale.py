@@ -138,6 +138,9 @@ class Scale:
         return np.where(middle, near, tails)
 
 
+# Beyond these, ratings printed with two decimals say nothing, or run into dozens of digits.
+_FEWEST_POINTS, _MOST_POINTS = 0.01, 1e6
+
 SCALES: dict[str, Scale] = {
     "npl": Scale("npl", 30.0, 80.0),
     "fargo": Scale("fargo", 100.0, 500.0),
@@ -173,10 +176,11 @@ def scale_of(text_or_number: Any) -> Scale:
         points = float(name)
     except ValueError:
         points = math.nan
-    if not (math.isfinite(points) and points > 0):
+    if not _FEWEST_POINTS <= points <= _MOST_POINTS:
         listed = ", ".join(SCALES)
         raise InputError(
-            f"scale is {text_or_number!r}; give {listed}, or the points that double the odds"
+            f"scale is {text_or_number!r}; give {listed}, or the points that double the odds, "
+            f"from {_FEWEST_POINTS:g} to {_MOST_POINTS:,.0f}"
         )
     return Scale(f"{points:g} points", points)
 

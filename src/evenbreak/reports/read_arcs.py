@@ -78,7 +78,7 @@ def read_arcs(path: str | Path) -> ArcsFile:
 
 
 def _outside(p: float) -> str:
-    return f"probability {p:g} is not from 0 to 1; write one that is"
+    return f"probability {float(p)!r} is not from 0 to 1; write one that is"
 
 
 def _refuse_empty(table: Table, column: str) -> None:

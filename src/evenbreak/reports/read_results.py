@@ -10,7 +10,7 @@ import numpy as np
 
 from evenbreak.ratings.results import Results
 from evenbreak.reports.problems import quoted
-from evenbreak.reports.read_table import read_table
+from evenbreak.reports.read_table import Table, read_table
 from evenbreak.reports.results_columns import OPTIONAL, REQUIRED, ResultsColumns
 from evenbreak.reports.similar_names import similar_names
 
@@ -75,9 +75,29 @@ def read_results(path: str | Path) -> ResultsFile:
     results = columns.checked()
     table.problems.raise_any()
     groups = tuple(similar_names(results.players, _met(results)))
-    warnings = [*table.warnings, *columns.merged_names(), *_warnings(groups, table.source)]
+    warnings = [
+        *table.warnings,
+        *_repeated_rows(table),
+        *columns.merged_names(),
+        *_warnings(groups, table.source),
+    ]
     sha256 = hashlib.sha256(table.content).hexdigest()
     return ResultsFile(results, table.source, tuple(warnings), groups, sha256)
+
+
+def _repeated_rows(table: Table) -> list[str]:
+    """Return a warning if whole rows stand in the file again: they may be pasted twice."""
+    if "date" not in table:
+        return []  # the same two players often play to the same score on another day
+    again = np.flatnonzero(table.repeated())
+    if not len(again):
+        return []
+    first, count = int(table.lines[again[0]]), len(again)
+    rows = "1 row is" if count == 1 else f"{count:,} rows are"
+    return [
+        f"{table.source}:{first}: {rows} the same as an earlier one, date included; "
+        "all are counted, so delete what was entered twice"
+    ]
 
 
 def _met(results: Results) -> list[tuple[str, str]]:

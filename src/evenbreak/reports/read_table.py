@@ -85,6 +85,13 @@ class Table:
             return self.columns[name]
         return Texts([""], np.zeros(len(self), dtype=np.int64))
 
+    def repeated(self) -> NDArray[np.bool_]:
+        """Return which rows are the same as an earlier one in every column that was read."""
+        import pandas as pd
+
+        codes = {name: texts.codes for name, texts in self.columns.items()}
+        return pd.DataFrame(codes).duplicated().to_numpy()
+
     def cells(self, name: str) -> list[str]:
         """Return the text of a column, row by row; '' throughout where the file lacks it."""
         distinct, codes = self.texts(name)
