@@ -6,7 +6,9 @@ from evenbreak.reports.problems import Problems, quoted
 
 
 def test_nothing_found_raises_nothing():
-    Problems("r.csv").raise_any()
+    problems = Problems("r.csv")
+    problems.raise_any()
+    assert len(problems) == 0
 
 
 def test_problems_come_in_the_order_of_lines_and_within_a_line_as_found():

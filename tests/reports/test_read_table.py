@@ -1,4 +1,3 @@
-import contextlib
 import csv
 import io
 
@@ -157,8 +156,14 @@ def test_many_rows_keep_their_order_and_lines(read):
 def test_any_bytes_give_a_table_or_a_data_error(tmp_path_factory, content):
     path = tmp_path_factory.getbasetemp() / "any.csv"
     path.write_bytes(content)
-    with contextlib.suppress(DataError):
-        read_table(path, REQUIRED, OPTIONAL).problems.raise_any()
+    try:
+        table = read_table(path, REQUIRED, OPTIONAL)
+        table.problems.raise_any()
+        whole, told = set(REQUIRED) <= set(table.columns), ()
+    except DataError as error:
+        whole, told = False, error.problems
+    assert whole != (len(told) > 0)
+    assert all(line.startswith(str(path)) for line in told)
 
 
 CELLS = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=8).filter(

@@ -33,6 +33,7 @@ __all__ = [
     "Limit",
     "absorption",
     "expected_visits",
+    "largest",
     "limit_matrix",
     "stationary_laws",
     "stochastic_limit",
@@ -323,14 +324,15 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     law *= mass[structure.label]
     reached = _reached(chain, chain.density(start))
     period = math.lcm(*structure.periods[reached].tolist())
-    return Limit(chain, law, period, _largest(_residual(chain), residual))
+    return Limit(chain, law, period, largest(_residual(chain), residual))
 
 
 def _residual(chain: Chain) -> float | None:
     return chain.transient.residual if "transient" in chain.__dict__ else None
 
 
-def _largest(*residuals: float | None) -> float | None:
+def largest(*residuals: float | None) -> float | None:
+    """Return the largest of the residuals that there are, or None."""
     return max((r for r in residuals if r is not None), default=None)
 
 

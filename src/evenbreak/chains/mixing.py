@@ -17,6 +17,7 @@ import scipy.linalg
 import scipy.sparse.csgraph
 import scipy.sparse.linalg
 
+from evenbreak.chains.eigenpairs import DENSE, EPS
 from evenbreak.chains.limits import limit_matrix
 from evenbreak.chains.powers import evened
 from evenbreak.errors import AccuracyError, ChainError, InputError
@@ -28,10 +29,6 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 __all__ = ["mixing_time", "spectral_gap"]
-
-DENSE = 1000
-"""Up to this many states a class goes to LAPACK."""
-EPS = float(np.finfo(float).eps)
 
 
 def spectral_gap(chain: Chain) -> float:

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.chains.limits import stationary_laws, stochastic_limit
+from evenbreak.chains.limits import largest, stationary_laws, stochastic_limit
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
@@ -185,7 +185,7 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
         chain=chain,
         value=float(limit.probability @ c),
         matrix=_in_proportion(chain, slopes),
-        residual=max(filter(None, (limit.residual, part.residual, missed)), default=None),
+        residual=largest(limit.residual, part.residual, missed),
         _slopes=slopes,
     )
 
