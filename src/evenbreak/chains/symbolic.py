@@ -68,7 +68,7 @@ def symbolic_limit(
     >>> p1, p2 = sympy.symbols("p1 p2")
     >>> one_ball = [("S1", "W", p1), ("S1", "S2", 1 - p1), ("S2", "L", p2), ("S2", "S1", 1 - p2)]
     >>> symbolic_limit(one_ball)["W"]
-    -p1/(p1*p2 - p1 - p2)
+    p1/(-p1*p2 + p1 + p2)
     """
     graph, start = _diagram(source, start)
     limit: dict[Hashable, Any] = dict.fromkeys(graph, _sympy().Integer(0))
@@ -79,8 +79,16 @@ def symbolic_limit(
     ends = [[state for state in graph if state in members] for members in closed]
     for members, chance in zip(ends, _absorbed(graph, transient, ends, start), strict=True):
         for state, share in zip(members, _stationary(graph, members), strict=True):
-            limit[state] = _sympy().factor(share * chance)
+            limit[state] = _readable(share * chance)
     return limit
+
+
+def _readable(formula: Any) -> Any:
+    """Return the formula factored, its denominator positive where the symbols are 1/2."""
+    sympy = _sympy()
+    above, below = sympy.fraction(sympy.factor(formula))
+    middle = below.subs(dict.fromkeys(below.free_symbols, sympy.Rational(1, 2)))
+    return -above / -below if middle.is_negative else above / below
 
 
 def _sympy() -> Any:
