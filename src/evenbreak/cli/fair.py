@@ -14,7 +14,7 @@ from evenbreak.cli.options import (
     wants_json,
     which_races,
 )
-from evenbreak.cli.output import aligned, chance_text, csv_text, print_json, to_terminal
+from evenbreak.cli.output import chance_text, print_json, print_table, to_terminal
 from evenbreak.cli.players import Players, player_options
 
 __all__ = ["fair"]
@@ -86,13 +86,13 @@ def fair(
     ]
     if as_json:
         print_json([dict(zip(COLUMNS, row, strict=True)) for row in rows])
-    elif to_terminal():
-        cells = [
-            [str(m), str(n), chance_text(p), f"{mean:.2f}", str(long)]
-            for m, n, p, mean, long in rows
-        ]
-        click.echo(f"{players.description}\n\n{aligned([HEADINGS, *cells], left=0)}", nl=False)
-    else:
-        if players.scale is not None:
-            click.echo(players.description, err=True)
-        click.echo(csv_text(COLUMNS, rows), nl=False)
+        return
+    if players.scale is not None and not to_terminal():
+        click.echo(players.description, err=True)
+    print_table(COLUMNS, rows, headings=HEADINGS, heading=players.description, text=_text)
+
+
+def _text(column: str, value: float) -> str:
+    if column == "p_win_a":
+        return chance_text(value)
+    return f"{value:.2f}" if isinstance(value, float) else str(value)

@@ -7,14 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.options import LONGEST, PlainCommand, pair, refuse, score, wants_json
-from evenbreak.cli.output import (
-    SCHEMA_VERSION,
-    aligned,
-    chance_text,
-    csv_text,
-    print_json,
-    to_terminal,
-)
+from evenbreak.cli.output import chance_text, print_quantities
 from evenbreak.cli.players import Players, player_options
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
@@ -108,21 +101,14 @@ def odds(
         "p_shutout_a": result.p_shutout_1,
         "p_shutout_b": result.p_shutout_2,
     }
-    scale = players.scale.name if players.scale else None
-    if as_json:
-        print_json({**answer, "scale": scale, "schema_version": SCHEMA_VERSION})
-    elif to_terminal():
-        click.echo(players.description)
-        click.echo(match_text(match))
-        shown = [key for key in WORDS if answer[key] is not None]
-        if not result.p_never_ends:
-            shown.remove("p_never_ends")
-        click.echo(
-            "\n" + aligned([[WORDS[key], _text(key, answer[key])] for key in shown]), nl=False
-        )
-    else:
-        rows_out = [*answer.items(), ("scale", scale)]
-        click.echo(csv_text(["quantity", "value"], rows_out), nl=False)
+    shown = {key: name for key, name in WORDS.items() if key != "p_never_ends" or answer[key]}
+    print_quantities(
+        {**answer, "scale": players.scale.name if players.scale else None},
+        words=shown,
+        heading=f"{players.description}\n{match_text(match)}",
+        text=_text,
+        as_json=as_json,
+    )
 
 
 def match_of(

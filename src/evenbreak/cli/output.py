@@ -6,12 +6,21 @@ All of it without pandas and rich, which would take longer to load than the answ
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import click
 
-__all__ = ["SCHEMA_VERSION", "aligned", "chance_text", "csv_text", "print_json", "to_terminal"]
+__all__ = [
+    "SCHEMA_VERSION",
+    "aligned",
+    "chance_text",
+    "csv_text",
+    "print_json",
+    "print_quantities",
+    "print_table",
+    "to_terminal",
+]
 
 SCHEMA_VERSION = 1
 
@@ -27,6 +36,75 @@ def print_json(value: Any) -> None:
 
     text = json.dumps(value, ensure_ascii=False, allow_nan=False, indent=2)
     click.echo(f"{text}\n".encode(), nl=False)
+
+
+def print_quantities(
+    answer: Mapping[str, Any],
+    *,
+    words: Mapping[str, str],
+    heading: str,
+    text: Callable[[str, Any], str],
+    as_json: bool,
+) -> None:
+    """Print one answer of several quantities, as JSON, CSV or text.
+
+    Parameters
+    ----------
+    answer
+        each quantity by its name: a number, a plain word, or None where there is none.
+    words
+        what to call those that a terminal shows, in their order; None is not shown.
+    heading
+        the lines above them, on a terminal.
+    text
+        a quantity, by its name and value, as a terminal shows it.
+    as_json
+        whether JSON was asked for.
+    """
+    if as_json:
+        print_json({**answer, "schema_version": SCHEMA_VERSION})
+    elif to_terminal():
+        shown = [[words[key], text(key, answer[key])] for key in words if answer[key] is not None]
+        click.echo(f"{heading}\n\n{aligned(shown)}", nl=False)
+    else:
+        click.echo(csv_text(["quantity", "value"], answer.items()), nl=False)
+
+
+def print_table(
+    columns: Sequence[str],
+    rows: Sequence[Sequence[Any]],
+    *,
+    headings: Sequence[str],
+    heading: str,
+    text: Callable[[str, Any], str],
+    left: int = 0,
+) -> None:
+    """Print a table, as CSV into a pipe and as text on a terminal; JSON is the command's own.
+
+    Parameters
+    ----------
+    columns, rows
+        the names and values of the CSV.
+    headings
+        what a terminal calls the columns.
+    heading
+        the lines above the table, on a terminal.
+    text
+        a value, by its column's name, as a terminal shows it; None is shown empty.
+    left
+        how many columns are flush left.
+    """
+    if not to_terminal():
+        click.echo(csv_text(columns, rows), nl=False)
+        return
+    cells = [
+        [
+            "" if value is None else text(name, value)
+            for name, value in zip(columns, row, strict=True)
+        ]
+        for row in rows
+    ]
+    click.echo(f"{heading}\n\n{aligned([headings, *cells], left=left)}", nl=False)
 
 
 def csv_text(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:

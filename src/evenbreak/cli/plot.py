@@ -1,0 +1,40 @@
+"""The option --plot FILE, and writing the picture."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["plot_option", "write_plot"]
+
+KINDS = (".png", ".svg")
+
+
+def _picture(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    if value is not None and PurePath(value).suffix.lower() not in KINDS:
+        raise click.BadParameter(
+            f"{value!r}; name a file that ends in .png or .svg", ctx=ctx, param=param
+        )
+    return value
+
+
+plot_option = click.option(
+    "--plot", metavar="FILE", callback=_picture, help="Write a picture to FILE, .png or .svg."
+)
+"""The option --plot of every command that draws."""
+
+
+def write_plot(figure: Figure, path: str) -> None:
+    """Write a figure to the file that --plot named, and say so on stderr."""
+    from evenbreak.reports.draw import image_bytes
+    from evenbreak.reports.write_files import write_files
+
+    place = PurePath(path)
+    image = image_bytes(figure, "svg" if place.suffix.lower() == ".svg" else "png")
+    write_files(str(place.parent), {place.name: image})
+    click.echo(f"Wrote {path}", err=True)

@@ -1,0 +1,2 @@
+from evenbreak.stats.counts import CountLaw as CountLaw
+from evenbreak.stats.exact import exact as exact

@@ -1,0 +1,104 @@
+"""Laws on the whole numbers 0, 1, 2, ...: games won, balls run, points scored."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from fractions import Fraction
+from typing import Any
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.stats.exact import exact
+
+__all__ = ["CountLaw"]
+
+_NEAR = 1e-9
+"""Floats that come nearer to a quantile than this leave the decision to fractions."""
+
+
+class CountLaw(ABC):
+    """A probability law on 0, 1, 2, ...; its median and quantiles are decided exactly.
+
+    A law says its `mean`, `sd` and `mode`, its `probability` of a count and the two sums
+    `cumulative` and `at_least`, each accurate where it is small. The rest follows.
+    """
+
+    @property
+    @abstractmethod
+    def mean(self) -> float:
+        """The mean."""
+
+    @property
+    @abstractmethod
+    def sd(self) -> float:
+        """The standard deviation."""
+
+    @property
+    @abstractmethod
+    def mode(self) -> int:
+        """The most probable count, the smallest of them where several are."""
+
+    @abstractmethod
+    def probability(self, n: Any) -> Any:
+        """Return P(count = n); a float for a number, an array for an array."""
+
+    @abstractmethod
+    def cumulative(self, n: Any) -> Any:
+        """Return P(count <= n); a float for a number, an array for an array."""
+
+    @abstractmethod
+    def at_least(self, n: Any) -> Any:
+        """Return P(count >= n); a float for a number, an array for an array."""
+
+    @abstractmethod
+    def exact_cumulative(self, n: int) -> Fraction:
+        """Return P(count <= n) without rounding."""
+
+    def between(self, low: Any, high: Any) -> Any:
+        """Return P(low <= count <= high), both ends included; 0 where high is below low."""
+        import numpy as np
+
+        # Two sums of the smaller tail are subtracted, so that a rare span keeps its digits.
+        low, high = np.asarray(low), np.asarray(high)
+        below = self.cumulative(high) - self.cumulative(low - 1)
+        above = self.at_least(low) - self.at_least(high + 1)
+        inside = np.where(self.cumulative(high) < 0.5, below, above)
+        return np.where(high < low, 0.0, np.maximum(inside, 0.0))[()]
+
+    def quantile(self, q: Any) -> int:
+        """Return the smallest count n with P(count <= n) >= q, decided without rounding.
+
+        Raises
+        ------
+        InputError
+            if q is not a number from 0 to 1, or is 1 and no count is the largest.
+        """
+        wanted = exact(q, "q")
+        most = self.most
+        if wanted == 1:
+            if most is None:
+                raise InputError("q is 1, and no count is the largest; give a q below 1")
+            return most
+        low, high = -1, 1
+        while not self._reaches(high, wanted):
+            low, high = high, 2 * high
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (low, middle) if self._reaches(middle, wanted) else (middle, high)
+        return high
+
+    @property
+    def most(self) -> int | None:
+        """The largest count that can occur; None where there is none."""
+        return None
+
+    @property
+    def median(self) -> int:
+        """The smallest count n with P(count <= n) >= 1/2."""
+        return self.quantile(Fraction(1, 2))
+
+    def _reaches(self, n: int, wanted: Fraction) -> bool:
+        distance = float(self.cumulative(n)) - float(wanted)
+        if abs(distance) > _NEAR:
+            return distance > 0.0
+        return self.exact_cumulative(whole(n, "n")) >= wanted
