@@ -5,4 +5,24 @@ This room joins games, chains and statistics; it reads no files.
 
 from evenbreak._lazy import attach
 
-__getattr__, __dir__, __all__ = attach(__name__, {})
+__getattr__, __dir__, __all__ = attach(
+    __name__,
+    {
+        "breaks": [
+            "BreakFormatValue",
+            "compare_break_formats",
+            "first_break_worth",
+            "long_run_sd",
+            "long_run_share",
+        ],
+        "shots": [
+            "RankedShot",
+            "Shot",
+            "break_even_p2",
+            "compare_shots",
+            "critical_p2",
+            "look_ahead_win",
+            "one_ball_win",
+        ],
+    },
+)

@@ -1,1 +1,12 @@
-
+from evenbreak.practice.breaks import BreakFormatValue as BreakFormatValue
+from evenbreak.practice.breaks import compare_break_formats as compare_break_formats
+from evenbreak.practice.breaks import first_break_worth as first_break_worth
+from evenbreak.practice.breaks import long_run_sd as long_run_sd
+from evenbreak.practice.breaks import long_run_share as long_run_share
+from evenbreak.practice.shots import RankedShot as RankedShot
+from evenbreak.practice.shots import Shot as Shot
+from evenbreak.practice.shots import break_even_p2 as break_even_p2
+from evenbreak.practice.shots import compare_shots as compare_shots
+from evenbreak.practice.shots import critical_p2 as critical_p2
+from evenbreak.practice.shots import look_ahead_win as look_ahead_win
+from evenbreak.practice.shots import one_ball_win as one_ball_win

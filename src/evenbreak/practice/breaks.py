@@ -1,0 +1,310 @@
+"""What a break format is worth in the long run: racks won, stakes, and how much it swings.
+
+Two states, who breaks. Let r_i be P(player 1 wins | i breaks), so r_1 = p1 and r_2 = 1 - p2,
+and let a and b be the chances that the break passes from 1 to 2 and back. Then
+
+    player 1 breaks the fraction  b / (a + b)  of the racks,
+    wins the fraction             W = (b r_1 + a r_2) / (a + b),
+    and the start is forgotten as the powers of the second eigenvalue, 1 - a - b.
+
+In winner breaks a = 1 - p1 and b = 1 - p2; in loser breaks a = p1 and b = p2; in alternate
+breaks a = b = 1 (P5.24). Sums and products of positive numbers only: no digits are lost.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.checks import one_of
+from evenbreak.errors import InputError
+from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat, checked_format
+from evenbreak.games.rack import Rack
+from evenbreak.matches.parameters import plain
+
+__all__ = [
+    "BreakFormatValue",
+    "compare_break_formats",
+    "first_break_worth",
+    "long_run_sd",
+    "long_run_share",
+]
+
+
+def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
+    """Return the fraction of racks that player 1 wins in the long run; elementwise.
+
+    Parameters
+    ----------
+    p1
+        P(player 1 wins the rack | player 1 breaks it).
+    p2
+        P(player 2 wins the rack | player 2 breaks it). The two are broadcast together.
+    breaks
+        who breaks next: any break format (see `evenbreak.games.breaks`).
+    first_breaker
+        who breaks the first rack, 1 or 2. It matters only where the break never passes on:
+        with p1 = p2 = 1 and winner breaks, for example, the first breaker wins every rack.
+
+    Returns
+    -------
+    float or numpy.ndarray
+        a float for plain numbers.
+
+    Raises
+    ------
+    InputError
+        if p1 or p2 is not a probability, their shapes do not broadcast, `breaks` is no break
+        format, or `first_breaker` is not 1 or 2.
+
+    Notes
+    -----
+    Source: P5.24, Table 5.4, Fig. 5.6. Where the breaks alternate, or the chances are 0 or 1,
+    the chain may be periodic: the fraction is an average over the period.
+
+    >>> from evenbreak.games import alternate_breaks, loser_breaks, winner_breaks
+    >>> round(long_run_share(0.9, 0.5, winner_breaks), 4)
+    0.8333
+    >>> long_run_share([0.5, 0.1], [0.1, 0.5], loser_breaks).round(4)
+    array([0.8333, 0.1667])
+    """
+    one_of(first_breaker, "first_breaker", (1, 2))
+    racks = _Racks.of(p1, p2, breaks)
+    return plain(racks.won(first_breaker), racks.shape)
+
+
+def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
+    """Return the standard deviation of the racks that player 1 wins, per root of racks.
+
+    Over a large number N of racks he wins N W of them on average (see `long_run_share`), with
+    a standard deviation of sqrt(N) times this. Winner breaks stretch it where the break is an
+    advantage, for wins then come in strings; loser breaks shorten it.
+
+    Parameters
+    ----------
+    p1, p2, breaks, first_breaker
+        as in `long_run_share`.
+
+    Raises
+    ------
+    InputError
+        as `long_run_share`.
+
+    Notes
+    -----
+    The central limit theorem of Markov chains: with h the relative values of the two states,
+    h_1 - h_2 = (r_1 - r_2) / (a + b), the variance per rack is that of the martingale of
+    (win - W + change of h). Kemeny & Snell, Finite Markov Chains, section 4.6.
+
+    >>> from evenbreak.games import loser_breaks, winner_breaks
+    >>> long_run_sd(0.75, 0.75, winner_breaks), long_run_sd(0.5, 0.5, winner_breaks)
+    (0.8660254037844386, 0.5)
+    >>> round(long_run_sd(0.75, 0.75, loser_breaks), 4)
+    0.2887
+    """
+    one_of(first_breaker, "first_breaker", (1, 2))
+    racks = _Racks.of(p1, p2, breaks)
+    worth = np.nan_to_num(racks.first_break, posinf=0.0, neginf=0.0)
+    variance = sum(
+        broken * win * lose * (1.0 + pull * worth) ** 2
+        for broken, win, lose, pull in zip(
+            racks.broken(first_breaker),
+            (racks.win_1, racks.win_2),
+            (racks.lose_1, racks.lose_2),
+            racks.pulls,
+            strict=True,
+        )
+    )
+    return plain(np.sqrt(variance), racks.shape)
+
+
+def first_break_worth(p1: Any, p2: Any, breaks: BreakFormat) -> Any:
+    """Return how many racks more player 1 wins in all if he, not player 2, breaks first.
+
+    A long session keeps this head start, it does not grow: unless the break never passes on,
+    then it is infinite. In alternate breaks it is the mean of the racks after an even and an
+    odd number.
+
+    Parameters
+    ----------
+    p1, p2, breaks
+        as in `long_run_share`.
+
+    Raises
+    ------
+    InputError
+        as `long_run_share`.
+
+    Notes
+    -----
+    (r_1 - r_2) / (a + b), the sum of (r_1 - r_2) (1 - a - b)^n over the racks n = 0, 1, ...
+
+    >>> from evenbreak.games import winner_breaks
+    >>> first_break_worth(0.75, 0.75, winner_breaks)
+    1.0
+    """
+    racks = _Racks.of(p1, p2, breaks)
+    return plain(racks.first_break, racks.shape)
+
+
+class BreakFormatValue(NamedTuple):
+    """What a break format is worth to player 1 in the long run, given the stakes of a rack."""
+
+    name: str
+    """The format's name in `BREAK_FORMATS`."""
+    share: float
+    """The fraction of racks that player 1 wins."""
+    points: float
+    """The points that he wins per rack on average."""
+    sd_points: float
+    """The standard deviation of his points over N racks, divided by sqrt(N), N large."""
+    fair_ratio: float
+    """The points for a rack won, per point for a rack lost, that make it even: (1 - W) / W."""
+    memory: float
+    """The second eigenvalue: what is left of the first break's effect after each rack."""
+    first_break: float
+    """How many racks more he wins in all if he breaks first, see `first_break_worth`."""
+
+
+def compare_break_formats(
+    rack: Rack, *, win: float = 1, lose: float = 1, first_breaker: int = 1
+) -> tuple[BreakFormatValue, ...]:
+    """Return what each usual break format is worth, the best for player 1 first.
+
+    Parameters
+    ----------
+    rack
+        the chances with the break, as plain numbers.
+    win, lose
+        the points that player 1 wins with each rack he wins, and loses with each he loses.
+    first_breaker
+        who breaks the first rack; where one player always breaks, that player does.
+
+    Returns
+    -------
+    tuple of BreakFormatValue
+        one for each of `BREAK_FORMATS`; formats that are worth the same (to 1e-12) keep the
+        order they have there.
+
+    Raises
+    ------
+    InputError
+        if the rack holds arrays or is none, or a stake is not a number from 0 on.
+
+    Notes
+    -----
+    Source: P5.25, R = W Z_w - (1 - W) Z_l. The text multiplies rounded chances and prints
+    0.49 and -0.08 for winner and loser breaks here; exactly they are 1/2 and -1/14.
+
+    >>> for value in compare_break_formats(Rack(0.9, 0.5), win=1, lose=2):
+    ...     print(f"{value.name:10} {value.share:.4f} {value.points:7.4f}")
+    player 1   0.9000  0.7000
+    winner     0.8333  0.5000
+    alternate  0.7000  0.1000
+    loser      0.6429 -0.0714
+    player 2   0.5000 -0.5000
+    """
+    if not isinstance(rack, Rack):
+        raise InputError(f"rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)")
+    rack.of_numbers()
+    one_of(first_breaker, "first_breaker", (1, 2))
+    prize, price = _stake(win, "win"), _stake(lose, "lose")
+    values = [
+        _value(name, rack, prize, price, {"player 1": 1, "player 2": 2}.get(name, first_breaker))
+        for name in BREAK_FORMATS
+    ]
+    return tuple(sorted(values, key=lambda value: -round(value.share, 12)))
+
+
+def _value(name: str, rack: Rack, win: float, lose: float, first: int) -> BreakFormatValue:
+    p1, p2 = rack.p1, rack.chance(2, breaker=2)
+    breaks = BREAK_FORMATS[name]
+    racks = _Racks.of(p1, p2, breaks)
+    share, loss = float(racks.won(first)), float(racks.lost(first))
+    return BreakFormatValue(
+        name=name,
+        share=share,
+        points=share * win - loss * lose,
+        sd_points=(win + lose) * long_run_sd(p1, p2, breaks, first_breaker=first),
+        fair_ratio=loss / share if share > 0.0 else math.inf,
+        memory=float(1.0 - (racks.pass_1 + racks.pass_2)),
+        first_break=float(racks.first_break),
+    )
+
+
+def _stake(points: Any, name: str) -> float:
+    try:
+        number = float(points)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not 0.0 <= number < math.inf:
+        raise InputError(f"{name} is {points!r}; give the points of a rack, 0 or more")
+    return number
+
+
+class _Racks(NamedTuple):
+    """The chances of a rack by who breaks it, as arrays of one shape."""
+
+    win_1: Any  # player 1 wins, given that 1 breaks
+    lose_1: Any
+    win_2: Any  # player 1 wins, given that 2 breaks
+    lose_2: Any
+    pass_1: Any  # the break passes from 1 to 2
+    pass_2: Any
+    pulls: tuple[int, int]  # by breaker: player 1's next breaks after a win less those after a loss
+
+    @classmethod
+    def of(cls, p1: Any, p2: Any, breaks: BreakFormat) -> _Racks:
+        rack = Rack(p1, p2)  # checks them
+        checked_format(breaks)
+        if p2 is None:
+            raise InputError("p2 is missing; give P(player 2 wins a rack that player 2 breaks)")
+        one, two = np.broadcast_arrays(rack.p1, rack.p2)
+        lose_1, win_2 = 1.0 - one, 1.0 - two
+        return cls(
+            one,
+            lose_1,
+            win_2,
+            two,
+            one * (breaks(1, 1) == 2) + lose_1 * (breaks(1, 2) == 2),
+            win_2 * (breaks(2, 1) == 1) + two * (breaks(2, 2) == 1),
+            (
+                (breaks(1, 1) == 1) - (breaks(1, 2) == 1),
+                (breaks(2, 1) == 1) - (breaks(2, 2) == 1),
+            ),
+        )
+
+    def broken(self, first_breaker: int) -> tuple[Any, Any]:
+        """Return the fractions of the racks that player 1 and player 2 break."""
+        changes = self.pass_1 + self.pass_2
+        stays = changes == 0.0
+        per_change = np.where(stays, 1.0, changes)
+        return (
+            np.where(stays, float(first_breaker == 1), self.pass_2 / per_change),
+            np.where(stays, float(first_breaker == 2), self.pass_1 / per_change),
+        )
+
+    def won(self, first_breaker: int) -> Any:
+        """Return the fraction of the racks that player 1 wins."""
+        first, second = self.broken(first_breaker)
+        return first * self.win_1 + second * self.win_2
+
+    def lost(self, first_breaker: int) -> Any:
+        """Return the fraction that player 1 loses, right also when it is tiny."""
+        first, second = self.broken(first_breaker)
+        return first * self.lose_1 + second * self.lose_2
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of p1 and p2 together."""
+        return np.shape(self.win_1)
+
+    @property
+    def first_break(self) -> Any:
+        """(r_1 - r_2) / (a + b): infinite where the break never passes on."""
+        edge, changes = self.win_1 - self.win_2, self.pass_1 + self.pass_2
+        stays = changes == 0.0
+        endless = np.where(edge == 0.0, 0.0, np.copysign(math.inf, edge))
+        return np.where(stays, endless, edge / np.where(stays, 1.0, changes))
