@@ -1,8 +1,16 @@
-"""Handicaps: what makes an uneven game even.
+"""Handicaps: what makes an uneven game even, and what it does to ratings in the long run.
 
-`fair` finds the races that come nearest to a chance that was asked for.
+`fair` finds the races that come nearest to a chance that was asked for, `chart` looks races
+up by rating difference, `ladder` says how far ratings wander that each match moves by a point.
 """
 
 from evenbreak._lazy import attach
 
-__getattr__, __dir__, __all__ = attach(__name__, {"fair": ["FairRace", "fair_races"]})
+__getattr__, __dir__, __all__ = attach(
+    __name__,
+    {
+        "chart": ["CHARTS", "Chart", "ChartRow", "chart"],
+        "fair": ["FairRace", "fair_races"],
+        "ladder": ["LadderLaw", "RatingLadder", "autocorrelated_ladder", "natural_ladder"],
+    },
+)

@@ -1,0 +1,197 @@
+"""Charts: how far apart two ratings are says which race is played."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+
+__all__ = ["CHARTS", "Chart", "ChartRow", "chart"]
+
+CHARTS = ("fargo_r6_hot", "npl_8", "npl_10", "npl_12", "npl_20")
+"""The charts that come with the package, by name."""
+
+
+class ChartRow(NamedTuple):
+    """One line of a chart: the race for a span of rating differences.
+
+    Parameters
+    ----------
+    difference_from, difference_to
+        the first and the last difference in rating points, stronger minus weaker;
+        `difference_to` is None in the last row, which has no end.
+    stronger_needs, weaker_needs
+        the games that each of the two needs.
+    """
+
+    difference_from: int
+    difference_to: int | None
+    stronger_needs: int
+    weaker_needs: int
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A chart of races by rating difference, as a league prints it.
+
+    Parameters
+    ----------
+    name
+        what the chart is called.
+    rows
+        the rows in the order of the differences, each a `ChartRow` or its four values.
+        The first begins at 0 and is an even race, since of two equal ratings neither is
+        the stronger; each next one begins where the last one ended; the last has no end.
+
+    Raises
+    ------
+    InputError
+        if a row breaks these rules, or the stronger player needs fewer games in it than
+        the weaker; it says which.
+
+    Notes
+    -----
+    Source: Table 5.6.
+
+    >>> short = Chart("short", [(0, 9, 3, 3), (10, 19, 4, 3), (20, None, 4, 2)])
+    >>> short.race(12), short.race(-12), short.race(500)
+    ((4, 3), (3, 4), (4, 2))
+    """
+
+    name: str
+    rows: Sequence[ChartRow]
+
+    def __post_init__(self) -> None:
+        rows = [_checked(row, f"row {i}") for i, row in enumerate(_rows(self.rows), 1)]
+        if not rows:
+            raise InputError("rows is empty; give a row for each span of differences")
+        _check_ends(rows)
+        object.__setattr__(self, "rows", tuple(rows))
+
+    def race(self, difference: Any) -> tuple[int, int]:
+        """Return (m, n): the games that player 1 and player 2 need.
+
+        Parameters
+        ----------
+        difference
+            rating of player 1 minus rating of player 2, in whole points; where it is
+            negative, player 2 is the stronger and the race is turned round.
+
+        Raises
+        ------
+        InputError
+            if the difference is not a whole number. A chart has no row between 5 and 6,
+            and rounding two ratings first is not the same as rounding their difference,
+            so that is left to whoever knows which the league does.
+
+        >>> chart("npl_10").race(5), chart("npl_10").race(6), chart("npl_10").race(-6)
+        ((5, 5), (5, 4), (4, 5))
+        >>> chart("npl_10").race(5.5)
+        Traceback (most recent call last):
+        ...
+        evenbreak.errors.InputError: difference is 5.5; give whole points (round the two
+        ratings before you subtract)
+        """
+        points = _whole_points(difference)
+        row = next(row for row in reversed(self.rows) if row.difference_from <= abs(points))
+        needs = row.stronger_needs, row.weaker_needs
+        return needs if points >= 0 else needs[::-1]
+
+
+def _rows(rows: Iterable[Iterable[Any]]) -> list[ChartRow]:
+    try:
+        return [ChartRow(*row) for row in rows]
+    except TypeError:
+        raise InputError(
+            f"rows is {rows!r}; give rows of four: difference_from, difference_to, "
+            "stronger_needs, weaker_needs"
+        ) from None
+
+
+def _checked(row: ChartRow, name: str) -> ChartRow:
+    """Return a row with its numbers as ints, or refuse it."""
+    first = whole(row.difference_from, f"difference_from of {name}")
+    last = row.difference_to
+    if last is not None:
+        last = whole(last, f"difference_to of {name}", at_least=first)
+    weaker = whole(row.weaker_needs, f"weaker_needs of {name}", at_least=1)
+    stronger = whole(row.stronger_needs, f"stronger_needs of {name}", at_least=weaker)
+    return ChartRow(first, last, stronger, weaker)
+
+
+def _check_ends(rows: Sequence[ChartRow]) -> None:
+    """Refuse rows that do not cover each difference from 0 on once."""
+    first, last = rows[0], rows[-1]
+    if first.difference_from != 0:
+        raise InputError(f"row 1 begins at {first.difference_from}; begin the chart at 0")
+    if first.stronger_needs != first.weaker_needs:
+        raise InputError(
+            f"row 1 is a race {first.stronger_needs}:{first.weaker_needs}; give an even race "
+            "for the difference 0, where neither player is the stronger"
+        )
+    for number, (row, after) in enumerate(pairwise(rows), 1):
+        if row.difference_to is None:
+            raise InputError(f"row {number} has no end but is not the last; give its last point")
+        if after.difference_from != row.difference_to + 1:
+            raise InputError(
+                f"row {number + 1} begins at {after.difference_from} and row {number} ends at "
+                f"{row.difference_to}; let it begin at {row.difference_to + 1}"
+            )
+    if last.difference_to is not None:
+        raise InputError(
+            f"the last row ends at {last.difference_to}; give None there, for all differences above"
+        )
+
+
+def _whole_points(difference: Any) -> int:
+    try:
+        points = int(difference)
+        right = bool(points == difference) and not isinstance(difference, str | bytes)
+    except (TypeError, ValueError, OverflowError):
+        right = False
+    if not right:
+        raise InputError(
+            f"difference is {difference!r}; give whole points (round the two ratings before "
+            "you subtract)"
+        )
+    return points
+
+
+def chart(name: str) -> Chart:
+    """Return a chart that comes with the package, by its name in `CHARTS`.
+
+    `npl_8`, `npl_10`, `npl_12` and `npl_20` are the National Pool League's charts, short
+    to very long; `fargo_r6_hot` is a Fargo chart of races to 6 and more.
+
+    Raises
+    ------
+    InputError
+        if no chart has this name.
+
+    Notes
+    -----
+    Source: Table 5.6 (National Pool League).
+
+    >>> chart("npl_8").rows[1]
+    ChartRow(difference_from=7, difference_to=18, stronger_needs=4, weaker_needs=3)
+    """
+    if name not in CHARTS:
+        raise InputError(f"chart is {name!r}; give one of {', '.join(CHARTS)}")
+    return _read(name)
+
+
+@cache
+def _read(name: str) -> Chart:
+    text = files("evenbreak.handicaps").joinpath("charts", f"{name}.csv").read_text("utf-8")
+    rows = [
+        ChartRow(int(start), int(end) if end else None, int(stronger), int(weaker))
+        for start, end, stronger, weaker in list(csv.reader(text.splitlines()))[1:]
+    ]
+    return Chart(name, rows)
