@@ -8,7 +8,15 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
-        "counts": ["CountLaw"],
+        "binomial": [
+            "GamesWon",
+            "ScoreRange",
+            "coverage_within",
+            "critical_value",
+            "score_probability",
+        ],
+        "counts": ["CountLaw", "whole_counts"],
         "exact": ["exact"],
+        "summary": ["Distribution", "Moments", "merge"],
     },
 )

@@ -1,2 +1,11 @@
+from evenbreak.stats.binomial import GamesWon as GamesWon
+from evenbreak.stats.binomial import ScoreRange as ScoreRange
+from evenbreak.stats.binomial import coverage_within as coverage_within
+from evenbreak.stats.binomial import critical_value as critical_value
+from evenbreak.stats.binomial import score_probability as score_probability
 from evenbreak.stats.counts import CountLaw as CountLaw
+from evenbreak.stats.counts import whole_counts as whole_counts
 from evenbreak.stats.exact import exact as exact
+from evenbreak.stats.summary import Distribution as Distribution
+from evenbreak.stats.summary import Moments as Moments
+from evenbreak.stats.summary import merge as merge

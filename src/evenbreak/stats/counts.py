@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.stats.exact import exact
 
-__all__ = ["CountLaw"]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["CountLaw", "whole_counts"]
 
 _NEAR = 1e-9
 """Floats that come nearer to a quantile than this leave the decision to fractions."""
@@ -55,7 +58,10 @@ class CountLaw(ABC):
         """Return P(count <= n) without rounding."""
 
     def between(self, low: Any, high: Any) -> Any:
-        """Return P(low <= count <= high), both ends included; 0 where high is below low."""
+        """Return P(low <= count <= high), both ends included; 0 where high is below low.
+
+        A float for numbers, an array for arrays.
+        """
         import numpy as np
 
         # Two sums of the smaller tail are subtracted, so that a rare span keeps its digits.
@@ -63,7 +69,8 @@ class CountLaw(ABC):
         below = self.cumulative(high) - self.cumulative(low - 1)
         above = self.at_least(low) - self.at_least(high + 1)
         inside = np.where(self.cumulative(high) < 0.5, below, above)
-        return np.where(high < low, 0.0, np.maximum(inside, 0.0))[()]
+        found = np.where(high < low, 0.0, np.maximum(inside, 0.0))
+        return found if found.ndim else float(found)
 
     def quantile(self, q: Any) -> int:
         """Return the smallest count n with P(count <= n) >= q, decided without rounding.
@@ -102,3 +109,39 @@ class CountLaw(ABC):
         if abs(distance) > _NEAR:
             return distance > 0.0
         return self.exact_cumulative(whole(n, "n")) >= wanted
+
+
+def whole_counts(n: Any, name: str = "n", *, at_least: int | None = None) -> NDArray[Any]:
+    """Return counts as a float array of whole numbers, of no dimension for a number.
+
+    Parameters
+    ----------
+    n
+        a whole number or an array of them.
+    name
+        what the value is called where the caller wrote it.
+    at_least
+        the smallest that is allowed; None: negative ones ask for a probability of 0 or 1.
+
+    Raises
+    ------
+    InputError
+        if one is not a whole number, or is too small.
+
+    >>> whole_counts([1, 2.0])
+    array([1., 2.])
+    """
+    import numpy as np
+
+    try:
+        counts = np.asarray(n)
+        if counts.dtype.kind in "SUc":
+            raise ValueError
+        counts = counts.astype(float)
+        right = bool(np.all(counts == np.floor(counts)) and np.all(np.isfinite(counts)))
+    except (TypeError, ValueError):
+        right = False
+    if not right or (at_least is not None and bool(np.any(counts < at_least))):
+        smallest = "" if at_least is None else f", {at_least} or more"
+        raise InputError(f"{name} is {n!r}; give whole numbers{smallest}")
+    return counts

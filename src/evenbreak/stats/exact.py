@@ -36,6 +36,8 @@ def exact(p: Any, name: str = "p") -> Fraction:
     (Fraction(9, 10), Fraction(24, 25), Fraction(1, 1))
     """
     try:
+        if isinstance(p, str | bytes) or getattr(p, "ndim", False):
+            raise TypeError
         number = p if isinstance(p, Fraction) else float(p)
     except (TypeError, ValueError):
         number = math.nan

@@ -1,0 +1,321 @@
+"""Scores after a number of games: the binomial law, exactly and by its normal approximation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from evenbreak.checks import number_probability, probability, whole
+from evenbreak.errors import InputError
+from evenbreak.stats.counts import CountLaw, whole_counts
+from evenbreak.stats.exact import exact
+
+__all__ = ["GamesWon", "ScoreRange", "coverage_within", "critical_value", "score_probability"]
+
+_NEAR = 1e-9
+"""Floats that come nearer to a coverage than this leave the decision to fractions."""
+
+
+def score_probability(p: Any, m: Any, n: Any) -> Any:
+    """Return P(p; m, n), the chance that the score stands m:n after m + n games.
+
+    Parameters
+    ----------
+    p
+        P(player 1 wins a game), the same for every game, whoever won the others.
+    m, n
+        games won by player 1 and by player 2: whole numbers, or arrays of them. p, m and n
+        are broadcast together.
+
+    Returns
+    -------
+    float, fractions.Fraction or numpy.ndarray
+        a Fraction for a Fraction p and plain m and n, a float for other plain numbers,
+        otherwise an array.
+
+    Raises
+    ------
+    InputError
+        if p is not a probability, or m or n not a whole number, 0 or more.
+
+    Notes
+    -----
+    All m + n games are played; no race ends before. Source: problems P5.4 and P5.6.
+
+    >>> score_probability(Fraction(2, 3), 3, 1)
+    Fraction(32, 81)
+    >>> import numpy as np
+    >>> games = np.arange(3)
+    >>> score_probability(0.5, games[:, None], games)[2]
+    array([0.25 , 0.375, 0.375])
+    """
+    if isinstance(p, Fraction) and not hasattr(m, "__len__") and not hasattr(n, "__len__"):
+        p, m, n = exact(p), whole(m, "m"), whole(n, "n")
+        return math.comb(m + n, m) * p**m * (1 - p) ** n
+    from scipy.stats import binom
+
+    m, n = (whole_counts(many, name, at_least=0) for many, name in ((m, "m"), (n, "n")))
+    found = binom.pmf(m, m + n, probability(p, "p"))
+    return found if found.ndim else float(found)
+
+
+class ScoreRange(NamedTuple):
+    """The scores from `low` to `high`, both included, and P(low <= score <= high)."""
+
+    low: int
+    high: int
+    probability: float
+
+
+@dataclass(frozen=True)
+class GamesWon(CountLaw):
+    """How many of a number of games player 1 wins.
+
+    Parameters
+    ----------
+    games
+        how many games are played, whatever the score.
+    p
+        P(player 1 wins a game), the same for every game, whoever won the others. A float
+        means the decimal that it prints as; a `fractions.Fraction` is taken as it is.
+
+    Raises
+    ------
+    InputError
+        if games is not a whole number, 0 or more, or p is not a number from 0 to 1.
+
+    Notes
+    -----
+    Source: problems P5.9 and P5.10.
+
+    >>> law = GamesWon(120, 0.52)
+    >>> law.mean, round(law.sd, 2), law.mode, law.median
+    (62.4, 5.47, 62, 62)
+    >>> round(law.between(59, 66), 3)
+    0.535
+    """
+
+    games: int
+    p: float | Fraction
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "games", whole(self.games, "games"))
+        exact(self.p)
+        object.__setattr__(self, "p", self.p if isinstance(self.p, Fraction) else float(self.p))
+
+    @property
+    def mean(self) -> float:
+        """The mean, games times p."""
+        return float(self.games * exact(self.p))
+
+    @property
+    def sd(self) -> float:
+        """The standard deviation, the square root of games times p times 1 - p."""
+        p = exact(self.p)
+        return math.sqrt(self.games * p * (1 - p))
+
+    @property
+    def mode(self) -> int:
+        """The most probable score, the smaller where two are: games p - (1 - p) rounded up."""
+        return self.modes[0]
+
+    @property
+    def modes(self) -> tuple[int, ...]:
+        """The most probable scores: one, or two neighbours of equal probability."""
+        p = exact(self.p)
+        # P(score = n) >= P(score = n - 1) as long as n <= (games + 1) p.
+        peak = (self.games + 1) * p
+        last = min(math.floor(peak), self.games)
+        return (last - 1, last) if last == peak and 0 < p < 1 else (last,)
+
+    @property
+    def most(self) -> int:
+        """The largest score that can occur: all games, or none if p is 0."""
+        return self.games if self.p > 0 else 0
+
+    def probability(self, n: Any) -> Any:
+        """Return P(score = n); a float for a number, an array for an array."""
+        from scipy.stats import binom
+
+        found = binom.pmf(whole_counts(n), self.games, float(self.p))
+        return found if found.ndim else float(found)
+
+    def cumulative(self, n: Any) -> Any:
+        """Return P(score <= n); a float for a number, an array for an array."""
+        # The games that are not won are a score too, won with 1 - p each.
+        return self._upper_tail(self.games - whole_counts(n), 1 - exact(self.p))
+
+    def at_least(self, n: Any) -> Any:
+        """Return P(score >= n); a float for a number, an array for an array."""
+        return self._upper_tail(whole_counts(n), exact(self.p))
+
+    def _upper_tail(self, n: Any, p: Fraction) -> Any:
+        import numpy as np
+        from scipy.special import betainc
+
+        inside = np.clip(n, 1, max(self.games, 1))
+        tail = betainc(inside, self.games - inside + 1.0, float(p))
+        found = np.where(n <= 0, 1.0, np.where(n > self.games, 0.0, tail))
+        return found if found.ndim else float(found)
+
+    def exact_cumulative(self, n: int) -> Fraction:
+        """Return P(score <= n) without rounding."""
+        if n >= self.games:
+            return Fraction(1)
+        p = exact(self.p)
+        if 2 * n + 1 == self.games and p == Fraction(1, 2):
+            return p  # at any number of games, where the sum would be long
+        if 2 * n >= self.games:
+            return 1 - _lower_sum(self.games, self.games - n - 1, 1 - p)
+        return _lower_sum(self.games, n, p)
+
+    def normal_range(self, coverage: float) -> ScoreRange:
+        """Return the scores that a normal law of the same mean and sd expects.
+
+        The ends mean -+ z sd, with z = `critical_value(coverage)`, are rounded to the
+        nearest score and kept within 0 and `games`.
+
+        Parameters
+        ----------
+        coverage
+            P(the score is in the range), as the normal law has it: from 0 to below 1.
+
+        Returns
+        -------
+        ScoreRange
+            its `probability` is the exact one of the range.
+
+        Notes
+        -----
+        Source: problem P5.10. Its range for 95 % starts at 51, from 51.67.
+
+        >>> GamesWon(120, 0.52).normal_range(0.5)
+        ScoreRange(low=59, high=66, probability=0.5349508426730065)
+        """
+        reach = critical_value(number_probability(coverage, "coverage")) * self.sd
+        low, high = (
+            min(max(math.floor(end + 0.5), 0), self.games)
+            for end in (self.mean - reach, self.mean + reach)
+        )
+        return ScoreRange(low, high, float(self.between(low, high)))
+
+    def exact_range(self, coverage: float) -> ScoreRange:
+        """Return the shortest range of scores that has at least a probability.
+
+        Where several ranges are equally short it is the most probable of them, and the
+        lowest of those. Whether a range has the probability is decided without rounding.
+
+        Parameters
+        ----------
+        coverage
+            the probability wanted, from 0 to 1.
+
+        >>> GamesWon(120, 0.52).exact_range(0.5)[:2]
+        (59, 66)
+        """
+        wanted = exact(coverage, "coverage")
+        for low, high, inside in self._widening():
+            if inside - wanted > _NEAR or (
+                inside - wanted > -_NEAR and self._exact_between(low, high) >= wanted
+            ):
+                break
+        return ScoreRange(low, high, float(self.between(low, high)))
+
+    def _widening(self) -> Iterator[tuple[int, int, float]]:
+        """Yield ranges that start at the mode and take in the more probable neighbour each time.
+
+        The law has one peak, so each is the most probable range of its length.
+        """
+        import numpy as np
+
+        chance = self.probability(np.arange(-1, self.games + 2)).tolist()[1:]  # [-1] is 0 too
+        low = high = self.mode
+        inside = chance[low]
+        yield low, high, inside
+        while high - low < self.games:
+            below, above = chance[low - 1], chance[high + 1]
+            # Equal chances, of p = 1/2 above all, differ in floats by their rounding only.
+            if low > 0 and (high == self.games or below >= above * (1 - 1e-12)):
+                low -= 1
+                inside += below
+            else:
+                high += 1
+                inside += above
+            yield low, high, inside
+
+    def _exact_between(self, low: int, high: int) -> Fraction:
+        below = self.exact_cumulative(low - 1) if low else 0
+        return self.exact_cumulative(high) - below
+
+
+def critical_value(coverage: Any) -> Any:
+    """Return the z with P(-z <= Z <= z) = coverage, for Z standard normal.
+
+    Parameters
+    ----------
+    coverage
+        a probability below 1, or an array of them.
+
+    Raises
+    ------
+    InputError
+        if a coverage is not a number from 0 to below 1.
+
+    Notes
+    -----
+    Source: Table 5.1. `coverage_within` goes the other way.
+
+    >>> critical_value([0.95, 0.5]).round(4)
+    array([1.96  , 0.6745])
+    """
+    import numpy as np
+    from scipy.special import erfinv
+
+    checked = probability(coverage, "coverage")
+    if np.any(np.equal(checked, 1.0)):
+        raise InputError("coverage is 1, and no z is that large; give a number below 1")
+    found = math.sqrt(2) * erfinv(checked)
+    return found if found.ndim else float(found)
+
+
+def coverage_within(z: Any) -> Any:
+    """Return P(-z <= Z <= z) for Z standard normal: how much lies within z standard units.
+
+    Parameters
+    ----------
+    z
+        a number of standard deviations, 0 or more, or an array of them.
+
+    Raises
+    ------
+    InputError
+        if a z is negative or not a number.
+
+    >>> coverage_within([1, 2, 3]).round(4)
+    array([0.6827, 0.9545, 0.9973])
+    """
+    import numpy as np
+    from scipy.special import erf
+
+    try:
+        checked = np.asarray(z, dtype=float)
+    except (TypeError, ValueError):
+        checked = np.asarray(math.nan)
+    if not np.all(checked >= 0):
+        raise InputError(f"z is {z!r}; give a number of standard deviations, 0 or more")
+    found = erf(checked / math.sqrt(2))
+    return found if found.ndim else float(found)
+
+
+def _lower_sum(games: int, n: int, p: Fraction) -> Fraction:
+    """Return P(score <= n) by Horner's rule in whole numbers."""
+    won, lost = p.numerator, p.denominator - p.numerator
+    total, ways, power = 0, 1, 1
+    for k in range(n + 1):
+        total = total * lost + ways * power
+        ways = ways * (games - k) // (k + 1)
+        power *= won
+    return Fraction(total * lost ** (games - n), p.denominator**games) if n >= 0 else Fraction(0)

@@ -1,0 +1,332 @@
+"""What a set of values or a law of values says: mean, median, mode, spread, quantiles."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import accumulate, pairwise
+from typing import Any
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.stats.exact import exact
+
+__all__ = ["Distribution", "Moments", "merge"]
+
+Number = float | Fraction
+
+_EQUAL = 1e-12
+"""Sums of float probabilities, and float probabilities relative to the largest, that come
+nearer to each other than this count as equal."""
+
+_SUM = 1e-9
+"""How far float probabilities may sum from 1."""
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """Values that increase, each with its probability.
+
+    Parameters
+    ----------
+    values
+        finite numbers, each larger than the one before it.
+    probability
+        the probability of each; they sum to 1. Fractions sum to 1 exactly and decide
+        median, mode and quantiles exactly. Floats sum to 1 within 1e-9; a cumulative
+        float probability within 1e-12 below q counts as having reached q, and float
+        probabilities within 1e-12 of the largest, relatively, count as equally large.
+
+    Raises
+    ------
+    InputError
+        if there is no value, a value is not a finite number, they do not increase, or
+        the probabilities are not as many, are not from 0 to 1 or do not sum to 1.
+
+    Notes
+    -----
+    The mean, median, mode and standard deviation of section 5 of the source text, with
+    its convention for the median: the smallest value whose cumulative probability reaches
+    1/2, a value of the set also where the set is even.
+
+    >>> law = Distribution((0, 1, 4, 5), (0.2, 0.4, 0.2, 0.2))
+    >>> round(law.mean, 3), law.median, law.mode, round(law.sd, 3)
+    (2.2, 1, 1, 1.939)
+    """
+
+    values: tuple[Number, ...]
+    probability: tuple[float | Fraction, ...]
+
+    def __post_init__(self) -> None:
+        values = _numbers(self.values, "values")
+        if not values:
+            raise InputError("values is empty; give one number or more")
+        if any(second <= first for first, second in pairwise(values)):
+            raise InputError("values do not increase; sort them, or use Distribution.of")
+        object.__setattr__(self, "values", values)
+        object.__setattr__(self, "probability", _probabilities(self.probability, len(values)))
+
+    @classmethod
+    def of(cls, values: Iterable[Any], weights: Iterable[Any] | None = None) -> Distribution:
+        """Return the distribution of a sample, or of values with weights.
+
+        Parameters
+        ----------
+        values
+            finite numbers in any order; equal ones are taken together.
+        weights
+            the weight of each value, in the same order; whole numbers are counts. None:
+            each value counts once. Counts and Fractions give exact probabilities, other
+            weights floats. A value of no weight is left out.
+
+        Raises
+        ------
+        InputError
+            if there is no value, a value or weight is not a finite number, a weight is
+            negative, all are 0, or they are not as many as the values.
+
+        >>> Distribution.of([4, 1, 0, 5, 1]).probability[:2]
+        (Fraction(1, 5), Fraction(2, 5))
+        >>> Distribution.of([10, 20, 30], weights=[1, 2, 5]).median
+        30
+        """
+        listed = _numbers(values, "values")
+        if not listed:
+            raise InputError("values is empty; give one number or more")
+        total: dict[Number, Number] = {}
+        for value, weight in zip(listed, _weights(weights, len(listed)), strict=True):
+            if weight > 0:
+                total[value] = total.get(value, 0) + weight
+        if not total:
+            raise InputError("weights are all 0; give at least one value a weight")
+        ordered = sorted(total.items())
+        everything = sum(weight for _, weight in ordered)
+        if not math.isfinite(everything):
+            raise InputError("weights sum to more than a float holds; scale them down")
+        return cls(
+            tuple(value for value, _ in ordered),
+            tuple(weight / everything for _, weight in ordered),
+        )
+
+    @property
+    def exact(self) -> bool:
+        """Whether the probabilities are Fractions, so that every tie is decided exactly."""
+        return isinstance(self.probability[0], Fraction)
+
+    @property
+    def mean(self) -> float:
+        """The mean: sum of value times probability."""
+        return _mean(self.values, self.probability)
+
+    @property
+    def variance(self) -> float:
+        """The population variance: the mean of the squared distance from the mean."""
+        mean = self.mean
+        return _mean([(float(value) - mean) ** 2 for value in self.values], self.probability)
+
+    @property
+    def sd(self) -> float:
+        """The population standard deviation: the square root of the variance."""
+        return math.sqrt(self.variance)
+
+    @property
+    def cumulative(self) -> tuple[float | Fraction, ...]:
+        """P(value <= each of `values`); Fractions where the probabilities are."""
+        return tuple(accumulate(self.probability))
+
+    @property
+    def median(self) -> Number:
+        """The smallest value with P(value <= it) >= 1/2."""
+        return self.quantile(Fraction(1, 2))
+
+    @property
+    def quartiles(self) -> tuple[Number, Number, Number]:
+        """The quantiles at 1/4, 1/2 and 3/4."""
+        lower, middle, upper = (self.quantile(Fraction(i, 4)) for i in (1, 2, 3))
+        return lower, middle, upper
+
+    @property
+    def mode(self) -> Number:
+        """The most probable value, the smallest of them where several are."""
+        return self.modes[0]
+
+    @property
+    def modes(self) -> tuple[Number, ...]:
+        """All values than which none is more probable."""
+        largest = max(self.probability)
+        least = largest if self.exact else largest * (1 - _EQUAL)
+        pairs = zip(self.values, self.probability, strict=True)
+        return tuple(value for value, probability in pairs if probability >= least)
+
+    def quantile(self, q: Any) -> Number:
+        """Return the smallest value with P(value <= it) >= q.
+
+        q = .9 gives the 90th percentile. q = 0 gives the smallest value that can occur,
+        q = 1 the largest.
+
+        Raises
+        ------
+        InputError
+            if q is not a number from 0 to 1.
+
+        >>> Distribution.of([1, 2, 3, 4]).quantile(0.75)
+        3
+        """
+        wanted = exact(q, "q")
+        can = [i for i, probability in enumerate(self.probability) if probability > 0]
+        sums = self.cumulative
+        if wanted == 1:
+            return self.values[can[-1]]
+        least = wanted if self.exact else float(wanted) - _EQUAL
+        reached = bisect_left(sums, least)
+        return self.values[min(max(reached, can[0]), can[-1])]
+
+    def between(self, low: float, high: float) -> float:
+        """Return P(low <= value <= high), both ends included; an end may be infinite.
+
+        >>> Distribution.of([0, 1, 1, 4, 5]).between(1, 4)
+        0.6
+        """
+        if math.isnan(low) or math.isnan(high):
+            raise InputError(f"the ends are {low!r} and {high!r}; give two numbers")
+        pairs = zip(self.values, self.probability, strict=True)
+        return _sum(probability for value, probability in pairs if low <= value <= high)
+
+    def at_least(self, x: float) -> float:
+        """Return P(value >= x)."""
+        return self.between(x, math.inf)
+
+
+@dataclass(frozen=True)
+class Moments:
+    """How many values there are, their mean, and their population standard deviation.
+
+    Raises
+    ------
+    InputError
+        if n is not a whole number from 1 up, the mean is not finite, or the standard
+        deviation is negative or not finite.
+
+    >>> Moments.of([0, 1, 1, 4, 5]).mean
+    2.2
+    """
+
+    n: int
+    mean: float
+    sd: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "n", whole(self.n, "n", at_least=1))
+        mean, sd = (float(_number(getattr(self, name), name)) for name in ("mean", "sd"))
+        if sd < 0:
+            raise InputError(f"sd is {self.sd!r}; give a standard deviation, 0 or more")
+        object.__setattr__(self, "mean", mean)
+        object.__setattr__(self, "sd", sd)
+
+    @classmethod
+    def of(cls, values: Iterable[Any]) -> Moments:
+        """Return the number, mean and standard deviation of a sample."""
+        listed = _numbers(values, "values")
+        law = Distribution.of(listed)
+        return cls(len(listed), law.mean, law.sd)
+
+    @property
+    def variance(self) -> float:
+        """The population variance, the standard deviation squared."""
+        return self.sd**2
+
+
+def merge(parts: Iterable[Moments]) -> Moments:
+    """Return the number, mean and standard deviation of several sets taken together.
+
+    The values themselves are not needed. The variance of the whole is the mean of the
+    parts' variances plus the variance of the parts' means, each part weighted by its size.
+
+    Raises
+    ------
+    InputError
+        if there is no part.
+
+    Notes
+    -----
+    Source: problem P5.2.
+
+    >>> whole = merge([Moments.of([0, 1, 1, 4, 5]), Moments.of([0, 1, 1, 8, 9])])
+    >>> whole.n, whole.mean, round(whole.variance, 9)
+    (10, 3.0, 10.0)
+    """
+    parts = list(parts)
+    if not parts:
+        raise InputError("parts is empty; give one Moments or more")
+    n = sum(part.n for part in parts)
+    mean = math.fsum(part.n * part.mean for part in parts) / n
+    squares = math.fsum(part.n * (part.sd**2 + (part.mean - mean) ** 2) for part in parts)
+    return Moments(n, mean, math.sqrt(squares / n))
+
+
+def _number(value: Any, name: str) -> Number:
+    """Return a finite number as a plain int, float or Fraction."""
+    if isinstance(value, int | Fraction):
+        return value
+    try:
+        if isinstance(value, str | bytes):
+            raise ValueError
+        number = int(value) if hasattr(value, "__index__") else float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(f"{name} holds {value!r}; give finite numbers")
+    return number
+
+
+def _numbers(values: Iterable[Any], name: str) -> tuple[Number, ...]:
+    if not hasattr(values, "__iter__") or isinstance(values, str):
+        raise InputError(f"{name} is {values!r}; give a list of numbers")
+    return tuple(_number(value, name) for value in values)
+
+
+def _weights(weights: Iterable[Any] | None, many: int) -> list[Number]:
+    """Return the weights, as Fractions if all of them are whole numbers or Fractions."""
+    if weights is None:
+        return [Fraction(1)] * many
+    listed = _numbers(weights, "weights")
+    if len(listed) != many:
+        raise InputError(f"weights has {len(listed)} entries for {many} values; give one each")
+    for weight in listed:
+        if weight < 0:
+            raise InputError(f"weights holds {weight!r}; give weights of 0 or more")
+    if all(isinstance(weight, Fraction) or weight == int(weight) for weight in listed):
+        return [Fraction(weight) for weight in listed]
+    return [float(weight) for weight in listed]
+
+
+def _probabilities(probability: Iterable[Any], many: int) -> tuple[float | Fraction, ...]:
+    """Return as many probabilities that sum to 1, all of them Fractions or all floats."""
+    listed = _numbers(probability, "probability")
+    if len(listed) != many:
+        raise InputError(f"probability has {len(listed)} entries for {many} values; give one each")
+    for one in listed:
+        if not 0 <= one <= 1:
+            raise InputError(f"probability holds {one!r}; give numbers from 0 to 1")
+    rational = all(isinstance(one, int | Fraction) for one in listed)
+    if sum(listed) != 1 if rational else abs(math.fsum(listed) - 1) > _SUM:
+        raise InputError(f"probability sums to {math.fsum(listed)!r}; make it sum to 1")
+    if rational:
+        return tuple(Fraction(one) for one in listed)
+    return tuple(float(one) for one in listed)
+
+
+def _sum(terms: Iterable[float | Fraction]) -> float:
+    listed = list(terms)
+    if listed and isinstance(listed[0], Fraction):
+        return float(sum(listed))
+    return math.fsum(listed)
+
+
+def _mean(values: Iterable[Number], probability: Iterable[float | Fraction]) -> float:
+    return math.fsum(
+        float(value) * float(part) for value, part in zip(values, probability, strict=True)
+    )
