@@ -21,8 +21,8 @@ TENTHS = tuple(tenth / 10 for tenth in range(1, 10))
 
 _INSIDE = 1e-6
 """How far the grid keeps from the edges: at a corner a limit may depend on the way to it."""
-_FROM_EDGE = 0.06
-"""Where labels stand: none touches the edge, which it would at less than half of this."""
+_CLEAR = 0.06
+"""How far a label stands from the edge and from other lines; half of it would still do."""
 _NOISE = 12
 """Digits kept, so that a line on which two formulas agree is straight."""
 
@@ -87,26 +87,27 @@ def contour_axes(
     )
     ticks = np.linspace(0.0, 1.0, 6)
     axes.set(xlim=(0, 1), ylim=(0, 1), xticks=ticks, yticks=ticks, aspect="equal")
-    axes.clabel(lines, fmt=_level, fontsize=9, manual=_roomiest_places(lines))
+    axes.clabel(lines, fmt=_level, fontsize=9, manual=_label_places(lines))
     axes.set(xlabel=x, ylabel=y)
     axes.tick_params(direction="in", top=True, right=True)
     return lines
 
 
-def _roomiest_places(lines: QuadContourSet) -> list[tuple[float, float]]:
-    """Return a point of every line: where it is farthest from all others, off the edge."""
+def _label_places(lines: QuadContourSet) -> list[tuple[float, float]]:
+    """Return a point of every line: off the edge, clear of other lines, near the centre."""
     pieces = [piece for level in lines.allsegs for piece in level if len(piece) > 1]
     places = []
     for here, piece in enumerate(pieces):
         from_edge = np.minimum(piece, 1.0 - piece).min(axis=1)
-        if from_edge.max() < _FROM_EDGE / 2:
+        if from_edge.max() < _CLEAR / 2:
             continue
-        inner = piece[from_edge >= min(_FROM_EDGE, from_edge.max())]
+        inner = piece[from_edge >= min(_CLEAR, from_edge.max())]
         others = [other for there, other in enumerate(pieces) if there != here]
-        room = np.minimum(np.full(len(inner), 1.0), _distance(inner, others))
-        # The first of the best ones to six digits, so that rounding cannot choose.
-        x, y = inner[np.argmax(np.round(room, 6))]
-        places.append((float(x), float(y)))
+        tightness = -np.minimum(_distance(inner, others), _CLEAR)
+        off_centre = np.hypot(*(inner - 0.5).T)
+        # Rounded, so that of two places as good as each other the first one is taken.
+        best = np.lexsort((np.round(off_centre, 6), np.round(tightness, 6)))[0]
+        places.append((float(inner[best, 0]), float(inner[best, 1])))
     return places
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.text import Text
 
-__all__ = ["LINES", "LineStyle", "new_axes"]
+__all__ = ["LINES", "LineStyle", "label_beside", "label_on", "new_axes", "unit_axis"]
 
 
 class LineStyle(NamedTuple):
@@ -28,6 +29,14 @@ LINES = (
     LineStyle("#E69F00", (0, (1, 1))),
 )
 """The lines of a plot in their order; the colours are those of Okabe and Ito (2008)."""
+
+_LABEL = 10
+"""Size of a curve's name."""
+_BESIDE = {
+    "left": ((-6, 0), "right", "center"),
+    "right": ((6, -1), "left", "center"),
+    "above": ((0, 4), "center", "bottom"),
+}
 
 
 def new_axes(
@@ -57,3 +66,45 @@ def new_axes(
     if title:
         axes.set_title(title)
     return figure, axes
+
+
+def unit_axis(axes: Axes, *which: str) -> None:
+    """Let the axes named, "x" or "y", run from 0 to 1, with a tick at every tenth.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> unit_axis(axes, "x", "y")
+    >>> axes.get_xticks().round(1).tolist()
+    [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
+    """
+    for name in which:
+        axis = {"x": axes.xaxis, "y": axes.yaxis}[name]
+        axes.set(**{f"{name}lim": (0.0, 1.0)})
+        axis.set_ticks([tenth / 10 for tenth in range(0, 11, 2)])
+        axis.set_ticks([tenth / 10 for tenth in range(1, 10, 2)], minor=True)
+    axes.tick_params(which="both", direction="in", top=True, right=True)
+
+
+def label_on(axes: Axes, x: float, y: float, text: str) -> Text:
+    """Write a curve's name on the curve, at (x, y) in the units of the axes.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> label_on(axes, 0.5, 0.5, "3:3").get_text()
+    '3:3'
+    """
+    box = {"facecolor": "white", "edgecolor": "none", "pad": 1.2}
+    return axes.text(x, y, text, fontsize=_LABEL, ha="center", va="center", bbox=box)
+
+
+def label_beside(
+    axes: Axes, x: float, y: float, text: str, side: Literal["left", "right", "above"]
+) -> Text:
+    """Write a curve's name beside the point (x, y), in the units of the axes.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> label_beside(axes, 0.5, 0.5, "3:3", "left").get_horizontalalignment()
+    'right'
+    """
+    offset, ha, va = _BESIDE[side]
+    return axes.annotate(
+        text, (x, y), offset, textcoords="offset points", fontsize=_LABEL, ha=ha, va=va
+    )
