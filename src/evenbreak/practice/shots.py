@@ -150,10 +150,10 @@ def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> flo
         return None
     if look_ahead == "two shots":
         left = 1.0 - 2.0 * (target - make) / miss
-    elif make * target == 0.0:
+    elif 0.0 in (make, target):
         return None
     else:
-        left = make * (1.0 - target) / (miss * target)
+        left = (make / miss) * ((1.0 - target) / target)
     return left if 0.0 <= left <= 1.0 else None
 
 

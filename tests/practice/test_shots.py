@@ -1,0 +1,217 @@
+import itertools
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from evenbreak import InputError
+from evenbreak.chains import chain_of, stochastic_limit
+from evenbreak.games import OneBall, OneBallLookAhead
+from evenbreak.practice import (
+    Shot,
+    break_even_p2,
+    compare_shots,
+    critical_p2,
+    look_ahead_win,
+    one_ball_win,
+)
+
+CHANCES = st.sampled_from([0.0, 1.0, 0.5]) | st.floats(1e-200, 1.0)
+INNER = st.floats(0.02, 0.98)
+BOTH = st.sampled_from(["infinite", "two shots"])
+
+P5_22 = [
+    (0.1, 0.9, 0.11, 0.15),
+    (0.9, 0.1, 0.99, 0.95),
+    (0.9, 0.9, 0.90, 0.90),
+    (0.5, 0.5, 0.67, 0.62),
+    (0.25, 0.33, 0.50, 0.50),
+    (0.4, 0.8, 0.45, 0.46),
+    (0.3, 0.3, 0.59, 0.55),
+]
+
+
+def chance_of_winning(game):
+    """Return P(player 1 wins) by the game's graph."""
+    limit = stochastic_limit(chain_of(game))
+    return math.fsum(
+        p
+        for state, p in zip(limit.states, limit.probability, strict=True)
+        if game.winner(state) == 1
+    )
+
+
+@pytest.mark.parametrize(("p1", "p2", "infinite", "two_shots"), P5_22)
+def test_rows_of_p5_22(p1, p2, infinite, two_shots):
+    # The text rounds some and cuts others: .9091 to .90, .4545 to .45.
+    assert one_ball_win(p1, p2) == pytest.approx(infinite, abs=0.0101)
+    assert one_ball_win(p1, p2, look_ahead="two shots") == pytest.approx(two_shots, abs=0.0101)
+
+
+@given(st.fractions(0, 1, max_denominator=1000), st.fractions(0, 1, max_denominator=1000))
+def test_exact_fractions(p1, p2):
+    q1, q2 = 1 - p1, 1 - p2
+    if q1 * q2 != 1:
+        assert one_ball_win(p1, p2) == pytest.approx(float(p1 / (1 - q1 * q2)), rel=1e-14)
+    two_shots = one_ball_win(p1, p2, look_ahead="two shots")
+    assert two_shots == pytest.approx(float(p1 + q1 * q2 / 2), rel=1e-14)
+
+
+@given(CHANCES, CHANCES)
+def test_infinite_look_ahead_agrees_with_its_graph(p1, p2):
+    assert one_ball_win(p1, p2) == pytest.approx(chance_of_winning(OneBall(p1, p2)), rel=1e-12)
+
+
+@given(st.lists(CHANCES, min_size=1, max_size=7), CHANCES)
+def test_look_ahead_agrees_with_its_graph(shots, after):
+    game = OneBallLookAhead(shots, after=after)
+    assert look_ahead_win(game) == pytest.approx(chance_of_winning(game), rel=1e-12, abs=1e-15)
+
+
+@given(INNER, INNER)
+def test_look_ahead_of_two_and_of_many_shots(p1, p2):
+    two = look_ahead_win(OneBallLookAhead([p1, p2]))
+    assert two == pytest.approx(one_ball_win(p1, p2, look_ahead="two shots"))
+    many = look_ahead_win(OneBallLookAhead([p1, p2] * 400))
+    assert many == pytest.approx(one_ball_win(p1, p2))
+
+
+def test_nobody_wins_who_never_makes_a_ball():
+    assert one_ball_win(0, 0) == 0.0
+    assert one_ball_win(0, 0, look_ahead="two shots") == 0.5
+    assert one_ball_win(1e-300, 0) == 1.0
+    assert one_ball_win(1e-300, 1e-300) == 0.5
+
+
+def test_arrays_broadcast():
+    p1, p2 = np.array([[0.0], [0.5], [1.0]]), np.array([0.0, 0.3])
+    for look_ahead in ("infinite", "two shots"):
+        many = one_ball_win(p1, p2, look_ahead=look_ahead)
+        assert many.shape == (3, 2)
+        for i, j in itertools.product(range(3), range(2)):
+            assert many[i, j] == one_ball_win(p1[i, 0], p2[j], look_ahead=look_ahead)
+
+
+@given(st.floats(1e-3, 0.5), BOTH)
+def test_at_the_critical_p2_the_game_is_even(p1, look_ahead):
+    p2 = critical_p2(p1)
+    assert one_ball_win(p1, min(p2, 1.0), look_ahead=look_ahead) == pytest.approx(0.5)
+
+
+@given(st.floats(0.5, 1.0, exclude_min=True), CHANCES, BOTH)
+def test_above_one_half_player_1_is_the_favourite_whatever_he_leaves(p1, p2, look_ahead):
+    assert critical_p2(p1) > 1.0
+    assert one_ball_win(p1, p2, look_ahead=look_ahead) > 0.5
+
+
+def test_critical_p2_of_numbers_and_arrays():
+    assert critical_p2(0.25) == 1 / 3
+    assert critical_p2(1) == math.inf
+    assert critical_p2(np.array([0.0, 0.5])).tolist() == [0.0, 1.0]
+
+
+@given(INNER, INNER, BOTH)
+def test_break_even_p2_gives_that_chance(p1, p2, look_ahead):
+    win = one_ball_win(p1, p2, look_ahead=look_ahead)
+    assert break_even_p2(p1, win, look_ahead=look_ahead) == pytest.approx(p2, abs=1e-12)
+
+
+@pytest.mark.parametrize("look_ahead", ["infinite", "two shots"])
+def test_no_p2_breaks_even(look_ahead):
+    assert break_even_p2(1.0, 1.0, look_ahead=look_ahead) is None
+    assert break_even_p2(0.8, 0.5, look_ahead=look_ahead) is None
+    assert break_even_p2(0.0, 0.7, look_ahead=look_ahead) is None
+    assert break_even_p2(0.5, 0.0, look_ahead=look_ahead) is None
+    assert break_even_p2(1 - 2**-53, 1e-310, look_ahead=look_ahead) is None
+
+
+@pytest.mark.parametrize(
+    ("p1", "p2", "region"),
+    [
+        (0.1, 0.9, "sell-out"),
+        (0.4, 0.8, "sell-out"),
+        (0.9, 0.1, "two-way shot"),
+        (0.9, 0.9, "must-make"),
+        (0.3, 0.3, "safety"),
+    ],
+)
+def test_regions_are_those_of_p5_22(p1, p2, region):
+    assert Shot("", p1, p2).region == region
+
+
+SHOTS = st.lists(st.builds(Shot, st.text(max_size=3), INNER, INNER), min_size=2, max_size=5)
+
+
+@given(SHOTS, BOTH)
+def test_the_best_shot_comes_first(shots, look_ahead):
+    ranked = compare_shots(shots, look_ahead=look_ahead)
+    assert sorted(map(id, shots)) == sorted(id(one.shot) for one in ranked)
+    assert [one.win for one in ranked] == sorted(
+        (shot.win(look_ahead) for shot in shots), reverse=True
+    )
+    assert ranked[0].behind == 0.0
+    assert all(one.behind == ranked[0].win - one.win for one in ranked)
+
+
+@given(SHOTS, BOTH)
+def test_the_choice_turns_at_the_turning_p2(shots, look_ahead):
+    ranked = compare_shots(shots, look_ahead=look_ahead)
+    assume(ranked[0].win - ranked[1].win > 1e-6)
+    for place, one in enumerate(ranked):
+        others = [other.shot for other in ranked if other is not one]
+
+        def best(p2, others=others, p1=one.shot.p1):
+            changed = Shot("changed", p1, p2)
+            return compare_shots([*others, changed], look_ahead=look_ahead)[0].shot is changed
+
+        turn = one.turning_p2
+        if turn is None:
+            assert best(1.0) == best(0.0) == (place == 0)
+        else:
+            assert best(max(turn - 1e-9, 0.0)) or turn < 1e-8
+            assert not best(min(turn + 1e-9, 1.0)) or turn > 1 - 1e-8
+
+
+@given(SHOTS)
+def test_choosing_anew_after_every_miss_is_worth_no_more(shots):
+    value = 0.0
+    for _ in range(2000):
+        value = max(shot.p1 + (1 - shot.p1) * (1 - shot.p2) * value for shot in shots)
+    assert compare_shots(shots)[0].win == pytest.approx(value)
+
+
+def test_equals_keep_their_order_and_one_alone_has_nothing_to_turn():
+    first, second = Shot("first", 0.5, 0.5), Shot("second", 0.5, 0.5)
+    ranked = compare_shots([first, second])
+    assert [one.shot.name for one in ranked] == ["first", "second"]
+    assert ranked[0].turning_p2 == pytest.approx(0.5)
+    (alone,) = compare_shots([first])
+    assert (alone.behind, alone.turning_p2) == (0.0, None)
+
+
+def test_a_shot_may_have_fractions():
+    assert Shot("exact", Fraction(1, 3), Fraction(1, 2)).win() == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("ask", "remedy"),
+    [
+        (lambda: one_ball_win(1.5, 0.5), "p1 is 1.5, not a probability"),
+        (lambda: one_ball_win(0.5, math.nan), "p2 is nan, not a probability"),
+        (lambda: one_ball_win([0.5] * 2, [0.5] * 3), "broadcast"),
+        (lambda: one_ball_win(0.5, 0.5, look_ahead="three"), "'infinite' or 'two shots'"),
+        (lambda: critical_p2(-0.1), "p1 is -0.1"),
+        (lambda: break_even_p2(0.5, 2), "win is 2"),
+        (lambda: break_even_p2(0.5, 0.5, look_ahead=2), "'infinite' or 'two shots'"),
+        (lambda: Shot("bank", 0.5, "often"), "p2 is 'often'"),
+        (lambda: compare_shots([]), "give one Shot or more"),
+        (lambda: compare_shots([Shot("", 0.5, 0.5)], look_ahead=""), "'infinite' or 'two shots'"),
+    ],
+)
+def test_wrong_values_say_how_to_mend_them(ask, remedy):
+    with pytest.raises(InputError) as caught:
+        ask()
+    assert remedy in str(caught.value)
