@@ -115,7 +115,9 @@ def _distance(points: NDArray[np.float64], lines: list[NDArray[np.float64]]) -> 
     """Return each point's distance from the nearest vertex of the lines."""
     from scipy.spatial import KDTree
 
-    return KDTree(np.vstack(lines)).query(points)[0] if lines else np.inf
+    if not lines:
+        return np.full(len(points), np.inf)
+    return KDTree(np.vstack(lines)).query(points)[0]
 
 
 def _level(level: Any) -> str:
