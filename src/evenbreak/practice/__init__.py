@@ -15,6 +15,8 @@ __getattr__, __dir__, __all__ = attach(
             "long_run_sd",
             "long_run_share",
         ],
+        "drill_log": ["DrillLog"],
+        "drills": ["DrillStatistics", "drill_statistics"],
         "shots": [
             "RankedShot",
             "Shot",

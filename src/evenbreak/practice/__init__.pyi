@@ -3,6 +3,9 @@ from evenbreak.practice.breaks import compare_break_formats as compare_break_for
 from evenbreak.practice.breaks import first_break_worth as first_break_worth
 from evenbreak.practice.breaks import long_run_sd as long_run_sd
 from evenbreak.practice.breaks import long_run_share as long_run_share
+from evenbreak.practice.drill_log import DrillLog as DrillLog
+from evenbreak.practice.drills import DrillStatistics as DrillStatistics
+from evenbreak.practice.drills import drill_statistics as drill_statistics
 from evenbreak.practice.shots import RankedShot as RankedShot
 from evenbreak.practice.shots import Shot as Shot
 from evenbreak.practice.shots import break_even_p2 as break_even_p2

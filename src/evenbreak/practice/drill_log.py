@@ -1,0 +1,146 @@
+"""A log of a progressive drill: the level of every attempt, and whether it succeeded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["AFTER_MISS", "AFTER_START", "AFTER_SUCCESS", "MOST_LEVELS", "DrillLog"]
+
+MOST_LEVELS = 100
+"""The most levels that the drill of a log may have."""
+
+AFTER_START, AFTER_MISS, AFTER_SUCCESS = range(3)
+"""What came before an attempt: the middle index of `DrillLog.outcomes`."""
+
+
+@dataclass(frozen=True, eq=False)
+class DrillLog:
+    """The attempts of a progressive drill, in the order in which they were made.
+
+    By the drill's rule a success leads one level up (the last level repeats) and a miss
+    one level down (the first level repeats); a session may begin at any level.
+
+    Parameters
+    ----------
+    level
+        shape (attempts,): the level of each attempt, from 1.
+    success
+        shape (attempts,): whether it succeeded.
+    session
+        shape (attempts,): the session of each attempt, as any labels; a label other than
+        the one before begins a new session. None where all is one session.
+    levels
+        how many levels the drill has; None takes the highest one in the log.
+
+    Raises
+    ------
+    InputError
+        if there is no attempt, the shapes differ, or a level is not a whole number from 1
+        to `levels`, which is 100 at the most.
+
+    >>> log = DrillLog([1, 2, 3, 2], [True, True, False, True])
+    >>> log.attempts, log.successes
+    (array([1, 2, 1]), array([1, 2, 0]))
+    """
+
+    level: NDArray[np.int64]
+    success: NDArray[np.bool_]
+    session: NDArray[Any] | None = None
+    levels: int | None = None
+
+    def __post_init__(self) -> None:
+        level = _level_array(self.level)
+        success = np.asarray(self.success)
+        if success.shape != level.shape or not np.isin(success, (0, 1)).all():
+            raise InputError("success does not match level; give True or False for each attempt")
+        session = np.zeros(len(level)) if self.session is None else np.asarray(self.session)
+        if session.shape != level.shape:
+            raise InputError("session does not match level; give a label for each attempt")
+        highest = int(level.max())
+        levels = highest if self.levels is None else whole(self.levels, "levels", at_least=1)
+        if levels > MOST_LEVELS:
+            raise InputError(f"the drill has {levels} levels; give {MOST_LEVELS} at the most")
+        if highest > levels:
+            raise InputError(f"levels is {levels}, but the log has level {highest}; give more")
+        for name, value in (
+            ("level", level),
+            ("success", success.astype(bool)),
+            ("session", session),
+            ("levels", levels),
+        ):
+            object.__setattr__(self, name, value)
+
+    def __len__(self) -> int:
+        return len(self.level)
+
+    @property
+    def _top(self) -> int:
+        """How many levels the drill has."""
+        return int(self.levels or 0)
+
+    @cached_property
+    def attempts(self) -> NDArray[np.int64]:
+        """The attempts at each level; shape (levels,)."""
+        return np.asarray(self.outcomes.sum((1, 2)))
+
+    @cached_property
+    def successes(self) -> NDArray[np.int64]:
+        """The successes at each level; shape (levels,)."""
+        return np.asarray(self.outcomes[:, :, 1].sum(1))
+
+    @cached_property
+    def jumps(self) -> NDArray[np.int64]:
+        """The attempts, by position, that stand against the rule within their session."""
+        told = self.success[:-1] * 2 - 1
+        ruled = np.clip(self.level[:-1] + told, 1, self._top)
+        return np.flatnonzero((self.level[1:] != ruled) & ~self._new_session[1:]) + 1
+
+    @cached_property
+    def starts(self) -> NDArray[np.int64]:
+        """The attempts, by position, that begin a session or stand against the rule."""
+        begins = self._new_session.copy()
+        begins[self.jumps] = True
+        return np.flatnonzero(begins)
+
+    @property
+    def sessions(self) -> int:
+        """How many sessions there are."""
+        return int(self._new_session.sum())
+
+    @cached_property
+    def outcomes(self) -> NDArray[np.int64]:
+        """The attempts by level, by what came before, and by outcome; shape (levels, 3, 2).
+
+        The middle index is `AFTER_START`, `AFTER_MISS` or `AFTER_SUCCESS`, the last one 0
+        for a miss and 1 for a success.
+        """
+        before = np.full(len(self), AFTER_START)
+        before[1:] = np.where(self.success[:-1], AFTER_SUCCESS, AFTER_MISS)
+        before[self.starts] = AFTER_START
+        key = ((self.level - 1) * 3 + before) * 2 + self.success
+        counts = np.bincount(key, minlength=self._top * 6)
+        return counts.reshape(self._top, 3, 2)
+
+    @cached_property
+    def _new_session(self) -> NDArray[np.bool_]:
+        session = np.asarray(self.session)
+        return np.concatenate([[True], session[1:] != session[:-1]])
+
+
+def _level_array(given: Any) -> NDArray[np.int64]:
+    level = np.asarray(given)
+    if level.ndim != 1 or not level.size:
+        raise InputError("level is empty or no list; give the level of each attempt")
+    if level.dtype.kind not in "iuf" or not ((level >= 1) & (level == np.floor(level))).all():
+        raise InputError("level is not whole numbers from 1; give the level of each attempt")
+    return level.astype(np.int64)

@@ -1,0 +1,79 @@
+"""Progressive drills: where a player settles, and which level is worth practising."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.chains.explore import chain_of
+from evenbreak.chains.limits import stochastic_limit
+from evenbreak.practice.levels import level_gains
+from evenbreak.stats.summary import Distribution
+
+if TYPE_CHECKING:
+    from evenbreak.games.drill import Drill
+
+__all__ = ["DrillStatistics", "drill_statistics"]
+
+
+@dataclass(frozen=True)
+class DrillStatistics:
+    """What a drill comes to in the long run, begun at level 1.
+
+    Parameters
+    ----------
+    drill
+        the drill.
+    distribution
+        the law of the level attempted: the drill's stochastic limit, with its mean,
+        median, mode and standard deviation.
+    gain
+        for each level the derivative of the mean level to the chance of success there:
+        0.01 more of it lifts the mean by about 0.01 times the gain. One-sided where the
+        chance is 0 or 1; inf where the mean jumps; 0 where the level is not visited in
+        the long run.
+    period
+        1 where the law is also that of a late attempt; 2 where odd and even attempts
+        differ for ever and the law is the average over both.
+    """
+
+    drill: Drill
+    distribution: Distribution
+    gain: tuple[float, ...]
+    period: int
+
+    @property
+    def best_level(self) -> int:
+        """The level with the greatest gain, the lowest of them where several are equal."""
+        return int(np.argmax(self.gain)) + 1
+
+
+def drill_statistics(drill: Drill) -> DrillStatistics:
+    """Return where the player of a drill settles, and what each level is worth.
+
+    Parameters
+    ----------
+    drill
+        P(success | an attempt at level i) for each level; the player begins at level 1.
+
+    Notes
+    -----
+    Source: P5.26, Fig. 5.8, Table 5.5 and exercise 5.1.
+
+    >>> from evenbreak.games import Drill
+    >>> nine_ball = drill_statistics(Drill.progressive(0.8))
+    >>> round(nine_ball.distribution.mean, 3), nine_ball.distribution.median
+    (4.354, 4)
+    >>> nine_ball.best_level, round(nine_ball.gain[3], 1)
+    (4, 2.3)
+    """
+    limit = stochastic_limit(chain_of(drill))
+    levels = range(1, len(drill.success) + 1)
+    # The chain has only the levels that can be reached from the first.
+    law = np.array([limit.get(level, 0.0) for level in levels])
+    gain = level_gains(np.array(drill.success), law)
+    return DrillStatistics(
+        drill, Distribution(tuple(levels), tuple(law.tolist())), tuple(gain.tolist()), limit.period
+    )

@@ -1,0 +1,94 @@
+"""Where progressive drills settle and what each level is worth, for many drills at once.
+
+A drill's levels stand in a line, so between two levels that communicate as many attempts go
+up as come down, law[i] p[i] = law[i + 1] q[i + 1], and the law is a product of quotients.
+The gain of a level follows from the climbs D[i] = h[i + 1] - h[i], where h[i] says how far
+ahead of the long-run mean a player is who stands at level i, added up over all time:
+
+    q[i] D[i - 1] - p[i] D[i] = i - mean,    D[0] = D[n] = 0,
+    d mean / d p[i] = law[i] (D[i - 1] + D[i]).
+
+Above the mean the climbs are solved from the top, below it from the bottom: all terms are
+then positive, and no digits are lost. References: Schweitzer 1968; Karlin and McGregor 1957.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["level_gains", "level_laws"]
+
+
+def level_laws(success: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the stochastic limits of drills that begin at level 1.
+
+    Parameters
+    ----------
+    success
+        shape (..., n): P(success | an attempt at level i), one drill a row.
+
+    Returns
+    -------
+    numpy.ndarray
+        shape (..., n): the long-run fraction of attempts at each level.
+
+    >>> level_laws(np.array([[0.5, 0.5], [0.5, 1.0], [0.0, 0.5]]))
+    array([[0.5, 0.5],
+           [0. , 1. ],
+           [1. , 0. ]])
+    """
+    n = success.shape[-1]
+    level = np.arange(n)
+    failure = 1.0 - success
+    # The player stays between the last level that always sends upwards and the first that never
+    # does.
+    stuck = success == 0.0
+    last = np.where(stuck.any(-1), stuck.argmax(-1), n - 1)[..., None]
+    sure = (failure == 0.0) & (level > 0) & (level <= last)
+    first = np.where(sure, level, 0).max(-1, keepdims=True)
+    up, down = success[..., :-1], failure[..., 1:]
+    moves = (up > 0.0) & (down > 0.0)
+    steps = np.zeros_like(success)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        steps[..., 1:] = np.where(moves, np.log(up) - np.log(down), 0.0)
+    height = np.where((first <= level) & (level <= last), steps.cumsum(-1), -np.inf)
+    law = np.exp(height - height.max(-1, keepdims=True))
+    return np.asarray(law / law.sum(-1, keepdims=True))
+
+
+def level_gains(success: NDArray[np.float64], law: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the derivative of the mean level to the chance of success at each level.
+
+    At a chance of 0 or 1 it is the one-sided derivative; it is inf where the mean jumps
+    (level i never succeeds and level i + 1 always does), and 0 at levels that are not
+    visited in the long run.
+
+    Parameters
+    ----------
+    success, law
+        shape (..., n), as in `level_laws`.
+
+    >>> success = np.array([0.5, 0.5])
+    >>> level_gains(success, level_laws(success))
+    array([0.5, 0.5])
+    """
+    n = success.shape[-1]
+    failure = 1.0 - success
+    mean = law @ np.arange(1.0, n + 1)
+    climb = np.zeros((*mean.shape, n + 1))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for i in range(n, 1, -1):
+            p, q = success[..., i - 1], failure[..., i - 1]
+            above = np.where(p > 0.0, p * climb[..., i], 0.0)
+            climb[..., i - 1] = np.where(i > mean, (i - mean + above) / q, 0.0)
+        for i in range(1, n):
+            p, q = success[..., i - 1], failure[..., i - 1]
+            from_below = (mean - i + q * climb[..., i - 1]) / p
+            climb[..., i] = np.where(i + 1 > mean, climb[..., i], from_below)
+        gain = law * (climb[..., :-1] + climb[..., 1:])
+    return np.where(law > 0.0, gain, 0.0)
