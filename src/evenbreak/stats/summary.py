@@ -104,7 +104,7 @@ class Distribution:
             raise InputError("weights are all 0; give at least one value a weight")
         ordered = sorted(total.items())
         everything = sum(weight for _, weight in ordered)
-        if not math.isfinite(everything):
+        if everything == math.inf:
             raise InputError("weights sum to more than a float holds; scale them down")
         return cls(
             tuple(value for value, _ in ordered),
@@ -269,17 +269,20 @@ def merge(parts: Iterable[Moments]) -> Moments:
 
 def _number(value: Any, name: str) -> Number:
     """Return a finite number as a plain int, float or Fraction."""
-    if isinstance(value, int | Fraction):
-        return value
     try:
-        if isinstance(value, str | bytes):
-            raise ValueError
-        number = int(value) if hasattr(value, "__index__") else float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not math.isfinite(number):
+        if isinstance(value, str | bytes) or getattr(value, "ndim", False):
+            raise TypeError
+        number = value if isinstance(value, Fraction) else _plain(value)
+        finite = math.isfinite(number)  # an OverflowError where no float is that large
+    except (TypeError, ValueError, OverflowError):
+        finite = False
+    if not finite:
         raise InputError(f"{name} holds {value!r}; give finite numbers")
     return number
+
+
+def _plain(value: Any) -> float:
+    return int(value) if hasattr(value, "__index__") else float(value)
 
 
 def _numbers(values: Iterable[Any], name: str) -> tuple[Number, ...]:

@@ -1,0 +1,103 @@
+"""What every law on 0, 1, 2, ... answers, and that ties are decided without rounding."""
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.stats import CountLaw, whole_counts
+
+
+class Steps(CountLaw):
+    """P(count <= n) = 1 - 1 / 2^(n + 1), with floats that are off by a last digit or so."""
+
+    mean, sd, mode = 1.0, 2**0.5, 0
+
+    def __init__(self, wrong: float = 0.0) -> None:
+        self.wrong = wrong
+        self.asked_exactly: list[int] = []
+
+    def probability(self, n: Any) -> Any:
+        return 0.5 ** (np.asarray(n) + 1.0)
+
+    def cumulative(self, n: Any) -> Any:
+        return np.where(np.asarray(n) < 0, 0.0, 1 - 0.5 ** (np.maximum(n, 0) + 1.0)) + self.wrong
+
+    def at_least(self, n: Any) -> Any:
+        return 0.5 ** np.maximum(np.asarray(n, float), 0.0)
+
+    def exact_cumulative(self, n: int) -> Fraction:
+        self.asked_exactly.append(n)
+        return 1 - Fraction(1, 2 ** (n + 1))
+
+
+@pytest.mark.parametrize("wrong", [-1e-12, 0.0, 1e-12])
+@pytest.mark.parametrize(
+    ("q", "count"),
+    [
+        (Fraction(1, 2), 0),
+        (0.5, 0),
+        (Fraction(1, 2) + Fraction(1, 10**15), 1),
+        (Fraction(1, 2) - Fraction(1, 10**15), 0),
+        (0.75, 1),
+        (0.7500001, 2),
+        (0, 0),
+        (1 - 2**-10, 9),
+    ],
+)
+def test_a_quantile_at_a_tie_is_the_exact_one(q: Any, count: int, wrong: float) -> None:
+    assert Steps(wrong).quantile(q) == count
+
+
+def test_fractions_are_asked_only_near_a_tie() -> None:
+    law = Steps()
+    assert law.quantile(0.9) == 3
+    assert law.asked_exactly == []
+    assert law.median == 0
+    assert set(law.asked_exactly) == {0}
+
+
+def test_no_count_is_the_largest_here() -> None:
+    assert Steps().most is None
+    with pytest.raises(InputError, match="q is 1, and no count is the largest; give a q below 1"):
+        Steps().quantile(1)
+
+
+@pytest.mark.parametrize("q", [-0.1, 1.5, float("nan"), "a", None])
+def test_a_quantile_is_of_a_probability(q: Any) -> None:
+    with pytest.raises(InputError, match=r"q is .*, not a probability"):
+        Steps().quantile(q)
+
+
+def test_between_takes_in_both_ends() -> None:
+    law = Steps()
+    assert law.between(1, 2) == 0.25 + 0.125
+    assert law.between(0, 0) == 0.5
+    assert law.between(-5, 1) == 0.75
+    assert law.between(3, 2) == 0.0
+    assert isinstance(law.between(1, 2), float)
+    assert law.between([0, 1, 60], [0, 0, 60]).tolist() == [0.5, 0.0, 0.5**61]
+
+
+def test_a_rare_span_keeps_its_digits() -> None:
+    assert Steps().between(100, 101) == pytest.approx(0.75 * 2.0**-100, rel=1e-15)
+
+
+def test_whole_counts_are_floats_of_the_same_shape() -> None:
+    assert whole_counts([[1, -2], [3, 4]]).tolist() == [[1.0, -2.0], [3.0, 4.0]]
+    assert whole_counts(7).shape == ()
+
+
+@pytest.mark.parametrize(
+    "n", [0.5, float("nan"), float("inf"), "3", None, [1, 2.5], 1j, [[1], [2, 3]]]
+)
+def test_other_counts_are_refused(n: Any) -> None:
+    with pytest.raises(InputError, match=r"^n is .*; give whole numbers$"):
+        whole_counts(n)
+
+
+def test_counts_may_have_a_least() -> None:
+    with pytest.raises(InputError, match=r"^m is -1; give whole numbers, 0 or more$"):
+        whole_counts(-1, "m", at_least=0)
