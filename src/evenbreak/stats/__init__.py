@@ -17,6 +17,8 @@ __getattr__, __dir__, __all__ = attach(
         ],
         "counts": ["CountLaw", "whole_counts"],
         "exact": ["exact"],
+        "innings": ["InningsScore"],
+        "runs": ["FairLine", "RunLength", "median_ratio_limit", "shot_chance"],
         "summary": ["Distribution", "Moments", "merge"],
     },
 )

@@ -6,6 +6,11 @@ from evenbreak.stats.binomial import score_probability as score_probability
 from evenbreak.stats.counts import CountLaw as CountLaw
 from evenbreak.stats.counts import whole_counts as whole_counts
 from evenbreak.stats.exact import exact as exact
+from evenbreak.stats.innings import InningsScore as InningsScore
+from evenbreak.stats.runs import FairLine as FairLine
+from evenbreak.stats.runs import RunLength as RunLength
+from evenbreak.stats.runs import median_ratio_limit as median_ratio_limit
+from evenbreak.stats.runs import shot_chance as shot_chance
 from evenbreak.stats.summary import Distribution as Distribution
 from evenbreak.stats.summary import Moments as Moments
 from evenbreak.stats.summary import merge as merge

@@ -1,0 +1,256 @@
+"""How many balls a player runs in one inning, with and without safety play.
+
+Every shot is made with the same chance p, whatever went before, so a run of n balls has
+the chance p^n (1 - p). Where the opponent plays safe, the first shot of the inning is
+harder, alpha p instead of p: then P(run >= n) = alpha p^n for n >= 1. Fouls and their
+penalty points are left out.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.stats.counts import CountLaw, whole_counts
+from evenbreak.stats.exact import exact
+
+__all__ = ["FairLine", "RunLength", "checked_shots", "median_ratio_limit", "shot_chance"]
+
+_MOST = 100_000
+"""The largest mean that is counted with; exact medians beyond would take minutes."""
+
+
+class FairLine(NamedTuple):
+    """The numbers at which a wager on a score is fair, by what is wagered on.
+
+    `mean`: an amount is paid for every point above the line and lost for every point below.
+    `median`: an amount is won if the score is over the line, else lost; the line is the
+    median, the smallest number that is not passed in at least half of the cases.
+    `mode`: everybody names a score and the one who names it exactly wins; the mode is the
+    best to name.
+    """
+
+    mean: float
+    median: int
+    mode: int
+
+
+@dataclass(frozen=True)
+class RunLength(CountLaw):
+    """How many balls a player runs in one inning.
+
+    Parameters
+    ----------
+    p
+        P(the player makes a shot), the same for every shot but the first of the inning;
+        below 1. A float means the decimal that it prints as.
+    safety
+        alpha: P(the first shot of the inning is made) = alpha p. 1 is no safety play.
+
+    Raises
+    ------
+    InputError
+        if p or safety is not a number from 0 to 1, or the mean is above 100,000 balls (with
+        p = 1 a run never ends).
+
+    Notes
+    -----
+    `sd`, and the far tails p^n, keep nearly all digits. Source: problems P5.11, P5.13 and
+    P5.15, Table 5.2.
+
+    >>> law = RunLength(0.96)
+    >>> law.mean, law.median, law.mode, round(law.sd, 2)
+    (24.0, 16, 0, 24.49)
+    >>> round(law.between(50, 75), 3), round(law.at_least(100), 3)
+    (0.085, 0.017)
+    """
+
+    p: float | Fraction
+    safety: float | Fraction = 1
+
+    def __post_init__(self) -> None:
+        checked_shots(self.p, self.safety)
+
+    @classmethod
+    def of_mean(cls, mean: Any, safety: Any = 1) -> RunLength:
+        """Return the law of a player who runs `mean` balls an inning on average.
+
+        Parameters
+        ----------
+        mean
+            balls an inning, 0 or more; counted with the safety play that `safety` says.
+        safety
+            as above; above 0.
+
+        Raises
+        ------
+        InputError
+            if there is no such law.
+
+        >>> RunLength.of_mean(24)
+        RunLength(p=Fraction(24, 25), safety=1)
+        """
+        return cls(shot_chance(mean, safety), safety)
+
+    @property
+    def mean(self) -> float:
+        """The mean number of balls, alpha p / (1 - p)."""
+        p, safety = exact(self.p), exact(self.safety)
+        return float(safety * p / (1 - p))
+
+    @property
+    def sd(self) -> float:
+        """The standard deviation; without safety play the root of p, over 1 - p."""
+        p, safety = exact(self.p), exact(self.safety)
+        return math.sqrt(safety * p * (1 + p - safety * p)) / float(1 - p)
+
+    @property
+    def mode(self) -> int:
+        """The most probable run: none, whatever p; p (2 - p) is never above 1."""
+        return 0
+
+    def probability(self, n: Any) -> Any:
+        """Return P(run = n); a float for a number, an array for an array."""
+        n = whole_counts(n)
+        p, safety = exact(self.p), exact(self.safety)
+        one_or_more = np.exp(self._log_at_least(np.maximum(n, 1))) * float(1 - p)
+        return _plain(np.where(n < 0, 0.0, np.where(n == 0, float(1 - safety * p), one_or_more)))
+
+    def cumulative(self, n: Any) -> Any:
+        """Return P(run <= n); a float for a number, an array for an array."""
+        n = whole_counts(n)
+        found = -np.expm1(self._log_at_least(np.maximum(n, 0) + 1))
+        return _plain(np.where(n < 0, 0.0, found))
+
+    def at_least(self, n: Any) -> Any:
+        """Return P(run >= n); a float for a number, an array for an array."""
+        n = whole_counts(n)
+        return _plain(np.where(n <= 0, 1.0, np.exp(self._log_at_least(np.maximum(n, 1)))))
+
+    def exact_cumulative(self, n: int) -> Fraction:
+        """Return P(run <= n) without rounding, 1 - alpha p^(n + 1)."""
+        if n < 0:
+            return Fraction(0)
+        return 1 - exact(self.safety) * exact(self.p) ** (n + 1)
+
+    @property
+    def median_bound(self) -> float:
+        """The bound -(log(2 alpha) / log p + 1) on the median.
+
+        The median is the first whole number that is not below it, 0 where it is negative.
+        """
+        p, safety = exact(self.p), exact(self.safety)
+        if safety == 0:
+            return -math.inf
+        halvings = _log(2 * safety) / -_log(p) if p > 0 else 0.0
+        return halvings - 1.0
+
+    @property
+    def median_ratio(self) -> float | None:
+        """The median over the mean; None where the mean is 0."""
+        p, safety = exact(self.p), exact(self.safety)
+        return float(self.median * (1 - p) / (safety * p)) if self.mean else None
+
+    @property
+    def fair_line(self) -> FairLine:
+        """The lines of fair wagers on the run (P5.14)."""
+        return FairLine(self.mean, self.median, self.mode)
+
+    def _log_at_least(self, n: Any) -> Any:
+        """Return log P(run >= n) for n >= 1."""
+        p, safety = exact(self.p), exact(self.safety)
+        return n * _log(p) + _log(safety)
+
+
+def median_ratio_limit(safety: Any = 1) -> float:
+    """Return what the median over the mean comes to for long runs: ln(2 alpha) / alpha.
+
+    Parameters
+    ----------
+    safety
+        alpha, as in `RunLength`. Up to 1/2 the median is 0, however long the mean.
+
+    Raises
+    ------
+    InputError
+        if safety is not a number from 0 to 1.
+
+    Notes
+    -----
+    Source: problems P5.12 and P5.15.
+
+    >>> round(median_ratio_limit(), 3), round(median_ratio_limit(0.8), 2)
+    (0.693, 0.59)
+    """
+    alpha = exact(safety, "safety")
+    return math.log(2 * alpha) / float(alpha) if alpha > Fraction(1, 2) else 0.0
+
+
+def shot_chance(mean: Any, safety: Any = 1) -> Fraction:
+    """Return the p of a player who runs `mean` balls an inning on average, mean / (mean + alpha).
+
+    Parameters
+    ----------
+    mean
+        balls an inning, 0 or more. A float means the decimal that it prints as.
+    safety
+        alpha, as in `RunLength`; above 0.
+
+    Raises
+    ------
+    InputError
+        if mean is not such a number, or safety not a number above 0 up to 1.
+
+    Notes
+    -----
+    Source: problem P5.11.
+
+    >>> shot_chance(24), shot_chance(24, 0.5)
+    (Fraction(24, 25), Fraction(48, 49))
+    """
+    alpha = exact(safety, "safety")
+    if alpha == 0:
+        raise InputError("safety is 0, and so is every run; give a number above 0")
+    try:
+        balls = mean if isinstance(mean, Fraction) else Fraction(repr(float(mean)))
+    except (TypeError, ValueError, OverflowError):
+        balls = Fraction(-1)
+    if balls < 0:
+        raise InputError(f"mean is {mean!r}; give a number of balls, 0 or more")
+    return balls / (balls + alpha)
+
+
+def checked_shots(p: Any, safety: Any, innings: int = 1) -> tuple[Fraction, Fraction]:
+    """Return p and safety without rounding, if scores of so many innings can be counted with.
+
+    >>> checked_shots(1, 1)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: p is 1: such a run never ends; give a number below 1
+    """
+    chance, alpha = exact(p, "p"), exact(safety, "safety")
+    if chance == 1:
+        raise InputError(f"p is {p}: such a run never ends; give a number below 1")
+    mean = innings * alpha * chance / (1 - chance)
+    if mean > _MOST:
+        raise InputError(
+            f"p is {p}: the mean is {float(mean):,.0f} balls and {_MOST:,} is the most that is "
+            "counted with; give a smaller p or fewer innings"
+        )
+    return chance, alpha
+
+
+def _log(x: Fraction) -> float:
+    if x == 0:
+        return -math.inf
+    # Near 1 what is missing to 1 is rounded, not x: else the tails lose their digits.
+    return math.log1p(-float(1 - x)) if x > Fraction(1, 2) else math.log(x)
+
+
+def _plain(found: Any) -> Any:
+    return found if found.ndim else float(found)
