@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.reports.layout import Positions, positions_of
-from evenbreak.reports.pen import FONT, Pen, is_terminal, longest_line
+from evenbreak.reports.pen import FONT, Pen, is_terminal, is_words, longest_line
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -31,7 +31,9 @@ def draw(
     player 1 has won and dark where player 2 has. An arc is labelled with its `label`
     if it carries one (`"$p_1$"` is set as mathematics), else with its `probability` of
     the target, given the source, to three significant digits; a node with its `label`,
-    else with its name, scores as a:b.
+    else with its name, scores as a:b. In a graph of one's own the start is the node
+    whose `kind` is "start", the first one if no node has a `kind`; a node of the kind
+    "words" is written without a circle: dots, or a heading.
 
     Parameters
     ----------
@@ -72,13 +74,18 @@ def draw(
             "so draw a shorter match"
         )
     start = _start_of(graph)
-    places = dict(layout) if layout is not None else positions_of(graph, start)
+    places = (
+        dict(layout)
+        if layout is not None
+        else positions_of(graph, next(iter(graph)) if start is None else start)
+    )
     missing = [state for state in graph if state not in places]
     if missing:
         raise InputError(f"layout has no place for state {missing[0]!r}; give it (x, y)")
 
     labels = {state: _state_label(graph, state) for state in graph}
-    inches = _INCHES * max(1.0, max(longest_line(text) for text in labels.values()) / 8)
+    inside = [longest_line(text) for state, text in labels.items() if not is_words(graph, state)]
+    inches = _INCHES * max(1.0, max(inside, default=0) / 8)
     figure = Figure()
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     pen = Pen(axes, graph, places, inches)
@@ -117,8 +124,11 @@ def image_bytes(figure: Figure, kind: Literal["png", "svg"] = "svg") -> bytes:
 
 
 def _start_of(graph: nx.DiGraph[Any]) -> Any:
-    marked = [state for state in graph if graph.nodes[state].get("kind") == "start"]
-    return marked[0] if marked else next(iter(graph))
+    """Return the start, None if the kinds of the nodes name none."""
+    kinds = [graph.nodes[state].get("kind") for state in graph]
+    if not any(kinds):
+        return next(iter(graph))
+    return next((state for state, kind in zip(graph, kinds, strict=True) if kind == "start"), None)
 
 
 def _state_label(graph: nx.DiGraph[Any], state: Any) -> str:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import networkx as nx
     from matplotlib.axes import Axes
 
-__all__ = ["FONT", "Pen", "is_terminal", "longest_line"]
+__all__ = ["FONT", "Pen", "is_terminal", "is_words", "longest_line"]
 
 Point: TypeAlias = tuple[float, float]
 
@@ -33,6 +33,11 @@ _FILL = {1: ("0.85", "black"), 2: ("0.35", "white"), None: ("white", "black")}
 def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
     """Return whether no arc leads from `state` to another one."""
     return all(target == state for target in graph.successors(state))
+
+
+def is_words(graph: nx.DiGraph[Any], state: Any) -> bool:
+    """Return whether a node is no state but something written: dots, or a heading."""
+    return bool(graph.nodes[state].get("kind") == "words")
 
 
 def _arc_label(arc: Mapping[str, Any]) -> str:
@@ -78,7 +83,7 @@ class Pen:
         ]
 
     def draw(self, start: Any, labels: Mapping[Any, str]) -> None:
-        """Draw it all; `labels` names the states."""
+        """Draw it all; `labels` names the states, `start` may be None."""
         arcs = [(source, target) for source, target in self.graph.edges if source != target]
         bends = {arc: self.bend(*arc) for arc in arcs}
         for arc, bend in bends.items():
@@ -88,9 +93,13 @@ class Pen:
         for state in self.graph:
             if self.graph.has_edge(state, state) and not is_terminal(self.graph, state):
                 self.loop(state, _arc_label(self.graph.edges[state, state]))
-        self.arrow_into(start)
+        if start is not None:
+            self.arrow_into(start)
         for state, label in labels.items():
-            self.circle(state, label)
+            if is_words(self.graph, state):
+                self.words(state, label)
+            else:
+                self.circle(state, label)
 
     def bend(self, source: Any, target: Any) -> float:
         """Return a curvature that passes no other circle and leaves the opposite arc alone."""
@@ -246,3 +255,11 @@ class Pen:
         room = 2 * 0.85 * radius * self.points_per_unit
         font = min(FONT, room / (0.6 * longest_line(label)))
         self.axes.text(*centre, label, fontsize=font, color=ink, ha="center", va="center", zorder=4)
+
+    def words(self, state: Any, label: str) -> None:
+        """Write a node that is no state."""
+        x, y = self.places[state]
+        font = FONT + 2
+        wide = 0.3 * font * longest_line(label) / self.points_per_unit
+        self.reach += [(x - wide, y), (x + wide, y)]
+        self.axes.text(x, y, label, fontsize=font, ha="center", va="center", zorder=4)
