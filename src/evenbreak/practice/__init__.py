@@ -17,6 +17,8 @@ __getattr__, __dir__, __all__ = attach(
         ],
         "drill_log": ["DrillLog"],
         "drills": ["DrillStatistics", "drill_statistics"],
+        "log_analysis": ["LevelReport", "LogAnalysis", "PlayedAgainTest", "analyse_log"],
+        "progressive_fit": ["ProgressiveFit", "fit_progressive"],
         "shots": [
             "RankedShot",
             "Shot",

@@ -6,6 +6,12 @@ from evenbreak.practice.breaks import long_run_share as long_run_share
 from evenbreak.practice.drill_log import DrillLog as DrillLog
 from evenbreak.practice.drills import DrillStatistics as DrillStatistics
 from evenbreak.practice.drills import drill_statistics as drill_statistics
+from evenbreak.practice.log_analysis import LevelReport as LevelReport
+from evenbreak.practice.log_analysis import LogAnalysis as LogAnalysis
+from evenbreak.practice.log_analysis import PlayedAgainTest as PlayedAgainTest
+from evenbreak.practice.log_analysis import analyse_log as analyse_log
+from evenbreak.practice.progressive_fit import ProgressiveFit as ProgressiveFit
+from evenbreak.practice.progressive_fit import fit_progressive as fit_progressive
 from evenbreak.practice.shots import RankedShot as RankedShot
 from evenbreak.practice.shots import Shot as Shot
 from evenbreak.practice.shots import break_even_p2 as break_even_p2

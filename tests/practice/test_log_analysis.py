@@ -1,0 +1,169 @@
+from itertools import accumulate
+
+import numpy as np
+import pytest
+from scipy.stats import binomtest
+
+from evenbreak.errors import InputError
+from evenbreak.games import Drill
+from evenbreak.practice import (
+    DrillLog,
+    LogAnalysis,
+    analyse_log,
+    drill_statistics,
+    fit_progressive,
+)
+
+MODEL = 0.85 ** np.arange(9)
+
+
+def played(
+    success: np.ndarray, sessions: int, length: int, *, seed: int, memory: float = 0.0
+) -> DrillLog:
+    """Play a log step by step; `memory` lifts a chance after a success, lowers it after a miss."""
+    rng = np.random.default_rng(seed)
+    level, won, session = [], [], []
+    for number in range(sessions):
+        at, before = 1, 0.0
+        for _ in range(length):
+            outcome = rng.random() < success[at - 1] + before
+            level.append(at)
+            won.append(outcome)
+            session.append(number)
+            at = min(at + 1, len(success)) if outcome else max(at - 1, 1)
+            before = memory if outcome else -memory
+    return DrillLog(level, won, session)
+
+
+def analysed(log: DrillLog, *, seed: int = 1, replicas: int = 499) -> LogAnalysis:
+    return analyse_log(log, rng=np.random.default_rng(seed), replicas=replicas)
+
+
+@pytest.fixture(scope="module")
+def plain() -> LogAnalysis:
+    return analysed(played(MODEL, 8, 60, seed=2))
+
+
+def test_each_level_has_its_fraction_and_interval(plain: LogAnalysis) -> None:
+    log = played(MODEL, 8, 60, seed=2)
+    for report in plain.levels:
+        there = log.level == report.level
+        assert report.attempts == there.sum()
+        assert report.successes == (there & log.success).sum()
+        assert report.p == report.successes / report.attempts
+        wilson = binomtest(report.successes, report.attempts).proportion_ci(method="wilson")
+        assert (report.p_low, report.p_high) == tuple(wilson)
+
+
+def test_the_implied_law_is_the_limit_of_the_chances_seen(plain: LogAnalysis) -> None:
+    statistics = drill_statistics(Drill([report.p or 0.0 for report in plain.levels]))
+    assert plain.implied.probability == pytest.approx(statistics.distribution.probability)
+    assert [report.implied for report in plain.levels] == list(plain.implied.probability)
+    assert [report.gain for report in plain.levels] == pytest.approx(statistics.gain)
+    assert plain.mean_low < plain.implied.mean < plain.mean_high
+
+
+def test_fractions_sum_to_1(plain: LogAnalysis) -> None:
+    for name in ("visited", "implied", "expected", "p_best"):
+        total = list(accumulate(getattr(report, name) for report in plain.levels))[-1]
+        assert total == pytest.approx(1.0)
+
+
+def test_the_lift_is_what_five_points_more_bring(plain: LogAnalysis) -> None:
+    chances = [report.p or 0.0 for report in plain.levels]
+    for i, report in enumerate(plain.levels):
+        more = [*chances[:i], min(chances[i] + 0.05, 1.0), *chances[i + 1 :]]
+        moved = drill_statistics(Drill(more)).distribution.mean - plain.implied.mean
+        assert report.lift == pytest.approx(moved, abs=0.15 * moved + 1e-3)
+
+
+def test_where_practice_helps_most() -> None:
+    """With many attempts at hand the level of the greatest lift is found for sure."""
+    success = np.array([0.95, 0.9, 0.3, 0.05])
+    analysis = analysed(played(success, 20, 200, seed=3))
+    lifts = np.array(drill_statistics(Drill(success)).gain) * np.minimum(0.05, 1 - success)
+    assert analysis.practise_next.level == lifts.argmax() + 1
+    assert analysis.practise_next.p_best > 0.99
+
+
+def test_few_attempts_leave_it_open() -> None:
+    assert analysed(played(MODEL, 2, 12, seed=4)).practise_next.p_best < 0.9
+
+
+def test_nobody_is_sent_to_practise_a_level_without_room() -> None:
+    analysis = analysed(DrillLog([1, 2] * 500 + [1], [1, 0] * 500 + [1]))
+    assert analysis.levels[0].lift == 0.0
+    assert analysis.practise_next.level == 2
+
+
+def test_sessions_that_begin_low_make_a_difference_but_no_surprise() -> None:
+    log = played(np.full(9, 0.75), 60, 6, seed=5)
+    analysis = analysed(log)
+    assert analysis.difference.seen > 0.3
+    assert analysis.difference.p_value > 0.05
+    for report in analysis.levels:
+        assert report.expected == pytest.approx(report.visited, abs=0.03)
+
+
+def test_tests_let_an_honest_log_pass() -> None:
+    """Of 40 logs without memory about 4 fall below .1; 12 or more would be a bad test."""
+    p_values = np.array(
+        [
+            [test.p_value for test in (analysis.difference, analysis.memory, analysis.model_test)]
+            for seed in range(40)
+            if (analysis := analysed(played(MODEL, 5, 40, seed=seed), replicas=99))
+        ]
+    )
+    assert ((p_values < 0.1).sum(0) < 12).all()
+    assert (np.abs(p_values.mean(0) - 0.5) < 0.2).all()
+
+
+@pytest.mark.parametrize("memory", [0.15, -0.15])
+def test_a_memory_is_found(memory: float) -> None:
+    analysis = analysed(played(MODEL, 8, 60, seed=6, memory=memory))
+    assert analysis.memory is not None
+    assert analysis.memory.p_value < 0.02
+    assert np.sign(analysis.memory.seen) == np.sign(memory)
+    assert abs(analysis.memory.by_chance) < 0.05
+
+
+def test_a_wrong_model_is_found_and_a_right_one_kept(plain: LogAnalysis) -> None:
+    assert plain.model == fit_progressive(played(MODEL, 8, 60, seed=2))
+    assert plain.model_test is not None
+    assert plain.model_test.p_value > 0.05
+    afraid = MODEL * np.where(np.arange(9) == 4, 0.4, 1)
+    test = analysed(played(afraid, 8, 60, seed=7)).model_test
+    assert test is not None
+    assert test.p_value < 0.02
+
+
+def test_level_1_alone() -> None:
+    analysis = analysed(DrillLog([1, 1, 1], [0, 0, 0]))
+    assert (analysis.model, analysis.model_test, analysis.memory) == (None, None, None)
+    assert analysis.implied.probability == (1.0,)
+    assert analysis.difference.seen == 0.0
+
+
+def test_levels_nobody_tried() -> None:
+    analysis = analysed(DrillLog([1, 2, 1, 2, 1], [1, 0, 1, 0, 1], levels=4))
+    untried = analysis.levels[2:]
+    assert [report.p for report in untried] == [None, None]
+    assert [(report.p_low, report.p_high) for report in untried] == [(0.0, 1.0)] * 2
+    assert [report.p_best for report in untried] == [0.0, 0.0]
+
+
+def test_one_attempt() -> None:
+    analysis = analysed(DrillLog([4], [1]))
+    assert analysis.visited.probability == (1,)
+    assert [report.attempts for report in analysis.levels] == [0, 0, 0, 1]
+
+
+def test_the_same_seed_gives_the_same_answer() -> None:
+    log = played(MODEL, 3, 30, seed=8)
+    assert analysed(log, seed=9, replicas=50) == analysed(log, seed=9, replicas=50)
+    assert analysed(log, seed=9, replicas=50) != analysed(log, seed=10, replicas=50)
+
+
+def test_replicas_are_one_or_more() -> None:
+    with pytest.raises(InputError, match="replicas is 0"):
+        analysed(DrillLog([1], [1]), replicas=0)
