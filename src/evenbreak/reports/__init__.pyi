@@ -8,8 +8,16 @@ from evenbreak.reports.matchups import matchups_frame as matchups_frame
 from evenbreak.reports.matchups import most_active as most_active
 from evenbreak.reports.paper import pdf_bytes as pdf_bytes
 from evenbreak.reports.problems import Problems as Problems
+from evenbreak.reports.published import Erratum as Erratum
+from evenbreak.reports.published import PublishedNumber as PublishedNumber
+from evenbreak.reports.published import errata as errata
+from evenbreak.reports.published import further_numbers as further_numbers
+from evenbreak.reports.published import p5_6_tables as p5_6_tables
+from evenbreak.reports.published import published_numbers as published_numbers
 from evenbreak.reports.read_arcs import ArcsFile as ArcsFile
 from evenbreak.reports.read_arcs import read_arcs as read_arcs
+from evenbreak.reports.read_drill_log import DrillLogFile as DrillLogFile
+from evenbreak.reports.read_drill_log import read_drill_log as read_drill_log
 from evenbreak.reports.read_results import ResultsFile as ResultsFile
 from evenbreak.reports.read_results import read_results as read_results
 from evenbreak.reports.read_table import Table as Table
