@@ -169,10 +169,28 @@ class TestLaws:
                     assert found == pytest.approx(float(right), rel=1e-12, abs=0)
 
     @pytest.mark.parametrize("games", [1, 3, 119, 10**6 + 1])
-    def test_an_odd_number_of_even_games_ties_at_the_median(self, games: int) -> None:
+    def test_an_odd_number_of_even_games_ties_at_the_median(
+        self, games: int, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
         law = GamesWon(games, 0.5)
+        if games > 10**4:  # where the sum would take a minute
+            monkeypatch.setattr("evenbreak.stats.binomial._lower_sum", None)
         assert law.median == (games - 1) // 2
         assert law.modes == ((games - 1) // 2, (games + 1) // 2)
+
+    def test_far_quantiles_of_many_games_need_no_long_sums(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setattr("evenbreak.stats.binomial._lower_sum", None)
+        law = GamesWon(10**6, 0.5)
+        for q in (1e-12, 1e-3, 0.3, 0.7, 1 - 1e-12):
+            n = law.quantile(q)
+            assert law.cumulative(n - 1) < q <= law.cumulative(n)
+        assert law.quantile(1e-12) + law.quantile(1 - 1e-12) == 10**6
+        low, high, inside = law.exact_range(1 - 1e-12)
+        assert low + high == 10**6
+        assert 1 - inside == pytest.approx(1e-12, rel=0.1)
+        assert law.exact_range(1) == (0, 10**6, 1.0)
 
     @pytest.mark.parametrize("n", [-1, 0, 40, 59, 60, 119, 120, 121])
     def test_the_exact_sum_from_either_end(self, n: int) -> None:

@@ -23,10 +23,11 @@ class Steps(CountLaw):
         return 0.5 ** (np.asarray(n) + 1.0)
 
     def cumulative(self, n: Any) -> Any:
-        return np.where(np.asarray(n) < 0, 0.0, 1 - 0.5 ** (np.maximum(n, 0) + 1.0)) + self.wrong
+        below = 1 - 0.5 ** (np.maximum(n, 0) + 1.0)
+        return np.where(np.asarray(n) < 0, 0.0, below * (1 + self.wrong))
 
     def at_least(self, n: Any) -> Any:
-        return 0.5 ** np.maximum(np.asarray(n, float), 0.0)
+        return 0.5 ** np.maximum(np.asarray(n, float), 0.0) * (1 - self.wrong)
 
     def exact_cumulative(self, n: int) -> Fraction:
         self.asked_exactly.append(n)
@@ -45,6 +46,8 @@ class Steps(CountLaw):
         (0.7500001, 2),
         (0, 0),
         (1 - 2**-10, 9),
+        (1 - Fraction(1, 2**60), 59),
+        (1 - Fraction(1, 2**60) + Fraction(1, 10**40), 60),
     ],
 )
 def test_a_quantile_at_a_tie_is_the_exact_one(q: Any, count: int, wrong: float) -> None:

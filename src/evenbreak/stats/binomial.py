@@ -16,7 +16,8 @@ from evenbreak.stats.exact import exact
 __all__ = ["GamesWon", "ScoreRange", "coverage_within", "critical_value", "score_probability"]
 
 _NEAR = 1e-9
-"""Floats that come nearer to a coverage than this leave the decision to fractions."""
+"""A range that comes nearer to a coverage than this leaves the decision to what is outside
+it, and that, where it comes as near relatively, to fractions."""
 
 
 def score_probability(p: Any, m: Any, n: Any) -> Any:
@@ -165,6 +166,8 @@ class GamesWon(CountLaw):
         """Return P(score <= n) without rounding."""
         if n >= self.games:
             return Fraction(1)
+        if n < 0:
+            return Fraction(0)
         p = exact(self.p)
         if 2 * n + 1 == self.games and p == Fraction(1, 2):
             return p  # at any number of games, where the sum would be long
@@ -217,10 +220,10 @@ class GamesWon(CountLaw):
         (59, 66)
         """
         wanted = exact(coverage, "coverage")
+        if wanted == 1:
+            return ScoreRange(0 if self.p < 1 else self.games, self.most, 1.0)
         for low, high, inside in self._widening():
-            if inside - wanted > _NEAR or (
-                inside - wanted > -_NEAR and self._exact_between(low, high) >= wanted
-            ):
+            if self._holds(low, high, inside, wanted):
                 break
         return ScoreRange(low, high, float(self.between(low, high)))
 
@@ -246,9 +249,15 @@ class GamesWon(CountLaw):
                 inside += above
             yield low, high, inside
 
-    def _exact_between(self, low: int, high: int) -> Fraction:
-        below = self.exact_cumulative(low - 1) if low else 0
-        return self.exact_cumulative(high) - below
+    def _holds(self, low: int, high: int, inside: float, wanted: Fraction) -> bool:
+        """Whether P(low <= score <= high), about `inside`, is at least the one wanted."""
+        distance = inside - float(wanted)
+        if abs(distance) > _NEAR:
+            return distance > 0
+        outside, rest = self.cumulative(low - 1) + self.at_least(high + 1), float(1 - wanted)
+        if abs(outside - rest) > _NEAR * rest:
+            return bool(outside < rest)
+        return self.exact_cumulative(high) - self.exact_cumulative(low - 1) >= wanted
 
 
 def critical_value(coverage: Any) -> Any:
@@ -318,4 +327,4 @@ def _lower_sum(games: int, n: int, p: Fraction) -> Fraction:
         total = total * lost + ways * power
         ways = ways * (games - k) // (k + 1)
         power *= won
-    return Fraction(total * lost ** (games - n), p.denominator**games) if n >= 0 else Fraction(0)
+    return Fraction(total * lost ** (games - n), p.denominator**games)

@@ -6,7 +6,6 @@ from abc import ABC, abstractmethod
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.stats.exact import exact
 
@@ -15,15 +14,19 @@ if TYPE_CHECKING:
 
 __all__ = ["CountLaw", "whole_counts"]
 
+_HALF = Fraction(1, 2)
+
 _NEAR = 1e-9
-"""Floats that come nearer to a quantile than this leave the decision to fractions."""
+"""Tails that come nearer to the one wanted than this, relatively, leave the decision to
+fractions."""
 
 
 class CountLaw(ABC):
     """A probability law on 0, 1, 2, ...; its median and quantiles are decided exactly.
 
     A law says its `mean`, `sd` and `mode`, its `probability` of a count and the two sums
-    `cumulative` and `at_least`, each accurate where it is small. The rest follows.
+    `cumulative` and `at_least`, each with a small relative error where it is small. The rest
+    follows.
     """
 
     @property
@@ -82,6 +85,8 @@ class CountLaw(ABC):
         """
         wanted = exact(q, "q")
         most = self.most
+        if wanted == 0:
+            return 0
         if wanted == 1:
             if most is None:
                 raise InputError("q is 1, and no count is the largest; give a q below 1")
@@ -102,13 +107,17 @@ class CountLaw(ABC):
     @property
     def median(self) -> int:
         """The smallest count n with P(count <= n) >= 1/2."""
-        return self.quantile(Fraction(1, 2))
+        return self.quantile(_HALF)
 
     def _reaches(self, n: int, wanted: Fraction) -> bool:
-        distance = float(self.cumulative(n)) - float(wanted)
-        if abs(distance) > _NEAR:
-            return distance > 0.0
-        return self.exact_cumulative(whole(n, "n")) >= wanted
+        """Whether P(count <= n) >= wanted; the smaller tail knows best."""
+        if wanted < _HALF:
+            found, tail = self.cumulative(n), float(wanted)
+        else:
+            found, tail = -self.at_least(n + 1), -float(1 - wanted)
+        if abs(found - tail) > _NEAR * abs(tail):
+            return bool(found > tail)
+        return self.exact_cumulative(n) >= wanted
 
 
 def whole_counts(n: Any, name: str = "n", *, at_least: int | None = None) -> NDArray[Any]:
