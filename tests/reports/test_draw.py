@@ -137,3 +137,31 @@ def test_a_diagram_that_nobody_could_read_is_refused() -> None:
 def test_a_layout_must_place_every_state() -> None:
     with pytest.raises(InputError, match="no place for state 'S2'"):
         draw(OneBall(0.5, 0.5), layout={"S1": (0, 0), "W": (1, 0), "L": (2, 0)})
+
+
+def test_words_have_no_circle_and_kinds_say_where_the_game_begins() -> None:
+    graph = nx.DiGraph()
+    graph.add_node("S1", kind="transient")
+    graph.add_node("later", kind="words", label=r"$\cdots$")
+    graph.add_edge("S1", "later", label="$q_1$")
+    figure = draw(graph, layout={"S1": (0, 0), "later": (1, 0)})
+    assert len(circles(figure)) == 1
+    assert texts(figure) == ["$q_1$", "$S_{1}$", r"$\cdots$"]
+    starts = [text for text in figure.axes[0].texts if isinstance(text, Annotation)]
+    assert starts == []
+    graph.nodes["S1"]["kind"] = "start"
+    marked = draw(graph).axes[0].texts
+    assert sum(isinstance(text, Annotation) for text in marked) == 1
+
+
+def test_a_heading_lies_within_the_picture() -> None:
+    graph = nx.DiGraph()
+    graph.add_node("one", kind="transient")
+    graph.add_node("title", kind="words", label="A heading wider than the game below it")
+    figure = draw(graph, layout={"one": (0, 0), "title": (0, 0.7)})
+    figure.canvas.draw()
+    axes = figure.axes[0]
+    for text in axes.texts:
+        box = text.get_window_extent()
+        assert box.x0 >= 0
+        assert box.x1 <= figure.bbox.width
