@@ -202,10 +202,10 @@ def autocorrelated_ladder(
     -----
     Source: the autocorrelated model after Fig. 5.9.
 
-    The law is the symmetric one. Within symmetric laws each round brings the change down
-    to about a hundredth; but a shift of the opponents' ratings by a little shifts the
-    player's the other way by a little more, so that without the symmetry rounding errors
-    grow until the law swings to and fro between two skewed ones.
+    The law is the symmetric one. Among symmetric laws each round brings the change down
+    to a hundredth or so. But where opponents are a little better on average than they are
+    rated, the player falls below his own skill by a little more: without the symmetry,
+    rounding errors grow until the law swings to and fro between two skewed ones.
 
     >>> from evenbreak.handicaps import chart
     >>> found = autocorrelated_ladder(chart("npl_8"))
