@@ -12,6 +12,13 @@ __getattr__, __dir__, __all__ = attach(
         "length": ["MatchLength", "match_length"],
         "scores": ["FinalScores", "final_scores", "hill_hill_probability"],
         "shutout": ["shutout_probability"],
+        "straight_pool": [
+            "EvenPoints",
+            "StraightPool",
+            "StraightPoolOdds",
+            "even_points",
+            "straight_pool_odds",
+        ],
         "win": ["race_win_probability", "win_probability"],
         "scalar": ["Odds", "RaceLaw", "match_odds", "race_law"],
     },

@@ -8,5 +8,10 @@ from evenbreak.matches.scores import FinalScores as FinalScores
 from evenbreak.matches.scores import final_scores as final_scores
 from evenbreak.matches.scores import hill_hill_probability as hill_hill_probability
 from evenbreak.matches.shutout import shutout_probability as shutout_probability
+from evenbreak.matches.straight_pool import EvenPoints as EvenPoints
+from evenbreak.matches.straight_pool import StraightPool as StraightPool
+from evenbreak.matches.straight_pool import StraightPoolOdds as StraightPoolOdds
+from evenbreak.matches.straight_pool import even_points as even_points
+from evenbreak.matches.straight_pool import straight_pool_odds as straight_pool_odds
 from evenbreak.matches.win import race_win_probability as race_win_probability
 from evenbreak.matches.win import win_probability as win_probability

@@ -1,0 +1,286 @@
+"""14.1 straight pool: each player shoots until he misses, and the first to reach his points wins.
+
+A player who needs N points gets them in inning T of his own, whatever the other does. With
+alpha p the chance of the first shot of an inning and p that of the others, the chances of
+T = 1, 2, ... are the coefficients of
+
+    alpha p^N (1 - a z)^(N - 1) / (1 - b z)^N,    a = 1 - alpha, b = 1 - alpha p,
+
+and the ratios r_j of each to the one before obey, from r_0 = N alpha (1 - p) + a on,
+
+    (j + 1) r_j = (a + b) j + N alpha (1 - p) + a - a b j / r_(j - 1).
+
+They decrease towards b. What is subtracted is at most a j, and the sum is larger by b j and
+more, so every chance keeps nearly all its digits, without safety play (a = 0) and with it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import KW_ONLY, dataclass
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.checks import one_of, whole
+from evenbreak.errors import InputError
+from evenbreak.matches.quantiles import quantile_of
+from evenbreak.stats.exact import exact
+
+__all__ = ["EvenPoints", "StraightPool", "StraightPoolOdds", "even_points", "straight_pool_odds"]
+
+_LONGEST = 10_000
+"""The most innings, on average, that a player may need here."""
+
+_TAIL = 60.0
+"""Innings are left out from where exp(-60) of the largest chance is still to come."""
+
+
+@dataclass(frozen=True)
+class StraightPool:
+    """A match of 14.1 straight pool; who needs fewer points has a handicap, or is ahead.
+
+    The players shoot by turns, and a turn, an inning, ends with the first miss. Fouls, and
+    the points they cost, are left out; a safety that is played counts as a miss.
+
+    Parameters
+    ----------
+    points_1, points_2
+        the points that player 1 and player 2 need, 1 or more.
+    p1, p2
+        P(the player makes a shot), the same for every shot but the first of an inning. A
+        float means the decimal that it prints as.
+    safety_1, safety_2
+        P(player 1, 2 makes the first shot of an inning) is safety_1 p1, safety_2 p2: below 1
+        where the opponent leaves a hard shot.
+    first
+        who has the first inning, 1 or 2.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have.
+
+    >>> StraightPool(100, 80, 0.9, 0.85)
+    StraightPool(points_1=100, points_2=80, p1=0.9, p2=0.85, safety_1=1, safety_2=1, first=1)
+    """
+
+    points_1: int
+    points_2: int
+    p1: float | Fraction
+    p2: float | Fraction
+    _: KW_ONLY
+    safety_1: float | Fraction = 1
+    safety_2: float | Fraction = 1
+    first: int = 1
+
+    def __post_init__(self) -> None:
+        for name in ("points_1", "points_2"):
+            object.__setattr__(self, name, whole(getattr(self, name), name, at_least=1))
+        for name in ("p1", "p2", "safety_1", "safety_2"):
+            exact(getattr(self, name), name)
+        object.__setattr__(self, "first", one_of(self.first, "first", (1, 2)))
+
+
+@dataclass(frozen=True)
+class StraightPoolOdds:
+    """The chances of a match of straight pool, and its length.
+
+    Parameters
+    ----------
+    p_win_1, p_win_2
+        P(player 1, 2 wins the match).
+    p_never_ends
+        P(nobody ever wins): 1 where neither player can make the first shot, else 0.
+    mean_innings, sd_innings
+        mean and standard deviation of the innings that the winner has had at the end; None
+        where the match never ends.
+    innings_p50, innings_p90
+        the smallest number of innings within which it ends with chance .5, .9; None likewise.
+    """
+
+    p_win_1: float
+    p_win_2: float
+    p_never_ends: float
+    mean_innings: float | None
+    sd_innings: float | None
+    innings_p50: int | None
+    innings_p90: int | None
+
+
+class EvenPoints(NamedTuple):
+    """The points of player 2 that make a match nearest to even.
+
+    `p_win_1` is P(player 1 wins the match) with them; `p_win_1_less` and `p_win_1_more` with
+    a point less and a point more for player 2, None where that is no match.
+    """
+
+    points_2: int
+    p_win_1: float
+    p_win_1_less: float | None
+    p_win_1_more: float
+
+
+def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
+    """Return who wins a match of straight pool, and in how many innings.
+
+    Parameters
+    ----------
+    match
+        the match.
+
+    Raises
+    ------
+    InputError
+        if a player would take more than 10,000 innings on average, but not for ever.
+
+    Notes
+    -----
+    P(player 1 wins) is the sum over i of P(player 1 gets there in inning i) times P(player 2
+    has not got there before). Runs as in problems P5.11 and P5.15.
+
+    >>> odds = straight_pool_odds(StraightPool(100, 100, 0.9, 0.85))
+    >>> round(odds.p_win_1, 4), round(odds.p_win_2, 4), round(odds.mean_innings, 2)
+    (0.8916, 0.1084, 11.76)
+    """
+    (reach_1, left_1), (reach_2, left_2) = _aligned(match)
+    # The second player has his i-th inning only if the first has missed in his own.
+    if match.first == 1:
+        win_1, win_2 = reach_1 * left_2[:-1], reach_2 * left_1[1:]
+    else:
+        win_1, win_2 = reach_1 * left_2[1:], reach_2 * left_1[:-1]
+    ends = win_1 + win_2
+    p_win_1, p_win_2 = float(win_1.sum()), float(win_2.sum())
+    if not ends.any():
+        return StraightPoolOdds(0.0, 0.0, 1.0, None, None, None, None)
+    innings = np.arange(1, ends.size + 1)
+    mean = float((innings * ends).sum())
+    half, most = (quantile_of(ends.tolist(), q) for q in (0.5, 0.9))
+    return StraightPoolOdds(
+        p_win_1=p_win_1,
+        p_win_2=p_win_2,
+        p_never_ends=0.0,
+        mean_innings=mean,
+        sd_innings=math.sqrt(float(((innings - mean) ** 2 * ends).sum())),
+        innings_p50=None if half is None else half + 1,
+        innings_p90=None if most is None else most + 1,
+    )
+
+
+def even_points(
+    points_1: int,
+    p1: Any,
+    p2: Any,
+    *,
+    safety_1: Any = 1,
+    safety_2: Any = 1,
+    first: int = 1,
+    most: int = 10_000,
+) -> EvenPoints:
+    """Return how many points player 2 should need, where player 1 needs `points_1`.
+
+    Parameters
+    ----------
+    points_1, p1, p2, safety_1, safety_2, first
+        as in `StraightPool`.
+    most
+        the most points that player 2 may need.
+
+    Returns
+    -------
+    EvenPoints
+        the nearest to even from 1 to `most`; of two that are equally near the fewer points.
+
+    Raises
+    ------
+    InputError
+        as `straight_pool_odds` does.
+
+    >>> even = even_points(100, 0.9, 0.85)
+    >>> even.points_2, round(even.p_win_1, 3)
+    (60, 0.497)
+    """
+    most = whole(most, "most", at_least=1)
+
+    def win(points_2: int) -> float:
+        match = StraightPool(
+            points_1, points_2, p1, p2, safety_1=safety_1, safety_2=safety_2, first=first
+        )
+        return straight_pool_odds(match).p_win_1
+
+    low, high = 0, 1
+    while high < most and win(high) < 0.5:
+        low, high = high, min(2 * high, most)
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if win(middle) < 0.5 else (low, middle)
+    nearest = high if low == 0 or abs(win(high) - 0.5) < abs(win(low) - 0.5) else low
+    less = win(nearest - 1) if nearest > 1 else None
+    return EvenPoints(nearest, win(nearest), less, win(nearest + 1))
+
+
+def _aligned(match: StraightPool) -> list[tuple[NDArray[Any], NDArray[Any]]]:
+    """Return for each player P(T = i) for i = 1, 2, ..., n, and P(T >= i) up to i = n + 1."""
+    players = [
+        (match.points_1, exact(match.p1), exact(match.safety_1)),
+        (match.points_2, exact(match.p2), exact(match.safety_2)),
+    ]
+    for number, (points, p, safety) in enumerate(players, 1):
+        _refuse_ages(number, points, p, safety)
+    longest = max(_innings_to(*player, at_least=1).size for player in players)
+    laws = []
+    for player in players:
+        reach = np.zeros(longest)
+        found = _innings_to(*player, at_least=longest)[:longest]
+        reach[: found.size] = found
+        left = np.append(reach[::-1].cumsum()[::-1], 0.0) if found.any() else np.ones(longest + 1)
+        laws.append((reach, left))
+    return laws
+
+
+def _innings_to(points: int, p: Fraction, safety: Fraction, *, at_least: int) -> NDArray[Any]:
+    """Return P(the points are reached in inning i), i = 1, 2, ...; zero if they never are."""
+    if p * safety == 0:
+        return np.zeros(at_least)
+    ratios = []
+    log_chance = peak = 0.0
+    for ratio in _ratios(points, p, safety):
+        if ratio == 0.0:
+            break
+        ratios.append(ratio)
+        log_chance += math.log(ratio)
+        peak = max(peak, log_chance)
+        # The ratios decrease, so what is still to come is less than a geometric sum.
+        if ratio < 1.0 and len(ratios) >= at_least:
+            to_come = log_chance - math.log1p(-ratio)
+            if to_come < peak - _TAIL:
+                break
+    # From the largest chance outward, so that none is the product of very many roundings.
+    turn = sum(ratio > 1.0 for ratio in ratios)
+    before = np.cumprod(1.0 / np.array(ratios[:turn][::-1]))[::-1]
+    chances = np.concatenate([before, [1.0], np.cumprod(ratios[turn:])])
+    return np.asarray(chances / chances.sum())
+
+
+def _ratios(points: int, p: Fraction, safety: Fraction) -> Iterator[float]:
+    a, b = float(1 - safety), float(1 - safety * p)
+    start = float(points * safety * (1 - p) + 1 - safety)
+    ratio, j = start, 0
+    while True:
+        yield ratio
+        j += 1
+        ratio = ((a + b) * j + start - a * b * j / ratio) / (j + 1)
+
+
+def _refuse_ages(number: int, points: int, p: Fraction, safety: Fraction) -> None:
+    if p * safety == 0:
+        return
+    innings = (points * (1 - p) + p) / (safety * p)
+    if innings > _LONGEST:
+        raise InputError(
+            f"p{number} is {float(p):g}: {points} points take {float(innings):.3g} innings on "
+            f"average and {_LONGEST:,} are the most here; give a larger chance or fewer points"
+        )
