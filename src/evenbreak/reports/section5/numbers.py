@@ -1,0 +1,110 @@
+"""Every number that section 5 prints, beside the number that the library computes.
+
+What is printed, how exact it must be and what is said of it comes with the package
+(`reports.published`); `ANSWERS` says how each quantity is computed from its inputs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from decimal import Decimal
+from functools import cache
+from typing import Any, NamedTuple
+
+from evenbreak.reports.published import PublishedNumber
+from evenbreak.reports.section5 import (
+    break_formats,
+    games_won,
+    innings,
+    long_run,
+    one_ball,
+    samples,
+)
+from evenbreak.reports.section5.rows import Answers, parse_inputs
+
+__all__ = ["ANSWERS", "Finding", "by_problem", "compute", "findings", "verdict_of"]
+
+ANSWERS: Answers = {
+    key: function
+    for part in (samples, games_won, innings, one_ball, break_formats, long_run)
+    for key, function in part.ANSWERS.items()
+}
+"""How each quantity is computed from its inputs, by problem and quantity."""
+
+_HOME = {
+    "Table 5.1": "P5.10",
+    "Table 5.2": "P5.11",
+    "Table 5.3": "P5.16",
+    "Table 5.4": "P5.24",
+    "Table 5.5": "P5.26",
+}
+"""The problem that a table answers, or stands before."""
+
+
+class Finding(NamedTuple):
+    """A printed number, what is computed in its place, and the verdict."""
+
+    published: PublishedNumber
+    computed: float
+    verdict: str
+    """agrees, erratum, derived (nothing is printed), or differs, which should never be."""
+
+
+def compute(problem: str, quantity: str, inputs: str) -> Any:
+    """Return a quantity of section 5, computed from the inputs as the text states them.
+
+    Raises
+    ------
+    KeyError
+        if section 5 has no such quantity.
+
+    >>> compute("P5.5", "P(3:0)", "p=2/3")
+    Fraction(8, 27)
+    """
+    return ANSWERS[problem, quantity](parse_inputs(inputs))
+
+
+def verdict_of(published: PublishedNumber, computed: float) -> str:
+    """Return what comparing says: agrees, erratum, derived or differs.
+
+    A printed number agrees if it is within the tolerance. It is an erratum if the package
+    data call it one and it is not what rounding gives: wrong, truncated or rounded twice.
+    """
+    if published.printed is None:
+        return "derived"
+    off = abs(computed - float(published.printed))
+    if published.verdict == "erratum" and off > _half_unit(published.printed):
+        return "erratum"
+    return "agrees" if off <= float(published.tolerance) else "differs"
+
+
+def _half_unit(printed: Decimal) -> float:
+    """Return how far rounding can be off, half of the last printed place.
+
+    >>> _half_unit(Decimal("0.90"))
+    0.005
+    """
+    return float(Decimal((0, (5,), int(printed.as_tuple().exponent) - 1)))
+
+
+@cache
+def findings() -> tuple[Finding, ...]:
+    """Return every number of section 5 with its computed value and verdict, in order."""
+    from evenbreak.reports.published import further_numbers, p5_6_tables, published_numbers
+
+    rows = (*published_numbers(), *further_numbers(), *p5_6_tables())
+    return tuple(_found(row) for row in rows)
+
+
+def _found(published: PublishedNumber) -> Finding:
+    computed = float(compute(published.problem, published.quantity, published.inputs))
+    return Finding(published, computed, verdict_of(published, computed))
+
+
+def by_problem(found: Iterable[Finding]) -> Mapping[str, list[Finding]]:
+    """Return the findings by the problem they belong to, a table with its problem."""
+    grouped: dict[str, list[Finding]] = {}
+    for finding in found:
+        problem = finding.published.problem
+        grouped.setdefault(_HOME.get(problem, problem), []).append(finding)
+    return grouped
