@@ -3,6 +3,12 @@ from evenbreak.stats.binomial import ScoreRange as ScoreRange
 from evenbreak.stats.binomial import coverage_within as coverage_within
 from evenbreak.stats.binomial import critical_value as critical_value
 from evenbreak.stats.binomial import score_probability as score_probability
+from evenbreak.stats.confidence import Luck as Luck
+from evenbreak.stats.confidence import MeanInterval as MeanInterval
+from evenbreak.stats.confidence import Reading as Reading
+from evenbreak.stats.confidence import mean_interval as mean_interval
+from evenbreak.stats.confidence import sd_of_mean as sd_of_mean
+from evenbreak.stats.confidence import was_it_luck as was_it_luck
 from evenbreak.stats.counts import CountLaw as CountLaw
 from evenbreak.stats.counts import whole_counts as whole_counts
 from evenbreak.stats.exact import exact as exact

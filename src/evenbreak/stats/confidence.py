@@ -1,0 +1,315 @@
+"""What a list of scores tells: of the true mean behind it, and of one score more.
+
+Two laws are at hand for both questions. The normal law takes the spread of the scores
+(their population standard deviation) for the true one; Student's t allows for the spread
+being estimated from the same few scores. With 10 scores the difference is worth having.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from evenbreak.checks import number_probability, one_of, whole
+from evenbreak.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+__all__ = [
+    "Luck",
+    "MeanInterval",
+    "Reading",
+    "checked_scores",
+    "mean_interval",
+    "open_share",
+    "sd_of_mean",
+    "was_it_luck",
+]
+
+
+def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
+    """Return the standard deviation of the mean of n values drawn at random.
+
+    Parameters
+    ----------
+    sd
+        population standard deviation of the values that are drawn from.
+    n
+        how many are drawn.
+    population
+        how many values there are, each of which is drawn once at most (without
+        replacement); None where each draw is from all of them (with replacement, or
+        from so many that it makes no difference).
+
+    Raises
+    ------
+    InputError
+        if sd is not a number from 0 on, n not a whole number from 1 on, or population
+        less than n.
+
+    Notes
+    -----
+    P5.18: sd / sqrt(n), times sqrt((N - n) / (N - 1)) where N values are drawn from
+    without replacement; a mean of all of them is certain.
+
+    >>> round(sd_of_mean(2.5**0.5, 2), 4), round(sd_of_mean(2.5**0.5, 2, population=4), 4)
+    (1.118, 0.9129)
+    """
+    spread = _number(sd, "sd")
+    if spread < 0.0:
+        raise InputError(f"sd is {sd!r}; give a number from 0 on")
+    n = whole(n, "n", at_least=1)
+    if population is None:
+        return spread / math.sqrt(n)
+    total = whole(population, "population", at_least=n)
+    if n == total:
+        return 0.0
+    return spread * math.sqrt((total - n) / (total - 1) / n)
+
+
+class MeanInterval(NamedTuple):
+    """An interval for the true mean of scores, and what it was made from.
+
+    `low` to `high` is made so that, of many lists of scores, the share `confidence` of
+    their intervals cover the true mean. `sd` is the sample's (n - 1) for "t", the
+    population's (n) for "normal"; `sd_of_mean` is that over sqrt(n).
+    """
+
+    low: float
+    high: float
+    confidence: float
+    mean: float
+    sd: float
+    sd_of_mean: float
+    n: int
+    method: Literal["t", "normal"]
+
+
+def mean_interval(
+    scores: Any, confidence: float = 0.95, *, method: Literal["t", "normal"] = "t"
+) -> MeanInterval:
+    """Return the interval in which the true mean of scores lies, with a given confidence.
+
+    Parameters
+    ----------
+    scores
+        two numbers or more that differ, drawn independently from one law: no trend, no
+        learning. The law is taken to be near normal.
+    confidence
+        share of such intervals that cover the true mean, between 0 and 1.
+    method
+        "t", Student's, which allows for a spread estimated from the scores, is exact for
+        normal scores and the better choice; "normal" takes the spread of the scores for
+        the true one, and is too narrow where they are few.
+
+    Raises
+    ------
+    InputError
+        if there are fewer than two scores, one is not a finite number, all are the same,
+        confidence is not between 0 and 1 or method is unknown.
+
+    Notes
+    -----
+    P5.19 takes the normal law.
+
+    >>> scores = [50, 44, 46, 52, 47, 51, 49, 45, 48, 50]
+    >>> text = mean_interval(scores, 0.8, method="normal")
+    >>> round(text.low, 2), round(text.high, 2)
+    (47.18, 49.22)
+    >>> better = mean_interval(scores, 0.8)
+    >>> round(better.low, 2), round(better.high, 2)
+    (47.04, 49.36)
+    """
+    method = one_of(method, "method", ("t", "normal"))
+    return _interval(_differing(scores), open_share(confidence), method)
+
+
+class Reading(NamedTuple):
+    """How far out a score is, and how often chance alone puts one there.
+
+    `units` is the distance from the mean in standard deviations. If nothing but chance
+    has changed, a score at least so far from the mean, on either side, comes with
+    probability `as_far`; one at least so high with `as_high`, at most so low with
+    `as_low`.
+    """
+
+    units: float
+    as_far: float
+    as_high: float
+    as_low: float
+
+
+class Luck(NamedTuple):
+    """Three readings of one new score beside earlier ones, and its rank among them.
+
+    Parameters
+    ----------
+    score, n, mean
+        the new score; number and mean of the earlier ones.
+    normal
+        by the normal law, with mean and population standard deviation of the earlier
+        scores taken for the true ones.
+    t
+        by Student's t with n - 1 degrees of freedom and the standard deviation
+        s sqrt(1 + 1/n) of a new score about an estimated mean: the better choice.
+    cautious
+        by the normal law, counted not from the mean but from the end of its normal
+        interval that is nearer to the score; `units` is 0 where the score lies in it.
+    as_high_by_rank, as_low_by_rank
+        chance that the new one of n + 1 scores ranks at least so high (or so low) among
+        them, whatever law they come from: 1 / (n + 1) for a score that beats all. It
+        cannot be smaller than that.
+    """
+
+    score: float
+    n: int
+    mean: float
+    normal: Reading
+    t: Reading
+    cautious: Reading
+    as_high_by_rank: float
+    as_low_by_rank: float
+
+
+def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
+    """Return how often a score such as a new one would come by chance alone.
+
+    Parameters
+    ----------
+    scores
+        two earlier scores or more that differ, independent and near normal.
+    score
+        one new score that was not chosen for being good: the best of several new scores
+        is high more often than these chances say.
+    confidence
+        of the interval of the mean that the cautious reading counts from.
+
+    Raises
+    ------
+    InputError
+        as `mean_interval`, and if score is not a finite number.
+
+    Notes
+    -----
+    P5.19: 53 after ten scores is 1.90 units out by the normal law, and 1.51 over the upper
+    end of the 80 % interval (3.8 / 2.52, both rounded; 1.4985 unrounded). P(|z| < 1.51) is
+    .87, so a score so far out comes by chance 13 % of the time; the text reads the two
+    numbers the other way round. A single list of scores cannot say more than how rare
+    such a score is: `compare` asks whether the scores have changed.
+
+    >>> luck = was_it_luck([50, 44, 46, 52, 47, 51, 49, 45, 48, 50], 53, confidence=0.8)
+    >>> round(luck.normal.units, 2), round(luck.normal.as_far, 3), round(luck.t.as_far, 3)
+    (1.9, 0.057, 0.119)
+    >>> round(luck.cautious.units, 4), round(luck.cautious.as_far, 2)
+    (1.4985, 0.13)
+    """
+    import numpy as np
+
+    earlier = _differing(scores)
+    new = _number(score, "score")
+    text = _interval(earlier, open_share(confidence), "normal")
+    own = _interval(earlier, text.confidence, "t")
+    nearest = min(max(new, text.low), text.high)
+    higher, lower = int(np.sum(earlier >= new)), int(np.sum(earlier <= new))
+    return Luck(
+        score=new,
+        n=text.n,
+        mean=text.mean,
+        normal=_reading((new - text.mean) / text.sd),
+        t=_reading((new - own.mean) / math.hypot(own.sd, own.sd_of_mean), own.n - 1),
+        cautious=_reading((new - nearest) / text.sd),
+        as_high_by_rank=(1 + higher) / (1 + text.n),
+        as_low_by_rank=(1 + lower) / (1 + text.n),
+    )
+
+
+def checked_scores(scores: Any, name: str) -> NDArray[np.float64]:
+    """Return scores as an array if they are finite numbers, two or more.
+
+    >>> checked_scores([48], "scores")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: scores holds 1 score; give two or more, or the spread is unknown
+    """
+    import numpy as np
+
+    try:
+        array = np.asarray(scores, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} is {scores!r}; give a list of numbers") from None
+    if array.ndim != 1:
+        raise InputError(f"{name} has {array.ndim} dimensions; give one list of numbers")
+    wrong = np.flatnonzero(~np.isfinite(array))
+    if wrong.size:
+        place = int(wrong[0])
+        raise InputError(
+            f"{name} holds {float(array[place])!r} (number {place + 1}); give finite numbers"
+        )
+    if array.size < 2:
+        count = "1 score" if array.size else "no scores"
+        raise InputError(f"{name} holds {count}; give two or more, or the spread is unknown")
+    return array
+
+
+def open_share(confidence: float) -> float:
+    """Return a confidence if it is a number between 0 and 1, neither of them.
+
+    >>> open_share(1)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: confidence is 1; give a number between 0 and 1, such as 0.95
+    """
+    share = number_probability(confidence, "confidence")
+    if not 0.0 < share < 1.0:
+        raise InputError(
+            f"confidence is {confidence!r}; give a number between 0 and 1, such as 0.95"
+        )
+    return share
+
+
+def _number(value: Any, name: str) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(f"{name} is {value!r}; give a finite number")
+    return number
+
+
+def _differing(scores: Any) -> NDArray[np.float64]:
+    """Return checked scores that are not all the same."""
+    array = checked_scores(scores, "scores")
+    if array.min() == array.max():
+        raise InputError(
+            f"scores are all {float(array[0]):g}; give scores that differ, or the spread is unknown"
+        )
+    return array
+
+
+def _interval(
+    scores: NDArray[np.float64], confidence: float, method: Literal["t", "normal"]
+) -> MeanInterval:
+    import numpy as np
+    from scipy.special import ndtri, stdtrit
+
+    n, mean = scores.size, float(scores.mean())
+    sd = float(np.std(scores, ddof=1 if method == "t" else 0))
+    # From the lower tail, where a confidence near 1 keeps its digits.
+    tail = (1.0 - confidence) / 2.0
+    critical = -float(stdtrit(n - 1, tail) if method == "t" else ndtri(tail))
+    spread = sd_of_mean(sd, n)
+    low, high = mean - critical * spread, mean + critical * spread
+    return MeanInterval(low, high, confidence, mean, sd, spread, n, method)
+
+
+def _reading(units: float, freedom: int | None = None) -> Reading:
+    """Read a distance by the normal law, or by Student's t with degrees of freedom."""
+    from scipy.special import ndtr, stdtr
+
+    def below(x: float) -> float:
+        return float(ndtr(x) if freedom is None else stdtr(freedom, x))
+
+    return Reading(units, 2.0 * below(-abs(units)), below(-units), below(units))
