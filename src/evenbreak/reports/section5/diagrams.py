@@ -149,7 +149,8 @@ def _ahead() -> nx.DiGraph[Any]:
     """Fig. 5.10: the n-ahead match m:n; in the state Si player 1 leads by i games."""
     sketch = _Sketch()
     names = ["L", "S-n+1", "behind", "S-1", "S0", "S1", "ahead", "Sm-1", "W"]
-    for x, name in enumerate(names):
+    for place, name in enumerate(names):
+        x = 0.85 * place  # short symbols leave room
         if name in ("behind", "ahead"):
             sketch.words(name, x)
         else:
