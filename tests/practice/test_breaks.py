@@ -162,6 +162,16 @@ def test_the_first_break_is_worth_what_the_means_differ_by(breaks):
         assert worth == pytest.approx(float(sum(lead)) / 2, rel=1e-9)
 
 
+@given(st.floats(0.5, 0.98))
+def test_strings_of_wins_swing_more(p):
+    winner, loser, alternate = (
+        long_run_sd(p, p, breaks) for breaks in (winner_breaks, loser_breaks, alternate_breaks)
+    )
+    assert winner == pytest.approx(math.sqrt(p / (1 - p)) / 2)
+    assert loser == pytest.approx(math.sqrt((1 - p) / p) / 2)
+    assert winner >= alternate - 1e-12 >= loser - 2e-12
+
+
 def test_arrays_broadcast():
     p1, p2 = np.array([[0.9], [0.5], [1.0]]), np.array([0.5, 1.0])
     for ask in (long_run_share, long_run_sd, first_break_worth):

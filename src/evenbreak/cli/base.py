@@ -17,6 +17,8 @@ COMMANDS = {
     "report": "Make the fair-race sheet of a league from its results file.",
     "odds": "Answer what the chances of a match are, and how long it lasts.",
     "fair": "Find the race that is nearest to an even chance.",
+    "oneball": "Answer who wins the one-ball game, and which shot is best.",
+    "breaks": "Weigh break formats and stakes for two players, in the long run.",
     "chain": "Find the stochastic limit of any chain, from a file of arcs.",
 }
 """Each command with its line of help; module and function bear the command's name."""

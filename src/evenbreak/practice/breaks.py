@@ -20,9 +20,10 @@ import numpy as np
 
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
-from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat, checked_format
+from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.matches.parameters import plain
+from evenbreak.practice.breakers import Breakers
 
 __all__ = [
     "BreakFormatValue",
@@ -71,7 +72,7 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     array([0.8333, 0.1667])
     """
     one_of(first_breaker, "first_breaker", (1, 2))
-    racks = _Racks.of(p1, p2, breaks)
+    racks = Breakers.of(p1, p2, breaks)
     return plain(racks.won(first_breaker), racks.shape)
 
 
@@ -79,8 +80,9 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
     """Return the standard deviation of the racks that player 1 wins, per root of racks.
 
     Over a large number N of racks he wins N W of them on average (see `long_run_share`), with
-    a standard deviation of sqrt(N) times this. Winner breaks stretch it where the break is an
-    advantage, for wins then come in strings; loser breaks shorten it.
+    a standard deviation of sqrt(N) times this. Between equal players who profit from the break
+    winner breaks make it larger than alternate breaks do, for wins come in strings, and loser
+    breaks make it smaller.
 
     Parameters
     ----------
@@ -105,7 +107,7 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
     0.2887
     """
     one_of(first_breaker, "first_breaker", (1, 2))
-    racks = _Racks.of(p1, p2, breaks)
+    racks = Breakers.of(p1, p2, breaks)
     worth = np.nan_to_num(racks.first_break, posinf=0.0, neginf=0.0)
     variance = sum(
         broken * win * lose * (1.0 + pull * worth) ** 2
@@ -145,7 +147,7 @@ def first_break_worth(p1: Any, p2: Any, breaks: BreakFormat) -> Any:
     >>> first_break_worth(0.75, 0.75, winner_breaks)
     1.0
     """
-    racks = _Racks.of(p1, p2, breaks)
+    racks = Breakers.of(p1, p2, breaks)
     return plain(racks.first_break, racks.shape)
 
 
@@ -221,7 +223,7 @@ def compare_break_formats(
 def _value(name: str, rack: Rack, win: float, lose: float, first: int) -> BreakFormatValue:
     p1, p2 = rack.p1, rack.chance(2, breaker=2)
     breaks = BREAK_FORMATS[name]
-    racks = _Racks.of(p1, p2, breaks)
+    racks = Breakers.of(p1, p2, breaks)
     share, loss = float(racks.won(first)), float(racks.lost(first))
     return BreakFormatValue(
         name=name,
@@ -242,69 +244,3 @@ def _stake(points: Any, name: str) -> float:
     if not 0.0 <= number < math.inf:
         raise InputError(f"{name} is {points!r}; give the points of a rack, 0 or more")
     return number
-
-
-class _Racks(NamedTuple):
-    """The chances of a rack by who breaks it, as arrays of one shape."""
-
-    win_1: Any  # player 1 wins, given that 1 breaks
-    lose_1: Any
-    win_2: Any  # player 1 wins, given that 2 breaks
-    lose_2: Any
-    pass_1: Any  # the break passes from 1 to 2
-    pass_2: Any
-    pulls: tuple[int, int]  # by breaker: player 1's next breaks after a win less those after a loss
-
-    @classmethod
-    def of(cls, p1: Any, p2: Any, breaks: BreakFormat) -> _Racks:
-        rack = Rack(p1, p2)  # checks them
-        checked_format(breaks)
-        if p2 is None:
-            raise InputError("p2 is missing; give P(player 2 wins a rack that player 2 breaks)")
-        one, two = np.broadcast_arrays(rack.p1, rack.p2)
-        lose_1, win_2 = 1.0 - one, 1.0 - two
-        return cls(
-            one,
-            lose_1,
-            win_2,
-            two,
-            one * (breaks(1, 1) == 2) + lose_1 * (breaks(1, 2) == 2),
-            win_2 * (breaks(2, 1) == 1) + two * (breaks(2, 2) == 1),
-            (
-                (breaks(1, 1) == 1) - (breaks(1, 2) == 1),
-                (breaks(2, 1) == 1) - (breaks(2, 2) == 1),
-            ),
-        )
-
-    def broken(self, first_breaker: int) -> tuple[Any, Any]:
-        """Return the fractions of the racks that player 1 and player 2 break."""
-        changes = self.pass_1 + self.pass_2
-        stays = changes == 0.0
-        per_change = np.where(stays, 1.0, changes)
-        return (
-            np.where(stays, float(first_breaker == 1), self.pass_2 / per_change),
-            np.where(stays, float(first_breaker == 2), self.pass_1 / per_change),
-        )
-
-    def won(self, first_breaker: int) -> Any:
-        """Return the fraction of the racks that player 1 wins."""
-        first, second = self.broken(first_breaker)
-        return first * self.win_1 + second * self.win_2
-
-    def lost(self, first_breaker: int) -> Any:
-        """Return the fraction that player 1 loses, right also when it is tiny."""
-        first, second = self.broken(first_breaker)
-        return first * self.lose_1 + second * self.lose_2
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of p1 and p2 together."""
-        return np.shape(self.win_1)
-
-    @property
-    def first_break(self) -> Any:
-        """(r_1 - r_2) / (a + b): infinite where the break never passes on."""
-        edge, changes = self.win_1 - self.win_2, self.pass_1 + self.pass_2
-        stays = changes == 0.0
-        endless = np.where(edge == 0.0, 0.0, np.copysign(math.inf, edge))
-        return np.where(stays, endless, edge / np.where(stays, 1.0, changes))

@@ -212,9 +212,9 @@ class RankedShot(NamedTuple):
     behind: float
     """How much less than the best shot wins."""
     turning_p2: float | None
-    """The p2 at which the choice turns, all else being right: the best shot is no longer the
-    best above it, another becomes the best below it. None if no p2 turns the choice, or
-    there is nothing to choose from."""
+    """The p2 with which it would be exactly as good as the best of the other shots, all else
+    being right: the best shot is the best below it, another becomes the best below it. None if
+    there is no such p2, or no other shot."""
 
 
 def compare_shots(shots: Iterable[Shot], *, look_ahead: str = "infinite") -> tuple[RankedShot, ...]:

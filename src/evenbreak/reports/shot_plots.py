@@ -1,0 +1,53 @@
+"""Shots of the one-ball game on the contour plot of what they win."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from evenbreak.practice.shots import Shot, one_ball_win
+from evenbreak.reports.contours import contour_axes
+from evenbreak.reports.marks import mark_points
+from evenbreak.reports.style import new_axes
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["shots_figure"]
+
+_TITLES = {
+    "infinite": "P(player 1 wins), the shots repeated",
+    "two shots": "P(player 1 wins), even after two misses",
+}
+
+
+def shots_figure(shots: Sequence[Shot], *, look_ahead: str = "infinite") -> Figure:
+    """Draw P(player 1 wins the one-ball game) over (p1, p2), each shot a dot with its name.
+
+    The thick line is the critical one: below it player 1 is the favourite.
+
+    Parameters
+    ----------
+    shots
+        what player 1 may choose from.
+    look_ahead
+        as in `evenbreak.practice.one_ball_win`.
+
+    Notes
+    -----
+    Source: Fig. 5.3.
+
+    >>> figure = shots_figure([Shot("bank", 0.4, 0.8)])
+    >>> figure.axes[0].get_title()
+    'P(player 1 wins), the shots repeated'
+    """
+    figure, axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6))
+    contour_axes(
+        axes,
+        partial(one_ball_win, look_ahead=look_ahead),
+        x="$p_1$ = P(player 1 makes the shot)",
+        y="$p_2$ = P(player 2 makes what a miss leaves)",
+    )
+    mark_points(axes, [(shot.p1, shot.p2, shot.name) for shot in shots])
+    return figure
