@@ -269,7 +269,8 @@ class TestShapes:
         assert law.at_least([-1, 0, 4]).tolist() == [1, 1, 0]
 
     def test_a_float_is_the_decimal_that_it_prints_as(self) -> None:
-        # (9 + 1) x .3 is 3 and floats agree; (99 + 1) x .29 is 29, floats say 28.999999999999996
+        assert math.ceil(24 * 0.8 - (1 - 0.8)) == 20  # 19.000000000000004, and 19 is right
+        assert GamesWon(24, 0.8).modes == (19, 20)
         assert 100 * 0.29 < 29
         assert GamesWon(99, 0.29).modes == (28, 29)
         assert GamesWon(99, np.float64(0.29)) == GamesWon(99, 0.29)
