@@ -9,6 +9,7 @@ from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.reports.layout import Positions, positions_of
 from evenbreak.reports.pen import FONT, Pen, is_terminal, is_words, longest_line
+from evenbreak.reports.style import our_look
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -118,7 +119,7 @@ def image_bytes(figure: Figure, kind: Literal["png", "svg"] = "svg") -> bytes:
     out = io.BytesIO()
     # A salt in place of random ids, and neither a date nor a version of the program.
     metadata: dict[str, Any] = {"Date": None, "Creator": None} if kind == "svg" else {}
-    with mpl.rc_context({"svg.hashsalt": "evenbreak"}):
+    with our_look(), mpl.rc_context({"svg.hashsalt": "evenbreak"}):
         figure.savefig(out, format=kind, dpi=150, metadata=metadata or {"Software": None})
     return out.getvalue()
 

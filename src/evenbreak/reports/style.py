@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
@@ -9,7 +11,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.text import Text
 
-__all__ = ["LINES", "LineStyle", "label_beside", "label_on", "new_axes", "unit_axis"]
+__all__ = ["LINES", "LineStyle", "label_beside", "label_on", "new_axes", "our_look", "unit_axis"]
 
 
 class LineStyle(NamedTuple):
@@ -37,6 +39,22 @@ _BESIDE = {
     "right": ((6, -1), "left", "center"),
     "above": ((0, 4), "center", "bottom"),
 }
+
+
+@contextmanager
+def our_look() -> Iterator[None]:
+    """Let a reader's own matplotlib settings wait outside, so that all draw the same picture.
+
+    >>> import matplotlib as mpl
+    >>> with mpl.rc_context({"font.size": 30}), our_look():
+    ...     mpl.rcParams["font.size"]
+    10.0
+    """
+    import matplotlib as mpl
+
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        yield
 
 
 def new_axes(

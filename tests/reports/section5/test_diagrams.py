@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import matplotlib as mpl
 import networkx as nx
 import pytest
 from matplotlib.patches import Circle
@@ -116,3 +117,10 @@ def test_every_diagram_but_the_break_formats_has_one_start() -> None:
 def test_a_diagram_drawn_again_is_the_same_to_the_byte(kind: Any) -> None:
     draw = diagrams()["figure_5_5"]
     assert image_bytes(draw(), kind) == image_bytes(draw(), kind)
+
+
+def test_a_readers_own_settings_do_not_change_a_diagram() -> None:
+    draw = diagrams()["figure_5_5"]
+    usual = image_bytes(draw(), "svg")
+    with mpl.rc_context({"font.family": "monospace", "mathtext.fontset": "stix"}):
+        assert image_bytes(draw(), "svg") == usual

@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import comb
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 
@@ -209,6 +210,14 @@ def test_ahead_matches_are_the_gamblers_ruin() -> None:
 def test_a_plot_drawn_again_is_the_same_to_the_byte(name: str, kind: Any) -> None:
     draw = figures()[name]
     assert image_bytes(draw(), kind) == image_bytes(draw(), kind)
+
+
+def test_a_readers_own_settings_do_not_change_a_plot() -> None:
+    own = {"font.size": 20, "font.sans-serif": ["DejaVu Sans Mono"], "svg.fonttype": "none"}
+    draw = figures()["figure_5_11"]
+    usual = image_bytes(draw(), "svg")
+    with mpl.rc_context(own | {"axes.linewidth": 3, "savefig.bbox": "tight"}):
+        assert image_bytes(draw(), "svg") == usual
 
 
 def test_pictures_are_of_moderate_size() -> None:

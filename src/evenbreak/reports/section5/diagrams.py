@@ -9,6 +9,8 @@ import itertools
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from evenbreak.reports.style import our_look
+
 if TYPE_CHECKING:
     import networkx as nx
     from matplotlib.figure import Figure
@@ -54,9 +56,13 @@ def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
 
 
 def _drawing(graph: nx.DiGraph[Any]) -> Callable[[], Figure]:
-    from evenbreak.reports.draw import draw
+    @our_look()
+    def drawing() -> Figure:
+        from evenbreak.reports.draw import draw
 
-    return lambda: draw(graph, layout={state: graph.nodes[state]["place"] for state in graph})
+        return draw(graph, layout={state: graph.nodes[state]["place"] for state in graph})
+
+    return drawing
 
 
 class _Sketch:

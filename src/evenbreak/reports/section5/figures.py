@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.reports.contours import contour_axes
-from evenbreak.reports.style import LINES, label_beside, label_on, new_axes, unit_axis
+from evenbreak.reports.style import LINES, label_beside, label_on, new_axes, our_look, unit_axis
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,7 +36,7 @@ def figures() -> Mapping[str, Callable[[], Figure]]:
     >>> sorted(figures())[:2]
     ['figure_5_1', 'figure_5_11']
     """
-    return {
+    plots = {
         "figure_5_1": _races,
         "figure_5_3": _one_ball,
         "figure_5_6": _break_formats,
@@ -44,6 +44,7 @@ def figures() -> Mapping[str, Callable[[], Figure]]:
         "figure_5_9": _rating_ladders,
         "figure_5_11": _ahead_matches,
     }
+    return {name: our_look()(plot) for name, plot in plots.items()}
 
 
 def _races() -> Figure:
