@@ -90,7 +90,8 @@ class GamesWon(CountLaw):
 
     Notes
     -----
-    Source: problems P5.9 and P5.10.
+    Source: problems P5.9 and P5.10. Of two modes the text's formula gives the smaller, its
+    words, read strictly, the larger; `modes` has both.
 
     >>> law = GamesWon(120, 0.52)
     >>> law.mean, round(law.sd, 2), law.mode, law.median
@@ -191,9 +192,15 @@ class GamesWon(CountLaw):
         ScoreRange
             its `probability` is the exact one of the range.
 
+        Raises
+        ------
+        InputError
+            if the coverage is not a number from 0 to below 1.
+
         Notes
         -----
-        Source: problem P5.10. Its range for 95 % starts at 51, from 51.67.
+        Source: problem P5.10. For 95 % the text starts its range at 51, from 51.67; the
+        nearest score is 52.
 
         >>> GamesWon(120, 0.52).normal_range(0.5)
         ScoreRange(low=59, high=66, probability=0.5349508426730065)
@@ -215,6 +222,11 @@ class GamesWon(CountLaw):
         ----------
         coverage
             the probability wanted, from 0 to 1.
+
+        Raises
+        ------
+        InputError
+            if the coverage is not a number from 0 to 1.
 
         >>> GamesWon(120, 0.52).exact_range(0.5)[:2]
         (59, 66)

@@ -119,13 +119,16 @@ class Distribution:
     @property
     def mean(self) -> float:
         """The mean: sum of value times probability."""
-        return _mean(self.values, self.probability)
+        pairs = zip(self.values, self.probability, strict=True)
+        return math.fsum(float(value) * float(probability) for value, probability in pairs)
 
     @property
     def variance(self) -> float:
         """The population variance: the mean of the squared distance from the mean."""
         mean = self.mean
-        return _mean([(float(value) - mean) ** 2 for value in self.values], self.probability)
+        pairs = zip(self.values, self.probability, strict=True)
+        away = ((float(value) - mean, float(probability)) for value, probability in pairs)
+        return math.fsum(probability * distance * distance for distance, probability in away)
 
     @property
     def sd(self) -> float:
@@ -236,7 +239,7 @@ class Moments:
     @property
     def variance(self) -> float:
         """The population variance, the standard deviation squared."""
-        return self.sd**2
+        return self.sd * self.sd
 
 
 def merge(parts: Iterable[Moments]) -> Moments:
@@ -263,7 +266,9 @@ def merge(parts: Iterable[Moments]) -> Moments:
         raise InputError("parts is empty; give one Moments or more")
     n = sum(part.n for part in parts)
     mean = math.fsum(part.n * part.mean for part in parts) / n
-    squares = math.fsum(part.n * (part.sd**2 + (part.mean - mean) ** 2) for part in parts)
+    squares = math.fsum(
+        part.n * (part.variance + (part.mean - mean) * (part.mean - mean)) for part in parts
+    )
     return Moments(n, mean, math.sqrt(squares / n))
 
 
@@ -327,9 +332,3 @@ def _sum(terms: Iterable[float | Fraction]) -> float:
     if listed and isinstance(listed[0], Fraction):
         return float(sum(listed))
     return math.fsum(listed)
-
-
-def _mean(values: Iterable[Number], probability: Iterable[float | Fraction]) -> float:
-    return math.fsum(
-        float(value) * float(part) for value, part in zip(values, probability, strict=True)
-    )
