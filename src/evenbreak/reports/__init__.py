@@ -8,6 +8,7 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
+        "break_plots": ["breaks_figure"],
         "draw": ["draw", "image_bytes"],
         "frames": ["ratings_frame", "summary_frame"],
         "matchups": ["RaceLimits", "find_players", "matchups_frame", "most_active"],
@@ -27,6 +28,7 @@ __getattr__, __dir__, __all__ = attach(
         "read_table": ["Table", "read_table"],
         "sheet": ["sheet_text"],
         "sheet_pages": ["sheet_pages"],
+        "shot_plots": ["shots_figure"],
         "to_csv": ["to_csv"],
         "write_files": ["write_files"],
     },

@@ -1,3 +1,4 @@
+from evenbreak.reports.break_plots import breaks_figure as breaks_figure
 from evenbreak.reports.draw import draw as draw
 from evenbreak.reports.draw import image_bytes as image_bytes
 from evenbreak.reports.frames import ratings_frame as ratings_frame
@@ -24,5 +25,6 @@ from evenbreak.reports.read_table import Table as Table
 from evenbreak.reports.read_table import read_table as read_table
 from evenbreak.reports.sheet import sheet_text as sheet_text
 from evenbreak.reports.sheet_pages import sheet_pages as sheet_pages
+from evenbreak.reports.shot_plots import shots_figure as shots_figure
 from evenbreak.reports.to_csv import to_csv as to_csv
 from evenbreak.reports.write_files import write_files as write_files

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from evenbreak.practice.shots import Shot, one_ball_win
+from evenbreak.checks import one_of
+from evenbreak.practice.shots import LOOK_AHEADS, Shot, one_ball_win
 from evenbreak.reports.contours import contour_axes
 from evenbreak.reports.marks import mark_points
 from evenbreak.reports.style import new_axes
@@ -34,6 +35,11 @@ def shots_figure(shots: Sequence[Shot], *, look_ahead: str = "infinite") -> Figu
     look_ahead
         as in `evenbreak.practice.one_ball_win`.
 
+    Raises
+    ------
+    InputError
+        if the look-ahead is another.
+
     Notes
     -----
     Source: Fig. 5.3.
@@ -42,6 +48,7 @@ def shots_figure(shots: Sequence[Shot], *, look_ahead: str = "infinite") -> Figu
     >>> figure.axes[0].get_title()
     'P(player 1 wins), the shots repeated'
     """
+    one_of(look_ahead, "look_ahead", LOOK_AHEADS)
     figure, axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6))
     contour_axes(
         axes,
