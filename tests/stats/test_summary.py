@@ -143,7 +143,13 @@ class TestLaws:
     def test_one_part_merged_is_itself(self, n: int, mean: float, sd: float) -> None:
         merged = merge([Moments(n, mean, sd)])
         assert (merged.n, merged.mean) == (n, pytest.approx(mean))
-        assert merged.sd == pytest.approx(sd, rel=1e-14, abs=1e-150)
+        assert merged.sd == pytest.approx(sd, rel=1e-14, abs=1e-12)
+
+    @pytest.mark.parametrize("scale", [1e-200, 1e150])
+    def test_merging_at_any_scale(self, scale: float) -> None:
+        merged = merge([Moments(3, 0, 3 * scale), Moments(3, 2 * scale, scale)])
+        assert (merged.n, merged.mean) == (6, scale)
+        assert merged.sd == pytest.approx(math.sqrt(6) * scale, rel=1e-15, abs=0)
 
     def test_a_small_spread_far_from_zero_keeps_its_digits(self) -> None:
         far = [1e9 + x for x in (0, 1, 1, 4, 5)]

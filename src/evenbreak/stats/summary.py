@@ -266,10 +266,9 @@ def merge(parts: Iterable[Moments]) -> Moments:
         raise InputError("parts is empty; give one Moments or more")
     n = sum(part.n for part in parts)
     mean = math.fsum(part.n * part.mean for part in parts) / n
-    squares = math.fsum(
-        part.n * (part.variance + (part.mean - mean) * (part.mean - mean)) for part in parts
-    )
-    return Moments(n, mean, math.sqrt(squares / n))
+    # hypot adds squares that would leave the range of a float by themselves.
+    spread = (math.sqrt(part.n / n) * math.hypot(part.sd, part.mean - mean) for part in parts)
+    return Moments(n, mean, math.hypot(*spread))
 
 
 def _number(value: Any, name: str) -> Number:
