@@ -128,9 +128,18 @@ def test_gains_keep_their_digits_where_a_level_is_hardly_reached() -> None:
     assert gain == pytest.approx([0.75 / 0.75**2, p1 / 0.75**2], rel=1e-12)
 
 
-def test_best_level() -> None:
-    assert drill_statistics(Drill([0.9, 0.9, 0.1])).best_level == 1 + int(
-        np.argmax(
-            [mean_level(row) for row in ([0.91, 0.9, 0.1], [0.9, 0.91, 0.1], [0.9, 0.9, 0.11])]
-        )
-    )
+def test_the_lift_is_the_gain_of_five_points_as_far_as_there_is_room() -> None:
+    statistics = drill_statistics(Drill([1.0, 0.98, 0.5]))
+    room = (0.0, 0.02, 0.05)
+    assert statistics.gain[0] > 0
+    assert statistics.lift == pytest.approx(np.multiply(statistics.gain, room))
+
+
+def test_practise_next_is_the_level_that_lifts_most() -> None:
+    chances = [0.9, 0.8, 0.4, 0.1]
+    means = [
+        mean_level([p + 0.05 * (i == j) for j, p in enumerate(chances)])
+        for i in range(len(chances))
+    ]
+    assert drill_statistics(Drill(chances)).practise_next == np.argmax(means) + 1
+    assert drill_statistics(Drill([1.0, 1.0])).practise_next is None

@@ -137,9 +137,22 @@ def test_a_wrong_model_is_found_and_a_right_one_kept(plain: LogAnalysis) -> None
     assert test.p_value < 0.02
 
 
+def test_the_level_that_is_out_of_line() -> None:
+    afraid = MODEL * np.where(np.arange(9) == 4, 0.4, 1)
+    analysis = analysed(played(afraid, 8, 60, seed=7), replicas=9)
+    assert analysis.model is not None
+    for report in analysis.levels:
+        assert report.p_model == pytest.approx(analysis.model.p ** (report.level - 1))
+    off = analysis.furthest_off_model
+    assert off is not None
+    assert off.level == 5
+    assert (off.p or 0) < (off.p_model or 0)
+
+
 def test_level_1_alone() -> None:
     analysis = analysed(DrillLog([1, 1, 1], [0, 0, 0]))
     assert (analysis.model, analysis.model_test, analysis.memory) == (None, None, None)
+    assert (analysis.furthest_off_model, analysis.levels[0].p_model) == (None, None)
     assert analysis.implied.probability == (1.0,)
     assert analysis.difference.seen == 0.0
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from evenbreak.chains.explore import chain_of
 from evenbreak.chains.limits import stochastic_limit
-from evenbreak.practice.levels import level_gains
+from evenbreak.practice.levels import level_gains, level_lifts
 from evenbreak.stats.summary import Distribution
 
 if TYPE_CHECKING:
@@ -34,6 +34,9 @@ class DrillStatistics:
         0.01 more of it lifts the mean by about 0.01 times the gain. One-sided where the
         chance is 0 or 1; inf where the mean jumps; 0 where the level is not visited in
         the long run.
+    lift
+        for each level by how much about the mean level rises with a chance of success 0.05
+        higher, or as high as it can be: 0.05 times the gain, and 0 where the chance is 1.
     period
         1 where the law is also that of a late attempt; 2 where odd and even attempts
         differ for ever and the law is the average over both.
@@ -42,12 +45,13 @@ class DrillStatistics:
     drill: Drill
     distribution: Distribution
     gain: tuple[float, ...]
+    lift: tuple[float, ...]
     period: int
 
     @property
-    def best_level(self) -> int:
-        """The level with the greatest gain, the lowest of them where several are equal."""
-        return int(np.argmax(self.gain)) + 1
+    def practise_next(self) -> int | None:
+        """The level of the greatest lift, the lowest of several; None if none lifts."""
+        return int(np.argmax(self.lift)) + 1 if any(self.lift) else None
 
 
 def drill_statistics(drill: Drill) -> DrillStatistics:
@@ -66,14 +70,19 @@ def drill_statistics(drill: Drill) -> DrillStatistics:
     >>> nine_ball = drill_statistics(Drill.progressive(0.8))
     >>> round(nine_ball.distribution.mean, 3), nine_ball.distribution.median
     (4.354, 4)
-    >>> nine_ball.best_level, round(nine_ball.gain[3], 1)
-    (4, 2.3)
+    >>> nine_ball.practise_next, round(nine_ball.gain[3], 1), round(nine_ball.lift[3], 3)
+    (4, 2.3, 0.115)
     """
     limit = stochastic_limit(chain_of(drill))
     levels = range(1, len(drill.success) + 1)
     # The chain has only the levels that can be reached from the first.
     law = np.array([limit.get(level, 0.0) for level in levels])
-    gain = level_gains(np.array(drill.success), law)
+    success = np.array(drill.success)
+    gain = level_gains(success, law)
     return DrillStatistics(
-        drill, Distribution(tuple(levels), tuple(law.tolist())), tuple(gain.tolist()), limit.period
+        drill,
+        Distribution(tuple(levels), tuple(law.tolist())),
+        tuple(gain.tolist()),
+        tuple(level_lifts(success, gain).tolist()),
+        limit.period,
     )

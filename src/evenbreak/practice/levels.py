@@ -21,7 +21,10 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["level_gains", "level_laws"]
+__all__ = ["MORE", "level_gains", "level_laws", "level_lifts"]
+
+MORE = 0.05
+"""The rise of a chance by which levels are compared: five more successes in a hundred."""
 
 
 def level_laws(success: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -92,3 +95,21 @@ def level_gains(success: NDArray[np.float64], law: NDArray[np.float64]) -> NDArr
             climb[..., i] = np.where(i + 1 > mean, climb[..., i], from_below)
         gain = law * (climb[..., :-1] + climb[..., 1:])
     return np.where(law > 0.0, gain, 0.0)
+
+
+def level_lifts(success: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return by how much about the mean level rises with five more successes in a hundred.
+
+    The rise of one chance by 0.05, or as far as 1, times its gain; so a level that always
+    succeeds has none.
+
+    Parameters
+    ----------
+    success, gain
+        shape (..., n), as in `level_gains`.
+
+    >>> level_lifts(np.array([1.0, 0.5]), np.array([0.3, 0.4]))
+    array([0.  , 0.02])
+    """
+    room = np.minimum(MORE, 1.0 - success)
+    return np.multiply(gain, room, out=np.zeros_like(gain), where=room > 0.0)

@@ -17,7 +17,7 @@ import numpy as np
 
 from evenbreak.checks import whole
 from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS
-from evenbreak.practice.levels import level_gains, level_laws
+from evenbreak.practice.levels import level_gains, level_laws, level_lifts
 from evenbreak.practice.played_again import play_again
 from evenbreak.practice.progressive_fit import ProgressiveFit, deviance, fit_progressive
 from evenbreak.stats.summary import Distribution
@@ -28,9 +28,6 @@ if TYPE_CHECKING:
     from evenbreak.practice.drill_log import DrillLog
 
 __all__ = ["LevelReport", "LogAnalysis", "PlayedAgainTest", "analyse_log"]
-
-LIFT = 0.05
-"""The rise of a chance by which levels are compared: five more successes in a hundred."""
 
 _CONFIDENCE = 0.95
 _TAILS = (0.5 - _CONFIDENCE / 2, 0.5 + _CONFIDENCE / 2)
@@ -46,6 +43,8 @@ class LevelReport(NamedTuple):
     p, p_low, p_high
         P(success | an attempt at this level): the fraction seen, None without attempts,
         and its 95 % interval (Wilson).
+    p_model
+        the chance at this level by the model p^(level - 1) that was fitted; None if none was.
     visited
         the fraction of all attempts that were at this level.
     implied
@@ -67,6 +66,7 @@ class LevelReport(NamedTuple):
     p: float | None
     p_low: float
     p_high: float
+    p_model: float | None
     visited: float
     implied: float
     expected: float
@@ -141,6 +141,17 @@ class LogAnalysis:
         """The level that is most probably the one where practice lifts the mean level most."""
         return max(self.levels, key=lambda report: report.p_best)
 
+    @property
+    def furthest_off_model(self) -> LevelReport | None:
+        """The level whose successes are the most standard deviations away from the model's."""
+
+        def away(report: LevelReport) -> float:
+            p = report.p_model or 0.0
+            spread = (report.attempts * p * (1.0 - p)) ** 0.5
+            return abs(report.successes - report.attempts * p) / spread if spread else 0.0
+
+        return max(self.levels, key=away) if self.model else None
+
 
 def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999) -> LogAnalysis:
     """Return what the log of a drill tells, with how sure it is.
@@ -186,8 +197,8 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
     played = play_again(log, p_seen, replicas=replicas, rng=rng)
     mean_low, mean_high, lifts = _drawn_lifts(log, rng, replicas)
     values = tuple(range(1, len(attempts) + 1))
-    reports = _reports(log, law, level_gains(p_seen, law), played, lifts)
     model = fit_progressive(log) if attempts[1:].any() else None
+    reports = _reports(log, law, level_gains(p_seen, law), played, lifts, model)
     return LogAnalysis(
         reports,
         Distribution.of(log.level.tolist()),
@@ -208,13 +219,13 @@ def _reports(
     gain: NDArray[np.float64],
     played: NDArray[np.int64],
     lifts: NDArray[np.float64],
+    model: ProgressiveFit | None,
 ) -> tuple[LevelReport, ...]:
     from scipy.stats import binomtest
 
     attempts, successes = log.attempts, log.successes
     p_seen = successes / np.maximum(attempts, 1)
-    room = np.minimum(LIFT, 1.0 - p_seen)
-    lift = np.multiply(gain, room, out=np.zeros_like(gain), where=room > 0.0)
+    lift = level_lifts(p_seen, gain)
     low, high = np.quantile(lifts, _TAILS, axis=0)
     tried = np.where(attempts > 0, lifts, -1.0)
     best = np.bincount(tried.argmax(1), minlength=len(attempts)) / len(lifts)
@@ -226,8 +237,11 @@ def _reports(
         )
         numbers = (n / len(log), law[i], expected[i], gain[i], lift[i], low[i], high[i], best[i])
         p = won / n if n else None
+        p_model = None if model is None else model.p**i
         reports.append(
-            LevelReport(i + 1, n, won, p, float(p_low), float(p_high), *map(float, numbers))
+            LevelReport(
+                i + 1, n, won, p, float(p_low), float(p_high), p_model, *map(float, numbers)
+            )
         )
     return tuple(reports)
 
@@ -243,8 +257,7 @@ def _drawn_lifts(
     chances = rng.beta(log.successes + 0.5, misses + 0.5, size=(draws, len(misses)))
     laws = level_laws(chances)
     low, high = np.quantile(laws @ np.arange(1.0, len(misses) + 1), _TAILS)
-    room = np.minimum(LIFT, 1.0 - chances)
-    return float(low), float(high), level_gains(chances, laws) * room
+    return float(low), float(high), level_lifts(chances, level_gains(chances, laws))
 
 
 def _distance(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
