@@ -1,0 +1,82 @@
+"""All of section 5 as files: tables, problems, printed numbers, figures and the page on top."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from evenbreak.reports.draw import image_bytes
+from evenbreak.reports.published import errata
+from evenbreak.reports.section5.diagrams import diagrams
+from evenbreak.reports.section5.figures import figures
+from evenbreak.reports.section5.index import index_page
+from evenbreak.reports.section5.numbers import Finding, findings
+from evenbreak.reports.section5.problems import problem_frames, published_frame
+from evenbreak.reports.section5.tables import (
+    charts_frame,
+    figure_frames,
+    ladder_frame,
+    score_frames,
+    table_frame,
+)
+from evenbreak.reports.to_csv import to_csv
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+__all__ = ["differing", "reproduction", "section_frames"]
+
+
+def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, bytes]:
+    """Return every file of section 5 by name: the same bytes each time.
+
+    Parameters
+    ----------
+    say
+        is told what is being done.
+    """
+    say("Computing the tables and problems")
+    found = findings()
+    frames = section_frames(found)
+    files = {"index.md": index_page(found, frames).encode()}
+    files |= {f"{name}.csv": to_csv(frame) for name, frame in frames.items()}
+    for name, figure in {**figures(), **diagrams()}.items():
+        say(f"Drawing {name}")
+        files |= _images(name, figure())
+    return files
+
+
+def section_frames(found: Iterable[Finding]) -> Mapping[str, pd.DataFrame]:
+    """Return every table that is written, by the name of its file without `.csv`."""
+    import pandas as pd
+
+    found = list(found)
+    return {
+        **{f"table_5_{n}": table_frame(found, f"Table 5.{n}") for n in range(1, 6)},
+        "table_5_6": charts_frame(),
+        **problem_frames(found),
+        **score_frames(),
+        "npl_ladder": ladder_frame(found),
+        **figure_frames(),
+        "published": published_frame(found),
+        "errata": pd.DataFrame(errata(), dtype=object),
+    }
+
+
+def differing(found: Iterable[Finding]) -> Iterator[str]:
+    """Yield a line for each number whose verdict is not the one that is expected.
+
+    >>> list(differing(findings()))
+    []
+    """
+    for row, computed, verdict in found:
+        if verdict != row.verdict:
+            yield (
+                f"{row.problem}: {row.quantity} ({row.inputs}): printed {row.printed}, "
+                f"computed {computed:.10g}: {verdict}, not {row.verdict}"
+            )
+
+
+def _images(name: str, figure: Figure) -> Mapping[str, bytes]:
+    return {f"{name}.{kind}": image_bytes(figure, kind) for kind in ("png", "svg")}
