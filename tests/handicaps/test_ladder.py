@@ -217,6 +217,12 @@ def test_a_width_that_is_none_is_refused(model, widest):
         model(chart("npl_8"), widest=widest)
 
 
+@pytest.mark.parametrize("model", [natural_ladder, autocorrelated_ladder])
+def test_the_name_of_a_chart_is_no_chart(model):
+    with pytest.raises(InputError, match="chart is 'npl_8'; give a Chart, such as chart"):
+        model("npl_8")
+
+
 def test_a_law_that_does_not_settle_is_not_given(monkeypatch):
     monkeypatch.setattr(module, "_ROUNDS", 3)
     with pytest.raises(AccuracyError, match="after 3 rounds"):

@@ -61,7 +61,7 @@ class RatingLadder:
     >>> ladder = RatingLadder([0.75, 0.5, 0.25])
     >>> ladder.moves(0), ladder.moves(1)
     ({1: 0.5, -1: 0.5}, {1: 0.25, 0: 0.75})
-    >>> [round(float(chance), 3) for chance in ladder.law().probability]
+    >>> [round(chance, 3) for chance in ladder.law().probability]
     [0.286, 0.429, 0.286]
     """
 
@@ -114,8 +114,8 @@ class RatingLadder:
     def law(self) -> Distribution:
         """Return the stochastic limit of the rating error, begun at 0."""
         limit = stochastic_limit(chain_of(self))
-        errors = range(-self.widest, self.widest + 1)
-        return Distribution(errors, [limit.get(error, 0.0) for error in errors])
+        errors = tuple(range(-self.widest, self.widest + 1))
+        return Distribution(errors, tuple(float(limit.get(error, 0.0)) for error in errors))
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,7 @@ def natural_ladder(chart: Chart, *, widest: int = 60) -> LadderLaw:
     Raises
     ------
     InputError
-        if widest is not a whole number above 0.
+        if chart is none, or widest is not a whole number above 0.
 
     Notes
     -----
@@ -167,7 +167,7 @@ def natural_ladder(chart: Chart, *, widest: int = 60) -> LadderLaw:
     period is 2. The law is then the average of the two.
 
     >>> from evenbreak.handicaps import chart
-    >>> round(float(natural_ladder(chart("npl_8")).distribution.sd), 3)
+    >>> round(natural_ladder(chart("npl_8")).distribution.sd, 3)
     4.963
     """
     wins = _win_table(chart, whole(widest, "widest", at_least=1), np.array([0.5]))
@@ -194,7 +194,7 @@ def autocorrelated_ladder(
     Raises
     ------
     InputError
-        if widest is not a whole number above 0.
+        if chart is none, or widest is not a whole number above 0.
     AccuracyError
         if the law does not settle.
 
@@ -209,7 +209,7 @@ def autocorrelated_ladder(
 
     >>> from evenbreak.handicaps import chart
     >>> found = autocorrelated_ladder(chart("npl_8"))
-    >>> round(float(found.distribution.sd), 3), len(found.changes) < 10
+    >>> round(found.distribution.sd, 3), len(found.changes) < 10
     (4.978, True)
     """
     size = whole(widest, "widest", at_least=1)
@@ -232,6 +232,8 @@ def autocorrelated_ladder(
 
 def _win_table(chart: Chart, widest: int, games: NDArray[Any]) -> NDArray[np.float64]:
     """Return P(the player wins | his error, an opponent of game chance games[j]); (errors, j)."""
+    if not isinstance(chart, Chart):
+        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('npl_10')")
     needs = [chart.race(error) for error in range(-widest, widest + 1)]
     m, n = np.array(needs).T[:, :, None]
     table: NDArray[np.float64] = race_win_probability(games, m, n)
