@@ -15,6 +15,7 @@ __getattr__, __dir__, __all__ = attach(
             "critical_value",
             "score_probability",
         ],
+        "compare": ["Comparison", "Effect", "Scores", "Significance", "compare"],
         "confidence": [
             "Luck",
             "MeanInterval",

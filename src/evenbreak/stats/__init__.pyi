@@ -3,6 +3,11 @@ from evenbreak.stats.binomial import ScoreRange as ScoreRange
 from evenbreak.stats.binomial import coverage_within as coverage_within
 from evenbreak.stats.binomial import critical_value as critical_value
 from evenbreak.stats.binomial import score_probability as score_probability
+from evenbreak.stats.compare import Comparison as Comparison
+from evenbreak.stats.compare import Effect as Effect
+from evenbreak.stats.compare import Scores as Scores
+from evenbreak.stats.compare import Significance as Significance
+from evenbreak.stats.compare import compare as compare
 from evenbreak.stats.confidence import Luck as Luck
 from evenbreak.stats.confidence import MeanInterval as MeanInterval
 from evenbreak.stats.confidence import Reading as Reading

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from evenbreak.checks import number_probability, one_of, whole
 from evenbreak.errors import InputError
+from evenbreak.stats.binomial import critical_value
 
 if TYPE_CHECKING:
     import numpy as np
@@ -24,9 +25,18 @@ __all__ = [
     "checked_scores",
     "mean_interval",
     "open_share",
+    "sd_of",
     "sd_of_mean",
     "was_it_luck",
 ]
+
+
+LARGEST = 1e9
+"""The largest score, up or down: beyond it a slip of the pen is likelier than a score."""
+
+
+SMALLEST_SPREAD = 1e-60
+"""Scores that differ by less count as equal: the square of a square of it still is a number."""
 
 
 def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
@@ -194,7 +204,7 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
     Notes
     -----
     P5.19: 53 after ten scores is 1.90 units out by the normal law, and 1.51 over the upper
-    end of the 80 % interval (3.8 / 2.52, both rounded; 1.4985 unrounded). P(|z| < 1.51) is
+    end of the 80 % interval (3.8 / 2.52, both rounded; 1.4981 unrounded). P(|z| < 1.51) is
     .87, so a score so far out comes by chance 13 % of the time; the text reads the two
     numbers the other way round. A single list of scores cannot say more than how rare
     such a score is: `compare` asks whether the scores have changed.
@@ -203,7 +213,7 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
     >>> round(luck.normal.units, 2), round(luck.normal.as_far, 3), round(luck.t.as_far, 3)
     (1.9, 0.057, 0.119)
     >>> round(luck.cautious.units, 4), round(luck.cautious.as_far, 2)
-    (1.4985, 0.13)
+    (1.4981, 0.13)
     """
     import numpy as np
 
@@ -241,16 +251,30 @@ def checked_scores(scores: Any, name: str) -> NDArray[np.float64]:
         raise InputError(f"{name} is {scores!r}; give a list of numbers") from None
     if array.ndim != 1:
         raise InputError(f"{name} has {array.ndim} dimensions; give one list of numbers")
-    wrong = np.flatnonzero(~np.isfinite(array))
+    wrong = np.flatnonzero(~(np.abs(array) <= LARGEST))
     if wrong.size:
         place = int(wrong[0])
         raise InputError(
-            f"{name} holds {float(array[place])!r} (number {place + 1}); give finite numbers"
+            f"{name} holds {float(array[place])!r} (number {place + 1}); "
+            f"give finite numbers, {LARGEST:g} at most"
         )
     if array.size < 2:
         count = "1 score" if array.size else "no scores"
         raise InputError(f"{name} holds {count}; give two or more, or the spread is unknown")
     return array
+
+
+def sd_of(scores: NDArray[np.float64], *, degrees_used: int = 1) -> float:
+    """Return the standard deviation over n - degrees_used; 0 exactly where no spread shows.
+
+    >>> import numpy as np
+    >>> sd_of(np.array([0.1, 0.1, 0.1])), sd_of(np.array([1.0, 3.0]), degrees_used=0)
+    (0.0, 1.0)
+    """
+    # Equal decimals have a mean that is not quite theirs, and a spread of rounding.
+    if scores.max() - scores.min() <= max(1e-12 * abs(scores).max(), SMALLEST_SPREAD):
+        return 0.0
+    return float(scores.std(ddof=degrees_used))
 
 
 def open_share(confidence: float) -> float:
@@ -282,7 +306,7 @@ def _number(value: Any, name: str) -> float:
 def _differing(scores: Any) -> NDArray[np.float64]:
     """Return checked scores that are not all the same."""
     array = checked_scores(scores, "scores")
-    if array.min() == array.max():
+    if sd_of(array) == 0.0:
         raise InputError(
             f"scores are all {float(array[0]):g}; give scores that differ, or the spread is unknown"
         )
@@ -292,14 +316,14 @@ def _differing(scores: Any) -> NDArray[np.float64]:
 def _interval(
     scores: NDArray[np.float64], confidence: float, method: Literal["t", "normal"]
 ) -> MeanInterval:
-    import numpy as np
-    from scipy.special import ndtri, stdtrit
+    from scipy.special import stdtrit
 
     n, mean = scores.size, float(scores.mean())
-    sd = float(np.std(scores, ddof=1 if method == "t" else 0))
-    # From the lower tail, where a confidence near 1 keeps its digits.
-    tail = (1.0 - confidence) / 2.0
-    critical = -float(stdtrit(n - 1, tail) if method == "t" else ndtri(tail))
+    sd = sd_of(scores, degrees_used=1 if method == "t" else 0)
+    if method == "t":
+        critical = -float(stdtrit(n - 1, (1.0 - confidence) / 2.0))
+    else:
+        critical = critical_value(confidence)
     spread = sd_of_mean(sd, n)
     low, high = mean - critical * spread, mean + critical * spread
     return MeanInterval(low, high, confidence, mean, sd, spread, n, method)

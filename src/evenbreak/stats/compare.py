@@ -1,0 +1,288 @@
+"""Whether scores have changed: two lists of them, before and after.
+
+One test was chosen beforehand and carries the answer: Welch's t test, which compares two
+means without taking the two spreads for equal. The others are shown beside it because
+they ask other questions or are often asked for; to pick the one that pleases most would
+be to fool oneself.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from evenbreak.stats.compare_sentence import sentence_of, warnings_of
+from evenbreak.stats.confidence import checked_scores, open_share, sd_of
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+__all__ = ["Comparison", "Effect", "Scores", "Significance", "compare"]
+
+
+class Scores(NamedTuple):
+    """One list: number, mean and standard deviation (the sample's, n - 1) of its scores."""
+
+    n: int
+    mean: float
+    sd: float
+
+
+class Significance(NamedTuple):
+    """A test: its statistic, its degrees of freedom, and its two-sided p-value.
+
+    `p_value` is the chance of a statistic at least so far out if both lists come from one
+    law. `freedom` is empty where the test has none.
+    """
+
+    statistic: float
+    freedom: tuple[float, ...]
+    p_value: float
+
+
+class Effect(NamedTuple):
+    """How large the difference is, whether or not chance explains it.
+
+    `g` is Hedges' g, the difference of the means in units of the pooled standard
+    deviation, freed of the bias that few scores give it, with its interval from `low` to
+    `high`; all three are None where neither list has a spread. `p_after_higher` is the
+    share of all pairs, one score before and one after, in which the later one is higher;
+    equal ones count half.
+    """
+
+    g: float | None
+    low: float | None
+    high: float | None
+    p_after_higher: float
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What two lists of scores say of a change.
+
+    Parameters
+    ----------
+    before, after
+        the two lists in short.
+    difference, low, high
+        mean after less mean before, and its interval by Welch; low and high are None
+        where neither list has a spread.
+    confidence
+        of every interval here.
+    welch
+        are the two means equal? The test that was chosen; the spreads may differ.
+    student
+        are the two means equal, given that the spreads are?
+    anova
+        the same by analysis of variance: F = t squared, and the same p-value.
+    variances
+        are the two variances equal? F is that after over that before.
+    mann_whitney
+        is a score after as often above one before as below it? By ranks, whatever the law.
+    chi_squared
+        is one list more often above the median of all scores than the other? Scores equal
+        to that median are left out; without Yates' correction.
+    counts
+        what chi-squared rests on: (below, above) before, (below, above) after.
+    effect
+        how large the difference is.
+    warnings
+        what to keep in mind, a line each.
+
+    Notes
+    -----
+    A test that a list cannot bear (no spread, all scores the same) is None.
+    """
+
+    before: Scores
+    after: Scores
+    difference: float
+    low: float | None
+    high: float | None
+    confidence: float
+    welch: Significance | None
+    student: Significance | None
+    anova: Significance | None
+    variances: Significance | None
+    mann_whitney: Significance | None
+    chi_squared: Significance | None
+    counts: tuple[tuple[int, int], tuple[int, int]]
+    effect: Effect
+    warnings: tuple[str, ...]
+
+    @property
+    def sentence(self) -> str:
+        """The answer in words: which way, how much, how sure, and by which test."""
+        return sentence_of(self)
+
+
+def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
+    """Return what two lists of scores say of a change between them.
+
+    Parameters
+    ----------
+    before, after
+        two finite numbers or more each: independent scores of one drill, none left out
+        for being bad. For one score after, see `was_it_luck`.
+    confidence
+        of the intervals, between 0 and 1.
+
+    Returns
+    -------
+    Comparison
+        whose `sentence` says it in words; it rests on Welch's test. No test can tell what
+        made the change: a new stroke, more practice or another table.
+
+    Raises
+    ------
+    InputError
+        if a list is no list of two finite numbers or more, or confidence is not between
+        0 and 1.
+
+    Notes
+    -----
+    The end of P5.19 names these tests. Welch (1947); Mann & Whitney (1947), exact where
+    the lists are short and without ties; Mood's median test; Hedges & Olkin (1985) for g
+    and its interval, g +- z sqrt((m + n)/(m n) + g^2 / (2 (m + n))) for m and n scores.
+
+    >>> found = compare([50, 44, 46, 52, 47, 51, 49, 45, 48, 50], [53, 49, 52, 54, 50, 51])
+    >>> round(found.difference, 2), round(found.low, 2), round(found.high, 2)
+    (3.3, 0.85, 5.75)
+    >>> print(found.sentence)
+    The mean is 3.30 higher after (95 % interval +0.85 to +5.75). By Welch's t test this is
+    evidence of a change; if nothing had changed, a difference so large, up or down, would come
+    about 1 time in 84. A score after beats one before 84 times in 100, a tie counting half.
+    """
+    import numpy as np
+
+    old, new = checked_scores(before, "before"), checked_scores(after, "after")
+    share = open_share(confidence)
+    first, second = _in_short(old), _in_short(new)
+    difference = second.mean - first.mean
+    counts = _about_the_median(old, new)
+    tests: dict[str, Significance | None] = dict.fromkeys(
+        ("welch", "student", "anova", "variances")
+    )
+    low = high = None
+    if first.sd or second.sd:
+        tests["welch"], half = _welch(first, second, share)
+        low, high = difference - half, difference + half
+        tests["student"], tests["anova"] = _equal_spreads(first, second)
+    if first.sd and second.sd:
+        tests["variances"] = _variances(first, second)
+    wins, rank_test = _ranks(old, new)
+    return Comparison(
+        before=first,
+        after=second,
+        difference=difference,
+        low=low,
+        high=high,
+        confidence=share,
+        **tests,
+        mann_whitney=rank_test,
+        chi_squared=_chi_squared(counts),
+        counts=counts,
+        effect=_effect(first, second, share, wins),
+        warnings=warnings_of(
+            first,
+            second,
+            counts,
+            tied=np.unique(np.concatenate([old, new])).size < first.n + second.n,
+        ),
+    )
+
+
+def _in_short(scores: NDArray[np.float64]) -> Scores:
+    sd = sd_of(scores)
+    return Scores(scores.size, float(scores.mean() if sd else scores[0]), sd)
+
+
+def _welch(before: Scores, after: Scores, confidence: float) -> tuple[Significance, float]:
+    """Return the test, and half the width of the interval."""
+    from scipy.special import stdtrit
+    from scipy.stats import ttest_ind_from_stats
+
+    found = ttest_ind_from_stats(
+        after.mean, after.sd, after.n, before.mean, before.sd, before.n, equal_var=False
+    )
+    parts = [side.sd**2 / side.n for side in (before, after)]
+    rest = sum(part**2 / (side.n - 1) for part, side in zip(parts, (before, after), strict=True))
+    freedom = sum(parts) ** 2 / rest
+    half = -float(stdtrit(freedom, (1.0 - confidence) / 2.0)) * math.sqrt(sum(parts))
+    return Significance(float(found.statistic), (freedom,), float(found.pvalue)), half
+
+
+def _equal_spreads(before: Scores, after: Scores) -> tuple[Significance, Significance]:
+    """Return Student's t test and the analysis of variance."""
+    from scipy.stats import f, ttest_ind_from_stats
+
+    freedom = float(before.n + after.n - 2)
+    t = ttest_ind_from_stats(after.mean, after.sd, after.n, before.mean, before.sd, before.n)
+    # scipy's f_oneway takes sums of squares from one another, and of equal means makes NaN.
+    ratio = float(t.statistic) ** 2
+    return (
+        Significance(float(t.statistic), (freedom,), float(t.pvalue)),
+        Significance(ratio, (1.0, freedom), float(f.sf(ratio, 1.0, freedom))),
+    )
+
+
+def _variances(before: Scores, after: Scores) -> Significance:
+    from scipy.stats import f
+
+    ratio = (after.sd / before.sd) ** 2
+    freedom = float(after.n - 1), float(before.n - 1)
+    smaller = min(f.cdf(ratio, *freedom), f.sf(ratio, *freedom))
+    return Significance(ratio, freedom, min(1.0, 2.0 * float(smaller)))
+
+
+def _ranks(old: NDArray[np.float64], new: NDArray[np.float64]) -> tuple[float, Significance | None]:
+    """Return the share of pairs that the later score wins, and the test by ranks."""
+    from scipy.stats import mannwhitneyu
+
+    found = mannwhitneyu(new, old, alternative="two-sided")
+    wins = float(found.statistic) / (old.size * new.size)
+    if min(old.min(), new.min()) == max(old.max(), new.max()):
+        return wins, None
+    return wins, Significance(float(found.statistic), (), float(found.pvalue))
+
+
+def _about_the_median(
+    old: NDArray[np.float64], new: NDArray[np.float64]
+) -> tuple[tuple[int, int], tuple[int, int]]:
+    import numpy as np
+
+    middle = np.median(np.concatenate([old, new]))
+    before, after = (
+        (int(np.sum(scores < middle)), int(np.sum(scores > middle))) for scores in (old, new)
+    )
+    return before, after
+
+
+def _chi_squared(counts: tuple[tuple[int, int], tuple[int, int]]) -> Significance | None:
+    from scipy.stats import chi2_contingency
+
+    (a, b), (c, d) = counts
+    if not (a + b and c + d and a + c and b + d):
+        return None
+    found = chi2_contingency(counts, correction=False)
+    return Significance(float(found.statistic), (1.0,), float(found.pvalue))
+
+
+def _effect(before: Scores, after: Scores, confidence: float, wins: float) -> Effect:
+    from scipy.special import gammaln
+
+    from evenbreak.stats.binomial import critical_value
+
+    m, n = before.n, after.n
+    freedom = m + n - 2
+    pooled = math.sqrt(((m - 1) * before.sd**2 + (n - 1) * after.sd**2) / freedom)
+    if pooled == 0.0:
+        return Effect(None, None, None, wins)
+    # J(f) = Gamma(f / 2) / (sqrt(f / 2) Gamma((f - 1) / 2)); 0 for f = 1, but here f >= 2.
+    unbiased = math.exp(float(gammaln(freedom / 2) - gammaln((freedom - 1) / 2)))
+    unbiased /= math.sqrt(freedom / 2)
+    g = unbiased * (after.mean - before.mean) / pooled
+    half = critical_value(confidence) * math.sqrt((m + n) / (m * n) + g * g / (2 * (m + n)))
+    return Effect(g, g - half, g + half, wins)
