@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
+from datetime import date
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,10 +18,11 @@ from numpy.typing import NDArray
 from evenbreak.reports.problems import quoted
 from evenbreak.reports.read_table import Table
 
-__all__ = ["Values", "numbers", "read_cells", "whole_numbers"]
+__all__ = ["Values", "dates", "numbers", "read_cells", "whole_numbers"]
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
 _WHOLE = re.compile(r"[+-]?[0-9]+(\.0*)?", re.ASCII)
+_DATE = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})([T ]\d{1,2}:\d{2}\S*)?", re.ASCII)
 _IN_NUMBERS = "0123456789+-.eE"
 _DECIMAL_COMMA = re.compile(r"[^.,]*,[^.,]*")
 LARGEST_WHOLE = 1_000_000
@@ -131,6 +133,28 @@ def numbers(table: Table, name: str, *, remedy: str) -> Values:
     return read_cells(
         table, name, _number, wanted="a number", remedy=remedy, dtype=np.float64, empty=math.nan
     )
+
+
+def dates(table: Table, name: str) -> Values:
+    """Read a column of dates, year first; a time after one is ignored, empty cells are NaT."""
+    return read_cells(
+        table,
+        name,
+        _date,
+        wanted="a date",
+        remedy="write year-month-day, such as 2024-09-03, or leave it empty",
+        dtype="datetime64[D]",
+        empty=np.datetime64("NaT"),
+        may_be_empty=True,
+    )
+
+
+def _date(text: str) -> np.datetime64 | None:
+    match = _DATE.fullmatch(text)
+    try:
+        return np.datetime64(date(*map(int, match.groups()[:3]))) if match else None
+    except ValueError:
+        return None
 
 
 def _number(text: str) -> float | None:

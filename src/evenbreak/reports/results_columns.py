@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
 import unicodedata
 from collections import defaultdict
-from datetime import date
 from itertools import count
 from typing import Any
 
@@ -14,7 +12,7 @@ from numpy.typing import NDArray
 
 from evenbreak.ratings.consistency import find_problems
 from evenbreak.ratings.results import FORMATS, Results
-from evenbreak.reports.cells import Values, read_cells, whole_numbers
+from evenbreak.reports.cells import Values, dates, read_cells, whole_numbers
 from evenbreak.reports.problems import quoted
 from evenbreak.reports.read_table import Table
 
@@ -43,7 +41,6 @@ OPTIONAL = {
 }
 """The columns that a results file may have, with their other names."""
 
-_DATE = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})([T ]\d{1,2}:\d{2}\S*)?", re.ASCII)
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 _FORFEIT = {
     **dict.fromkeys(("yes", "y", "true", "t", "1", "x", "forfeit", "walkover", "wo"), True),
@@ -72,7 +69,7 @@ class ResultsColumns:
             self._keep(name, self._names(name))
         self.named = self.good.copy()
         if "date" in self.table:
-            self._keep("date", self._dates())
+            self._keep("date", dates(self.table, "date"))
         if "forfeit" in self.table:
             self._keep("forfeit", self._words("forfeit", _FORFEIT, "yes or no", False))
         for name in ("score_a", "score_b"):
@@ -146,18 +143,6 @@ class ResultsColumns:
             remedy="write the player's name",
             dtype=np.int64,
             empty=0,
-        )
-
-    def _dates(self) -> Values:
-        return read_cells(
-            self.table,
-            "date",
-            _date,
-            wanted="a date",
-            remedy="write year-month-day, such as 2024-09-03, or leave it empty",
-            dtype="datetime64[D]",
-            empty=np.datetime64("NaT"),
-            may_be_empty=True,
         )
 
     def _words(self, name: str, words: dict[str, Any], choices: str, empty: Any) -> Values:
@@ -248,11 +233,3 @@ def _letters(text: str) -> str:
 
 def _racks(text: str) -> str:
     return "".join(text.casefold().split())
-
-
-def _date(text: str) -> np.datetime64 | None:
-    match = _DATE.fullmatch(text)
-    try:
-        return np.datetime64(date(*map(int, match.groups()[:3]))) if match else None
-    except ValueError:
-        return None

@@ -29,5 +29,6 @@ __getattr__, __dir__, __all__ = attach(
         "innings": ["InningsScore"],
         "runs": ["FairLine", "RunLength", "median_ratio_limit", "shot_chance"],
         "summary": ["Distribution", "Moments", "merge"],
+        "trend": ["Trend", "trend"],
     },
 )

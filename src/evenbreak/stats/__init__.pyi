@@ -25,3 +25,5 @@ from evenbreak.stats.runs import shot_chance as shot_chance
 from evenbreak.stats.summary import Distribution as Distribution
 from evenbreak.stats.summary import Moments as Moments
 from evenbreak.stats.summary import merge as merge
+from evenbreak.stats.trend import Trend as Trend
+from evenbreak.stats.trend import trend as trend
