@@ -183,13 +183,13 @@ def test_no_other_handicap_is_nearer_to_even(points, p1, p2, first):
     even = even_points(points, p1, p2, first=first, most=most)
     wins = [
         straight_pool_odds(StraightPool(points, n, p1, p2, first=first)).p_win_1
-        for n in range(1, most + 2)
+        for n in range(1, most + 1)
     ]
     assert all(less <= more * (1 + 1e-12) for less, more in pairwise(wins))
-    gaps = [abs(win - 0.5) for win in wins[:most]]
+    gaps = [abs(win - 0.5) for win in wins]
     assert gaps[even.points_2 - 1] == min(gaps)
     assert even.p_win_1 == wins[even.points_2 - 1]
-    assert even.p_win_1_more == wins[even.points_2]
+    assert even.p_win_1_more == (wins[even.points_2] if even.points_2 < most else None)
     assert even.p_win_1_less == (wins[even.points_2 - 2] if even.points_2 > 1 else None)
 
 

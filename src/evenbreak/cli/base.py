@@ -19,6 +19,8 @@ COMMANDS = {
     "fair": "Find the race that is nearest to an even chance.",
     "oneball": "Answer who wins the one-ball game, and which shot is best.",
     "breaks": "Weigh break formats and stakes for two players, in the long run.",
+    "runs": "Answer how long a player's runs are, and what several innings bring.",
+    "straight": "Answer who wins a match of straight pool, and what handicap makes it even.",
     "chain": "Find the stochastic limit of any chain, from a file of arcs.",
 }
 """Each command with its line of help; module and function bear the command's name."""

@@ -115,13 +115,13 @@ class EvenPoints(NamedTuple):
     """The points of player 2 that make a match nearest to even.
 
     `p_win_1` is P(player 1 wins the match) with them; `p_win_1_less` and `p_win_1_more` with
-    a point less and a point more for player 2, None where that is no match.
+    a point less and a point more for player 2, None beyond the points that were allowed.
     """
 
     points_2: int
     p_win_1: float
     p_win_1_less: float | None
-    p_win_1_more: float
+    p_win_1_more: float | None
 
 
 def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
@@ -219,7 +219,8 @@ def even_points(
         low, high = (middle, high) if win(middle) < 0.5 else (low, middle)
     nearest = high if low == 0 or abs(win(high) - 0.5) < abs(win(low) - 0.5) else low
     less = win(nearest - 1) if nearest > 1 else None
-    return EvenPoints(nearest, win(nearest), less, win(nearest + 1))
+    more = win(nearest + 1) if nearest < most else None
+    return EvenPoints(nearest, win(nearest), less, more)
 
 
 def _aligned(match: StraightPool) -> list[tuple[NDArray[Any], NDArray[Any]]]:

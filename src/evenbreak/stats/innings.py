@@ -102,7 +102,11 @@ class InningsScore(CountLaw):
 
     @property
     def median_estimate(self) -> float:
-        """The text's estimate of the median, (2 mean + mode) / 3; good from 4 innings on."""
+        """The text's estimate of the median, (2 mean + mode) / 3.
+
+        Without safety play it is good from 4 innings on. With it the mode may be 0, of blank
+        innings alone, and says nothing about the median.
+        """
         return (2.0 * self.mean + self.mode) / 3.0
 
     @property
@@ -178,7 +182,7 @@ class InningsScore(CountLaw):
 
     def _peak(self) -> int:
         """Return the most probable score of 1 or more; from there on the law has one peak."""
-        low, high = 0, 1
+        low, high = 0, math.ceil(self.mean) + 1
         while self._rises(high, high + 1):
             low, high = high, 2 * high
         while high - low > 1:

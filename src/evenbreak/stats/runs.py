@@ -154,7 +154,17 @@ class RunLength(CountLaw):
     def median_ratio(self) -> float | None:
         """The median over the mean; None where the mean is 0."""
         p, safety = exact(self.p), exact(self.safety)
-        return float(self.median * (1 - p) / (safety * p)) if self.mean else None
+        return float(self.median * (1 - p) / (safety * p)) if safety * p else None
+
+    @property
+    def median_estimate(self) -> float:
+        """The text's estimate of the median, the mean times `median_ratio_limit`."""
+        return self.mean * median_ratio_limit(self.safety)
+
+    @property
+    def relative_sd(self) -> float | None:
+        """The standard deviation over the mean; None where the mean is 0."""
+        return self.sd / self.mean if self.mean else None
 
     @property
     def fair_line(self) -> FairLine:

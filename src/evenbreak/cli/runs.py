@@ -1,0 +1,178 @@
+"""`evenbreak runs`: what a player runs in an inning, or scores in several."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING
+
+import click
+
+from evenbreak.cli.options import LONGEST, NUMBER, chance, refuse, wants_json
+from evenbreak.cli.output import chance_text, print_quantities
+from evenbreak.cli.plot import plot_option, write_plot
+
+if TYPE_CHECKING:
+    from evenbreak.stats.innings import InningsScore
+    from evenbreak.stats.runs import RunLength
+
+__all__ = ["MOST_BALLS", "average", "runs"]
+
+MOST_BALLS = 100_000
+"""The most balls that an option can name here."""
+
+WORDS = {
+    "p_make": "a shot is made",
+    "mean": "mean: fair at a price for each ball",
+    "median": "median: fair for over or under",
+    "mode": "mode: the best single number to name",
+    "sd": "standard deviation",
+    "relative_sd": "standard deviation over mean",
+    "median_estimate": "median, by the rule of thumb",
+}
+"""What each quantity that is always answered is called on a terminal."""
+
+EXAMPLES = """\b
+Examples:
+  evenbreak runs --mean 24 --at-least 100
+  evenbreak runs --mean 24 --over 20
+  evenbreak runs --p 0.96 --innings 5 --between 100..150
+  evenbreak runs --p 0.96 --safety 0.8 --plot runs.png
+"""
+
+
+def average(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+    """Return a mean number of balls."""
+    if value is None:
+        return None
+    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
+    if not 0.0 <= number <= MOST_BALLS:
+        raise click.BadParameter(
+            f"{value!r}; give a number of balls an inning from 0 to {MOST_BALLS}",
+            ctx=ctx,
+            param=param,
+        )
+    return number
+
+
+def _balls(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
+    """Return the two ends of a span of scores, such as 50..75."""
+    if value is None:
+        return None
+    match = re.fullmatch(r"\s*(\d{1,9})\.\.(\d{1,9})\s*", value, re.ASCII)
+    if match and int(match[1]) <= int(match[2]) <= MOST_BALLS:
+        return int(match[1]), int(match[2])
+    raise click.BadParameter(
+        f"{value!r}; give the fewest and the most balls, from 0 to {MOST_BALLS}, "
+        "with two dots between them, such as 50..75",
+        ctx=ctx,
+        param=param,
+    )
+
+
+@click.command(epilog=EXAMPLES)
+@click.option(
+    "--mean", metavar="BALLS", callback=average, help="What the player runs on average an inning."
+)
+@click.option("--p", metavar="P", callback=chance, help="Chance that the player makes a shot.")
+@click.option(
+    "--safety",
+    metavar="ALPHA",
+    callback=chance,
+    default="1",
+    show_default=True,
+    help="The first shot of an inning is made with ALPHA times the chance of the others.",
+)
+@click.option(
+    "--innings",
+    type=click.IntRange(1, LONGEST),
+    metavar="M",
+    default=1,
+    show_default=True,
+    help="How many innings are played.",
+)
+@click.option(
+    "--at-least", type=click.IntRange(0, MOST_BALLS), metavar="N", help="The chance of N or more."
+)
+@click.option("--between", metavar="LO..HI", callback=_balls, help="The chance of LO to HI.")
+@click.option(
+    "--over", type=click.IntRange(0, MOST_BALLS), metavar="N", help="The wager on more than N."
+)
+@plot_option
+@wants_json
+def runs(
+    mean: float | None,
+    p: float | None,
+    safety: float,
+    innings: int,
+    at_least: int | None,
+    between: tuple[int, int] | None,
+    over: int | None,
+    plot: str | None,
+    as_json: bool,
+) -> None:
+    """Answer how long the runs of a player are, and what the innings of a match bring.
+
+    Who plays: --mean, or --p.
+    """
+    if (mean is None) == (p is None):
+        refuse("give one of --mean and --p, and not both")
+    law = _law(mean, p, safety, innings)
+    answer = {
+        "p_make": float(law.p),
+        "safety": safety,
+        "innings": innings,
+        "mean": law.mean,
+        "median": law.median,
+        "mode": law.mode,
+        "sd": law.sd,
+        "relative_sd": law.relative_sd,
+        # With safety play the blank innings stand apart, and the rule for several is no use.
+        "median_estimate": law.median_estimate if innings == 1 or safety == 1 else None,
+        "p_at_least": None if at_least is None else float(law.at_least(at_least)),
+        "p_between": None if between is None else float(law.between(*between)),
+        "p_over": None if over is None else float(law.at_least(over + 1)),
+        "p_not_over": None if over is None else float(law.cumulative(over)),
+    }
+    low, high = between or (0, 0)
+    print_quantities(
+        answer,
+        words={
+            **WORDS,
+            "p_at_least": f"{at_least} or more",
+            "p_between": f"{low} to {high}",
+            "p_over": f"over {over}",
+            "p_not_over": f"{over} or less",
+        },
+        heading=_heading(law, safety, innings),
+        text=_text,
+        as_json=as_json,
+    )
+    if plot is not None:
+        from evenbreak.reports.run_plots import plot_score
+
+        write_plot(plot_score(law, innings), plot)
+
+
+def _law(
+    mean: float | None, p: float | None, safety: float, innings: int
+) -> RunLength | InningsScore:
+    from evenbreak.stats.innings import InningsScore
+    from evenbreak.stats.runs import RunLength, shot_chance
+
+    chance = shot_chance(mean, safety) if p is None else p
+    return RunLength(chance, safety) if innings == 1 else InningsScore(chance, innings, safety)
+
+
+def _heading(law: RunLength | InningsScore, safety: float, innings: int) -> str:
+    played = "the run of an inning" if innings == 1 else f"the score of {innings} innings"
+    first = "" if safety == 1 else f", but the first of an inning with {float(law.p) * safety:.4g}"
+    return f"{played}; each shot is made with {float(law.p):.4g}{first}"
+
+
+def _text(key: str, value: float) -> str:
+    if key.startswith("p_"):
+        return chance_text(value)
+    if key == "relative_sd":
+        return f"{value:.3f}"
+    return f"{value:.2f}" if isinstance(value, float) else str(value)

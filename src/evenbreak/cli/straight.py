@@ -1,0 +1,210 @@
+"""`evenbreak straight`: a match of 14.1 straight pool, and its handicap."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple
+
+import click
+
+from evenbreak.cli.options import LONGEST, NUMBER, chance, refuse, wants_json
+from evenbreak.cli.output import chance_text, print_quantities
+from evenbreak.cli.runs import MOST_BALLS
+
+if TYPE_CHECKING:
+    from evenbreak.matches.straight_pool import StraightPool
+
+__all__ = ["straight"]
+
+WORDS = {
+    "p_win_a": "A wins the match",
+    "p_win_b": "B wins the match",
+    "p_never_ends": "the match never ends",
+    "mean_innings": "innings, mean",
+    "sd_innings": "innings, standard deviation",
+    "innings_p50": "innings, half of the matches within",
+    "innings_p90": "innings, 9 of 10 matches within",
+    "even_points_a": "nearest to even: A needs",
+    "even_points_b": "nearest to even: B needs",
+    "p_win_a_even": "A wins then",
+}
+"""What each quantity is called on a terminal."""
+
+MEND = "give two averages A B, or --p1 and --p2"
+
+EXAMPLES = """\b
+Examples:
+  evenbreak straight 9 4 --points 100
+  evenbreak straight 24 19 --points 150:130 --first b
+  evenbreak straight --p1 0.9 --p2 0.85 --points 100 --safety 0.8
+"""
+
+
+def _points(ctx: click.Context, param: click.Parameter, value: str) -> tuple[int, int]:
+    """Return the points that A and B need, such as 100 or 100:80."""
+    match = re.fullmatch(r"\s*(\d{1,9})(?::(\d{1,9}))?\s*", value, re.ASCII)
+    if match:
+        a = int(match[1])
+        b = int(match[2] or a)
+        if min(a, b) >= 1 and max(a, b) <= LONGEST:
+            return a, b
+    raise click.BadParameter(
+        f"{value!r}; give a whole number from 1 to {LONGEST}, such as 100, "
+        "or one for each player, such as 100:80",
+        ctx=ctx,
+        param=param,
+    )
+
+
+class Shots(NamedTuple):
+    """The two players: the chance of a shot, and of a first shot over it."""
+
+    p_a: Fraction | float
+    p_b: Fraction | float
+    safety: float
+
+    @property
+    def a_is_stronger(self) -> bool:
+        """Whether A makes as many balls an inning as B, or more."""
+        return self.p_a >= self.p_b
+
+    @classmethod
+    def of(
+        cls, averages: tuple[str, ...], p1: float | None, p2: float | None, safety: float
+    ) -> Shots:
+        """Return the players that the options describe, or refuse what contradicts itself."""
+        from evenbreak.stats.runs import shot_chance
+
+        if averages and (p1 is not None or p2 is not None):
+            refuse(f"who plays is said twice; {MEND}")
+        if not averages:
+            if p1 is None or p2 is None:
+                refuse(f"who plays is missing; {MEND}")
+            return cls(p1, p2, safety)
+        if len(averages) != 2:
+            refuse(f"{len(averages)} average(s) given, {', '.join(averages)}; {MEND}")
+        for word in averages:
+            if not NUMBER.fullmatch(word) or not 0.0 <= float(word) <= MOST_BALLS:
+                refuse(f"{word!r} is no average; give balls an inning from 0 to {MOST_BALLS}")
+        p_a, p_b = (shot_chance(float(word), safety) for word in averages)
+        return cls(p_a, p_b, safety)
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("averages", nargs=-1, metavar="[A B]")
+@click.option("--p1", metavar="P", callback=chance, help="Chance that A makes a shot.")
+@click.option("--p2", metavar="P", callback=chance, help="Chance that B makes a shot.")
+@click.option(
+    "--points",
+    metavar="N|M:N",
+    callback=_points,
+    required=True,
+    help="The points that each needs; A needs M, B needs N.",
+)
+@click.option(
+    "--safety",
+    metavar="ALPHA",
+    callback=chance,
+    default="1",
+    show_default=True,
+    help="The first shot of an inning is made with ALPHA times the chance of the others.",
+)
+@click.option(
+    "--first",
+    type=click.Choice(["a", "b"]),
+    default="a",
+    show_default=True,
+    help="Who has the first inning.",
+)
+@wants_json
+def straight(
+    averages: tuple[str, ...],
+    p1: float | None,
+    p2: float | None,
+    points: tuple[int, int],
+    safety: float,
+    first: str,
+    as_json: bool,
+) -> None:
+    """Answer who wins a match of 14.1 straight pool, and what handicap makes it even.
+
+    Who plays: what each runs on average, A B, in balls an inning; or --p1 and --p2.
+    """
+    from evenbreak.matches.straight_pool import straight_pool_odds
+
+    players = Shots.of(averages, p1, p2, safety)
+    odds = straight_pool_odds(_match(players, points, first))
+    even = None if odds.p_never_ends else _even(players, points, first)
+    even_odds = even and straight_pool_odds(_match(players, even, first))
+    print_quantities(
+        {
+            "p_make_a": float(players.p_a),
+            "p_make_b": float(players.p_b),
+            "safety": safety,
+            "points_a": points[0],
+            "points_b": points[1],
+            "p_win_a": odds.p_win_1,
+            "p_win_b": odds.p_win_2,
+            "p_never_ends": odds.p_never_ends,
+            "mean_innings": odds.mean_innings,
+            "sd_innings": odds.sd_innings,
+            "innings_p50": odds.innings_p50,
+            "innings_p90": odds.innings_p90,
+            "even_points_a": even and even[0],
+            "even_points_b": even and even[1],
+            "p_win_a_even": even_odds and even_odds.p_win_1,
+        },
+        words={
+            key: name for key, name in WORDS.items() if key != "p_never_ends" or odds.p_never_ends
+        },
+        heading=_heading(averages, players, points, first),
+        text=_text,
+        as_json=as_json,
+    )
+
+
+def _match(players: Shots, points: tuple[int, int], first: str) -> StraightPool:
+    from evenbreak.matches.straight_pool import StraightPool
+
+    p_a, p_b, safety = players
+    return StraightPool(
+        *points, p_a, p_b, safety_1=safety, safety_2=safety, first=1 if first == "a" else 2
+    )
+
+
+def _even(players: Shots, points: tuple[int, int], first: str) -> tuple[int, int]:
+    """Return what A and B need for an even match: the stronger what he needs now."""
+    from evenbreak.matches.straight_pool import even_points
+
+    p_a, p_b, safety = players
+    if players.a_is_stronger:
+        strong, weak, needs, starts = p_a, p_b, points[0], first == "a"
+    else:
+        strong, weak, needs, starts = p_b, p_a, points[1], first == "b"
+    weaker_needs = even_points(
+        needs,
+        strong,
+        weak,
+        safety_1=safety,
+        safety_2=safety,
+        first=1 if starts else 2,
+        most=needs,
+    ).points_2
+    return (needs, weaker_needs) if players.a_is_stronger else (weaker_needs, needs)
+
+
+def _heading(averages: tuple[str, ...], players: Shots, points: tuple[int, int], first: str) -> str:
+    if averages:
+        who = f"A runs {float(averages[0]):g} balls an inning, B {float(averages[1]):g}"
+    else:
+        who = f"A makes a shot with {players.p_a:g}, B with {players.p_b:g}"
+    if players.safety != 1:
+        who += f", a first shot with {players.safety:g} of the chance of the others"
+    return f"{who}; {first.upper()} shoots first\nA needs {points[0]} points, B {points[1]}"
+
+
+def _text(key: str, value: float) -> str:
+    if key.startswith("p_"):
+        return chance_text(value)
+    return f"{value:.2f}" if isinstance(value, float) else str(value)
