@@ -30,6 +30,7 @@ reports:          ## make again every committed output that a script makes
 	$(PYTHON) docs/images/make_images.py
 	$(PYTHON) -m evenbreak report data/demo_league.csv --out reports/demo_league --top 24 > demo_league.txt
 	mv demo_league.txt reports/demo_league/sheet.txt
+	$(PYTHON) -m evenbreak reproduce --out reports
 
 drift: reports    ## fail if what is committed is not what the scripts make
 	git diff --exit-code -- reports data docs/images

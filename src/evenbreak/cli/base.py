@@ -21,6 +21,8 @@ COMMANDS = {
     "breaks": "Weigh break formats and stakes for two players, in the long run.",
     "runs": "Answer how long a player's runs are, and what several innings bring.",
     "straight": "Answer who wins a match of straight pool, and what handicap makes it even.",
+    "drill": "Find where a progressive drill settles, and what to practise.",
+    "reproduce": "Write section 5 of the source text, computed anew: tables, problems, figures.",
     "chain": "Find the stochastic limit of any chain, from a file of arcs.",
 }
 """Each command with its line of help; module and function bear the command's name."""

@@ -41,8 +41,9 @@ def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, by
     frames = section_frames(found)
     files = {"index.md": index_page(found, frames).encode()}
     files |= {f"{name}.csv": to_csv(frame) for name, frame in frames.items()}
-    for name, figure in {**figures(), **diagrams()}.items():
-        say(f"Drawing {name}")
+    drawn = {**figures(), **diagrams()}
+    say(f"Drawing {len(drawn)} figures")
+    for name, figure in drawn.items():
         files |= _images(name, figure())
     return files
 

@@ -13,7 +13,7 @@ from decimal import Decimal
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.reports.published import Erratum, errata
+from evenbreak.reports.published import Erratum, PublishedNumber, errata
 from evenbreak.reports.section5.break_formats import PAIRS
 from evenbreak.reports.section5.innings import INNINGS
 from evenbreak.reports.section5.long_run import CHARTS, HANDICAPS, LEVELS, ahead_formula
@@ -27,6 +27,8 @@ __all__ = ["index_page", "slips_of"]
 
 _PLACE = re.compile(r"\{\{(\w+)(?: ([^}]*))?\}\}")
 _SHOWN_ELSEWHERE = {"mean of two", "W(1/2;n,n)", "W infinite look-ahead", "W two-shot look-ahead"}
+
+_STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half and half"}
 
 Frames = Mapping[str, "pd.DataFrame"]
 
@@ -79,7 +81,7 @@ def _blocks(found: Sequence[Finding], frames: Frames) -> Mapping[str, Callable[[
             ["match", "W"], [[f"{m}:{n}", f"`{ahead_formula(m, n)}`"] for m, n in HANDICAPS]
         ),
         "errata": lambda _: markdown_table(
-            ["where", "the text", "rather", "kind", "why"], map(list, errata())
+            ["where", "the text", "right", "kind", "why"], map(list, errata()), left=5
         ),
     }
 
@@ -96,16 +98,32 @@ def _verdicts(found: Sequence[Finding]) -> str:
 
 
 def _numbers(found: Sequence[Finding], problem: str) -> str:
-    rows = []
-    for row, computed, verdict in found:
-        of_a_table = row.problem.startswith("Table") and " less " not in row.quantity
-        of_the_ladder = row.problem == "NPL" and row.inputs.startswith("chart")
-        if row.problem != problem or row.printed is None or of_a_table or of_the_ladder:
-            continue
-        if row.quantity not in _SHOWN_ELSEWHERE:
-            said = f"**erratum**: {row.note}" if verdict == "erratum" else verdict
-            rows.append([row.quantity, row.inputs, short(row.printed), short(computed), said])
-    return markdown_table(["quantity", "with", "text", "computed", "verdict"], rows)
+    rows = [
+        [row.quantity, _given(row.inputs), short(row.printed), short(computed), verdict]
+        for row, computed, verdict in found
+        if row.problem == problem and row.printed is not None and not _in_a_table(row)
+    ]
+    marked = [
+        [*cells[:4], f"**{cells[4]}**" if cells[4] == "erratum" else cells[4]] for cells in rows
+    ]
+    return markdown_table(["quantity", "given", "text", "computed", "verdict"], marked, left=2)
+
+
+def _in_a_table(row: PublishedNumber) -> bool:
+    """Return whether a number is shown in a table of its own."""
+    if row.problem.startswith("Table"):
+        return " less " not in row.quantity
+    of_the_ladder = row.problem == "NPL" and row.inputs.startswith("chart")
+    return of_the_ladder or row.quantity in _SHOWN_ELSEWHERE
+
+
+def _given(inputs: str) -> str:
+    """Return inputs as a reader would like them: those of P5.2 are the two lists of P5.1.
+
+    >>> _given("as above"), _given("p=.96 innings=5")
+    ('both lists', 'p=.96 innings=5')
+    """
+    return "both lists" if inputs == "as above" or inputs.startswith("N=5;5") else inputs
 
 
 def _slips(place: str) -> str:
@@ -113,8 +131,9 @@ def _slips(place: str) -> str:
 
 
 def _slip(slip: Erratum) -> str:
-    right = f" Right: {slip.correct}." if slip.correct else ""
-    return f"> **Slip ({slip.kind}).** The text: {slip.printed}.{right} {slip.why}"
+    if slip.kind == "scan":
+        return f"> **Not legible in the copy used:** {slip.printed}. {slip.why}"
+    return f"> **Slip: {slip.kind}.** The text: {slip.printed}. Right: {slip.correct}. {slip.why}"
 
 
 def _square(frame: pd.DataFrame) -> str:
@@ -196,12 +215,11 @@ def _table_5_22(found: Sequence[Finding]) -> str:
 def _steps(frame: pd.DataFrame) -> str:
     rows: dict[str, list[str]] = {}
     for row in _records(frame):
-        start, _, when = row["quantity"].partition(", ")
-        if when and not start.startswith("formula"):
-            name = {"v": "S1", "w": "S2"}.get(start, "half S1, half S2")
-            rows.setdefault(f"{name}, {when}", []).append(rounded(row["computed"], 4))
+        start, _, when = row["quantity"].rpartition(", ")
+        if start in _STARTS:
+            rows.setdefault(f"{_STARTS[start]}: {when}", []).append(rounded(row["computed"], 4))
     return markdown_table(
-        ["from (p1 = 0.4, p2 = 0.8)", "W", "S1", "S2", "L"],
+        ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],
         [[name, *cells] for name, cells in rows.items()],
     )
 

@@ -9,15 +9,15 @@ from typing import Any
 __all__ = ["beside", "markdown_table", "rounded", "short"]
 
 
-def markdown_table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    """Return a table in Markdown; the first column is flush left, the others right.
+def markdown_table(header: Sequence[str], rows: Iterable[Sequence[Any]], *, left: int = 1) -> str:
+    """Return a table in Markdown, the first `left` columns flush left, the others right.
 
     >>> print(markdown_table(["p", "W"], [["1/2", 0.5]]))
     | p | W |
     |:--|--:|
     | 1/2 | 0.5 |
     """
-    ruler = [":--", *["--:"] * (len(header) - 1)]
+    ruler = [":--" if column < left else "--:" for column in range(len(header))]
     lines = [_line(header), f"|{'|'.join(ruler)}|", *map(_line, rows)]
     return "\n".join(lines)
 

@@ -38,7 +38,7 @@ _HOME = {
     "Table 5.4": "P5.24",
     "Table 5.5": "P5.26",
 }
-"""The problem that a table answers, or stands before."""
+"""The problem that a table answers or follows."""
 
 
 class Finding(NamedTuple):
@@ -93,7 +93,13 @@ def findings() -> tuple[Finding, ...]:
     from evenbreak.reports.published import further_numbers, p5_6_tables, published_numbers
 
     rows = (*published_numbers(), *further_numbers(), *p5_6_tables())
-    return tuple(_found(row) for row in rows)
+    return tuple(_found(row) for row in sorted(rows, key=_place))
+
+
+def _place(row: PublishedNumber) -> tuple[int, bool]:
+    """Return a key that puts numbers in the order of the text, a table after its problem."""
+    home = "P5.26" if row.problem == "NPL" else _HOME.get(row.problem, row.problem)
+    return int(home.removeprefix("P5.")), row.problem != home
 
 
 def _found(published: PublishedNumber) -> Finding:

@@ -1,0 +1,66 @@
+"""`evenbreak reproduce`: every table, figure and number of section 5 of the source text."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+
+import click
+
+from evenbreak.cli.options import refuse
+
+__all__ = ["reproduce"]
+
+EXAMPLES = """\b
+Examples:
+  evenbreak reproduce --out section5
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.option(
+    "--out",
+    required=True,
+    metavar="DIR",
+    type=click.Path(file_okay=False),
+    help="Where the files go; made if it is not there.",
+)
+@click.pass_context
+def reproduce(ctx: click.Context, out: str) -> None:
+    """Write every table, figure and number of section 5 of the source text, computed anew.
+
+    Begin with DIR/index.md: it shows and explains them all, names the slips of the text
+    and links to the CSV files. Printed numbers stand beside computed ones. The files are
+    the same to the byte each time; if a number differs from what is expected of it, the
+    command says so and ends with 1.
+    """
+    if not out.strip():
+        refuse("--out is empty; name a folder, or . for this one")
+    from evenbreak.reports.reproduce import differing, reproduction
+    from evenbreak.reports.section5.numbers import findings
+    from evenbreak.reports.write_files import write_files
+
+    files = reproduction(_say)
+    write_files(out, files)
+    _say(f"Wrote {_kinds(files)} to {out}")
+    if problems := list(differing(findings())):
+        for problem in problems:
+            _say(f"Differs: {problem}")
+        ctx.exit(1)
+
+
+def _kinds(names: Iterable[str]) -> str:
+    """Return what was written, in short.
+
+    >>> _kinds(["index.md", "a.csv", "b.csv", "a.png", "a.svg"])
+    'index.md, 2 tables (CSV) and 1 figure (PNG and SVG)'
+    """
+    count = Counter(name.rsplit(".", 1)[1] for name in names)
+    figures = "1 figure" if count["png"] == 1 else f"{count['png']} figures"
+    return f"index.md, {count['csv']} tables (CSV) and {figures} (PNG and SVG)"
+
+
+def _say(message: str) -> None:
+    from evenbreak.reports.problems import printable
+
+    click.echo(printable(message), err=True)
