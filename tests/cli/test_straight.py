@@ -100,6 +100,15 @@ def test_text_on_a_terminal(run, monkeypatch):
     assert text.startswith("A makes a shot with 0.5, B with 0.6, a first shot with 0.5 of")
 
 
+@pytest.mark.parametrize("line", ["9 4 --points 100:80", "4 9 --points 1", "0 5 --points 10"])
+@pytest.mark.parametrize("name", ["spot.png", "spot.svg"])
+def test_plot(run, tmp_path, line, name):
+    path = tmp_path / name
+    result = run("straight", *line.split(), "--plot", str(path))
+    assert (result.exit_code, result.stderr) == (0, f"Wrote {path}\n")
+    assert path.read_bytes().startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")
+
+
 @pytest.mark.parametrize(
     ("line", "remedy"),
     [
@@ -116,6 +125,7 @@ def test_text_on_a_terminal(run, monkeypatch):
         ("9 4 --points 2000:5", "whole number from 1 to 1000"),
         ("9 4 --points 5 --first c", "'a', 'b'"),
         ("9 4 --points 5 --safety 2", "give a number from 0 to 1"),
+        ("0 0 --points 5 --plot spot.png", "nothing to draw; leave --plot out"),
         ("9 4 --point 5 --ponts 3", "Did you mean"),
     ],
 )

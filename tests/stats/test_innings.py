@@ -152,6 +152,24 @@ def test_shapes_and_rare_scores():
 
 
 @pytest.mark.parametrize(
+    ("p", "innings", "safety", "scores"),
+    [
+        (Fraction(24, 25), 50, 1, (100, 400, 1192, 2000, 6000)),
+        (Fraction(24, 25), 50, Fraction(4, 5), (10, 100, 800, 4000)),
+        (Fraction(1, 5), 200, 1, (1, 10, 50, 400)),
+        (Fraction(99, 100), 7, Fraction(1, 2), (5, 300, 9000)),
+    ],
+)
+def test_both_tails_keep_their_digits(p, innings, safety, scores):
+    law = InningsScore(p, innings, safety)
+    for n in scores:
+        below, at_most = law.exact_cumulative(n - 1), law.exact_cumulative(n)
+        assert law.cumulative(n) == pytest.approx(float(at_most), rel=1e-13)
+        assert law.at_least(n) == pytest.approx(float(1 - below), rel=1e-13)
+        assert law.probability(n) == pytest.approx(float(at_most - below), rel=1e-13)
+
+
+@pytest.mark.parametrize(
     ("arguments", "remedy"),
     [
         ((0.5, 0), "innings is 0; give a whole number, 1 or more"),

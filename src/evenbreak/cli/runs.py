@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from evenbreak.stats.innings import InningsScore
     from evenbreak.stats.runs import RunLength
 
-__all__ = ["MOST_BALLS", "average", "runs"]
+__all__ = ["MOST_BALLS", "runs"]
 
 MOST_BALLS = 100_000
 """The most balls that an option can name here."""
@@ -41,7 +41,7 @@ Examples:
 """
 
 
-def average(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+def _average(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
     """Return a mean number of balls."""
     if value is None:
         return None
@@ -72,7 +72,7 @@ def _balls(ctx: click.Context, param: click.Parameter, value: str | None) -> tup
 
 @click.command(epilog=EXAMPLES)
 @click.option(
-    "--mean", metavar="BALLS", callback=average, help="What the player runs on average an inning."
+    "--mean", metavar="BALLS", callback=_average, help="What the player runs on average an inning."
 )
 @click.option("--p", metavar="P", callback=chance, help="Chance that the player makes a shot.")
 @click.option(

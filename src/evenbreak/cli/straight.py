@@ -10,6 +10,7 @@ import click
 
 from evenbreak.cli.options import LONGEST, NUMBER, chance, refuse, wants_json
 from evenbreak.cli.output import chance_text, print_quantities
+from evenbreak.cli.plot import plot_option, write_plot
 from evenbreak.cli.runs import MOST_BALLS
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ Examples:
   evenbreak straight 9 4 --points 100
   evenbreak straight 24 19 --points 150:130 --first b
   evenbreak straight --p1 0.9 --p2 0.85 --points 100 --safety 0.8
+  evenbreak straight 24 19 --points 150 --plot spot.png
 """
 
 
@@ -117,6 +119,7 @@ class Shots(NamedTuple):
     show_default=True,
     help="Who has the first inning.",
 )
+@plot_option
 @wants_json
 def straight(
     averages: tuple[str, ...],
@@ -125,6 +128,7 @@ def straight(
     points: tuple[int, int],
     safety: float,
     first: str,
+    plot: str | None,
     as_json: bool,
 ) -> None:
     """Answer who wins a match of 14.1 straight pool, and what handicap makes it even.
@@ -135,6 +139,8 @@ def straight(
 
     players = Shots.of(averages, p1, p2, safety)
     odds = straight_pool_odds(_match(players, points, first))
+    if plot is not None and odds.p_never_ends:
+        refuse("nobody ever makes a ball, so there is nothing to draw; leave --plot out")
     even = None if odds.p_never_ends else _even(players, points, first)
     even_odds = even and straight_pool_odds(_match(players, even, first))
     print_quantities(
@@ -162,6 +168,12 @@ def straight(
         text=_text,
         as_json=as_json,
     )
+    if plot is not None and even is not None:
+        from evenbreak.reports.run_plots import plot_spot
+
+        weaker = 2 if players.a_is_stronger else 1
+        match = _match(players, points, first)
+        write_plot(plot_spot(match, weaker=weaker, even=even[weaker - 1]), plot)
 
 
 def _match(players: Shots, points: tuple[int, int], first: str) -> StraightPool:

@@ -1,7 +1,8 @@
-"""The picture of a score: its law, with the mean, the median and the mode marked."""
+"""Pictures of a score, with its mean, median and mode, and of a spot in straight pool."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from evenbreak.reports.style import LINES, new_axes
@@ -9,13 +10,17 @@ from evenbreak.reports.style import LINES, new_axes
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from evenbreak.matches.straight_pool import StraightPool
     from evenbreak.stats.innings import InningsScore
     from evenbreak.stats.runs import RunLength
 
-__all__ = ["plot_score"]
+__all__ = ["plot_score", "plot_spot"]
 
 _SHOWN = (0.001, 0.995)
 """The quantiles from which and up to which scores are drawn."""
+
+_POINTS = 150
+"""How many numbers of points a curve is drawn through, at the most."""
 
 
 def plot_score(law: RunLength | InningsScore, innings: int = 1) -> Figure:
@@ -47,6 +52,50 @@ def plot_score(law: RunLength | InningsScore, innings: int = 1) -> Figure:
             at, color=line.color, linestyle=line.linestyle, linewidth=1.6, label=f"{name} {at:.4g}"
         )
     axes.set_ylim(0.0)
+    axes.margins(x=0.02)
+    axes.legend(frameon=False)
+    return figure
+
+
+def plot_spot(match: StraightPool, *, weaker: int, even: int) -> Figure:
+    """Return a figure of A's chance in straight pool against the points that the weaker needs.
+
+    Parameters
+    ----------
+    match
+        the match as it is, a dot on the curve; player 1 is A.
+    weaker
+        the player whose points vary, 1 or 2.
+    even
+        the points of that player that are nearest to even, a dashed line.
+
+    >>> from evenbreak.matches import StraightPool
+    >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8), weaker=2, even=21)
+    >>> figure.axes[0].get_xlabel()
+    'points that B needs'
+    """
+    import numpy as np
+
+    from evenbreak.matches.straight_pool import straight_pool_odds
+
+    name = f"points_{weaker}"
+    now = getattr(match, name)
+    most = max(now, min(2 * even, match.points_1 + match.points_2 - now))
+    points = np.unique(np.linspace(1, most, _POINTS).round().astype(int)).tolist()
+    wins = [straight_pool_odds(replace(match, **{name: n})).p_win_1 for n in points]
+    figure, axes = new_axes(f"points that {'AB'[weaker - 1]} needs", "P(A wins the match)")
+    curve, half = LINES[:2]
+    axes.plot(points, wins, color=curve.color, linestyle=curve.linestyle)
+    axes.plot(
+        [now],
+        [straight_pool_odds(match).p_win_1],
+        "o",
+        color=curve.color,
+        label=f"{match.points_1} against {match.points_2}",
+    )
+    axes.axhline(0.5, color="0.7", linewidth=0.8)
+    axes.axvline(even, color=half.color, linestyle=half.linestyle, label=f"nearest to even: {even}")
+    axes.set_ylim(-0.02, 1.02)
     axes.margins(x=0.02)
     axes.legend(frameon=False)
     return figure

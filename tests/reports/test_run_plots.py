@@ -1,0 +1,40 @@
+import pytest
+
+from evenbreak.matches import StraightPool, straight_pool_odds
+from evenbreak.reports.run_plots import plot_score, plot_spot
+from evenbreak.stats import InningsScore, RunLength
+
+
+@pytest.mark.parametrize(
+    "law", [RunLength(0.96), InningsScore(0.96, 5), InningsScore(0.96, 5, 0.5), RunLength(0)]
+)
+def test_mean_median_and_mode_stand_where_they_are(law):
+    (axes,) = plot_score(law).axes
+    marks = [line for line in axes.lines if line.get_label()[0] != "_"]
+    assert [line.get_xdata()[0] for line in marks] == list(law.fair_line)
+    assert [line.get_label().split()[0] for line in marks] == ["mean", "median", "mode"]
+    assert len({line.get_color() for line in marks}) == 3
+
+
+def test_scores_are_drawn_with_their_probabilities():
+    law = InningsScore(0.9, 3)
+    (axes,) = plot_score(law, 3).axes
+    curve = axes.lines[0]
+    assert curve.get_ydata().tolist() == law.probability(curve.get_xdata()).tolist()
+    assert law.between(curve.get_xdata()[0], curve.get_xdata()[-1]) > 0.99
+    assert axes.get_xlabel() == "balls made in 3 innings"
+
+
+@pytest.mark.parametrize(("weaker", "even"), [(2, 43), (1, 60)])
+def test_a_spot_is_worth_what_the_match_with_it_is(weaker, even):
+    match = StraightPool(100, 80, 0.9, 0.8, first=2)
+    (axes,) = plot_spot(match, weaker=weaker, even=even).axes
+    curve, dot, *_, mark = axes.lines
+    points = curve.get_xdata().tolist()
+    assert (points[0], points[-1]) == (1, 100 if weaker == 1 else 86)
+    for n, win in zip(points[::30], curve.get_ydata()[::30].tolist(), strict=True):
+        needs = (n, 80) if weaker == 1 else (100, n)
+        assert win == straight_pool_odds(StraightPool(*needs, 0.9, 0.8, first=2)).p_win_1
+    assert dot.get_xdata()[0] == (100 if weaker == 1 else 80)
+    assert dot.get_ydata()[0] == straight_pool_odds(match).p_win_1
+    assert mark.get_xdata()[0] == even
