@@ -128,11 +128,21 @@ def test_gains_keep_their_digits_where_a_level_is_hardly_reached() -> None:
     assert gain == pytest.approx([0.75 / 0.75**2, p1 / 0.75**2], rel=1e-12)
 
 
-def test_the_lift_is_the_gain_of_five_points_as_far_as_there_is_room() -> None:
+@given(drills)
+def test_the_lift_is_what_five_points_more_bring(chances: list[float]) -> None:
+    statistics = drill_statistics(Drill(chances))
+    for i, lift in enumerate(statistics.lift):
+        more = [*chances[:i], min(chances[i] + 0.05, 1.0), *chances[i + 1 :]]
+        rise = mean_level(more) - statistics.distribution.mean
+        assert lift == pytest.approx(rise, abs=1e-12)
+
+
+def test_a_level_that_always_succeeds_lifts_nothing() -> None:
     statistics = drill_statistics(Drill([1.0, 0.98, 0.5]))
-    room = (0.0, 0.02, 0.05)
     assert statistics.gain[0] > 0
-    assert statistics.lift == pytest.approx(np.multiply(statistics.gain, room))
+    assert statistics.lift[0] == 0.0
+    # With 1 at the second level the first is never seen again: 2 is tried after each miss at 3.
+    assert statistics.lift[1] == pytest.approx(8 / 3 - statistics.distribution.mean)
 
 
 def test_practise_next_is_the_level_that_lifts_most() -> None:

@@ -64,7 +64,7 @@ def test_a_step_against_the_rule_is_told_and_taken_as_a_new_start(drill_file):
     assert file.log.starts.tolist() == [0, 2, 4]
     assert file.warnings == (
         f"{path}:4: level 5 follows a success at level 2, which leads to level 3; 2 such rows are "
-        "taken as a new start. Rows stand in the order of the attempts; a column session or date "
+        "taken as new starts. Rows stand in the order of the attempts; a column session or date "
         "says where one begins",
     )
 
@@ -72,7 +72,7 @@ def test_a_step_against_the_rule_is_told_and_taken_as_a_new_start(drill_file):
 def test_levels_of_the_drill(drill_file):
     path = drill_file("level,success\n1,yes\n2,yes\n2,no\n")
     assert read_drill_log(path).warnings == ()
-    assert "leads to level 3; the row is taken" in read_drill_log(path, levels=3).warnings[0]
+    assert "leads to level 3; it is a new start." in read_drill_log(path, levels=3).warnings[0]
     assert read_drill_log(path, levels=5).log.attempts.tolist() == [1, 2, 0, 0, 0]
     assert problems(path, levels=1) == [
         f":{line}: level 2 is above 1, the most that the drill may have; correct it, or give the "

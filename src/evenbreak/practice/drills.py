@@ -35,8 +35,8 @@ class DrillStatistics:
         chance is 0 or 1; inf where the mean jumps; 0 where the level is not visited in
         the long run.
     lift
-        for each level by how much about the mean level rises with a chance of success 0.05
-        higher, or as high as it can be: 0.05 times the gain, and 0 where the chance is 1.
+        for each level by how much the mean level rises with the chance of success there
+        0.05 higher, or 1 if it is above 0.95 already.
     period
         1 where the law is also that of a late attempt; 2 where odd and even attempts
         differ for ever and the law is the average over both.
@@ -71,7 +71,7 @@ def drill_statistics(drill: Drill) -> DrillStatistics:
     >>> round(nine_ball.distribution.mean, 3), nine_ball.distribution.median
     (4.354, 4)
     >>> nine_ball.practise_next, round(nine_ball.gain[3], 1), round(nine_ball.lift[3], 3)
-    (4, 2.3, 0.115)
+    (4, 2.3, 0.114)
     """
     limit = stochastic_limit(chain_of(drill))
     levels = range(1, len(drill.success) + 1)
@@ -83,6 +83,6 @@ def drill_statistics(drill: Drill) -> DrillStatistics:
         drill,
         Distribution(tuple(levels), tuple(law.tolist())),
         tuple(gain.tolist()),
-        tuple(level_lifts(success, gain).tolist()),
+        tuple(level_lifts(success).tolist()),
         limit.period,
     )

@@ -97,19 +97,26 @@ def level_gains(success: NDArray[np.float64], law: NDArray[np.float64]) -> NDArr
     return np.where(law > 0.0, gain, 0.0)
 
 
-def level_lifts(success: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return by how much about the mean level rises with five more successes in a hundred.
+def level_lifts(success: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return by how much the mean level rises with five more successes in a hundred.
 
-    The rise of one chance by 0.05, or as far as 1, times its gain; so a level that always
-    succeeds has none.
+    Each entry is the rise with the chance at that level alone 0.05 higher, or 1 if it is
+    above 0.95 already; so a level that always succeeds has none.
 
     Parameters
     ----------
-    success, gain
-        shape (..., n), as in `level_gains`.
+    success
+        shape (..., n), as in `level_laws`.
 
-    >>> level_lifts(np.array([1.0, 0.5]), np.array([0.3, 0.4]))
-    array([0.  , 0.02])
+    >>> level_lifts(np.array([1.0, 0.5])).round(6)
+    array([0.      , 0.022989])
     """
-    room = np.minimum(MORE, 1.0 - success)
-    return np.multiply(gain, room, out=np.zeros_like(gain), where=room > 0.0)
+    level = np.arange(1.0, success.shape[-1] + 1)
+    mean = level_laws(success) @ level
+    lifts = np.zeros_like(success)
+    for i in range(len(level)):
+        more = success.copy()
+        more[..., i] = np.minimum(more[..., i] + MORE, 1.0)
+        lifts[..., i] = level_laws(more) @ level - mean
+    # A rise below all rounding may come out negative.
+    return np.maximum(lifts, 0.0)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["LevelReport", "LogAnalysis", "PlayedAgainTest", "analyse_log"]
 
 _CONFIDENCE = 0.95
-_TAILS = (0.5 - _CONFIDENCE / 2, 0.5 + _CONFIDENCE / 2)
+_QUANTILES = (0.5 - _CONFIDENCE / 2, 0.5, 0.5 + _CONFIDENCE / 2)
 
 
 class LevelReport(NamedTuple):
@@ -54,8 +54,9 @@ class LevelReport(NamedTuple):
     gain
         the derivative of the long-run mean level to p; see `DrillStatistics`.
     lift, lift_low, lift_high
-        by how much about the long-run mean level rises with p 0.05 higher, or as high as
-        it can be; and the 95 % interval of that.
+        by how much the long-run mean level rises with the chance at this level 0.05
+        higher, or 1 if it is above 0.95 already: the median over chances that fit the log, and the
+        95 % interval.
     p_best
         how probable it is that no other attempted level has a greater lift.
     """
@@ -137,8 +138,10 @@ class LogAnalysis:
     replicas: int
 
     @property
-    def practise_next(self) -> LevelReport:
-        """The level that is most probably the one where practice lifts the mean level most."""
+    def practise_next(self) -> LevelReport | None:
+        """The level that is most probably the one of the greatest lift; None if none lifts."""
+        if not any(report.lift_high for report in self.levels):
+            return None
         return max(self.levels, key=lambda report: report.p_best)
 
     @property
@@ -187,8 +190,10 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
     >>> level, success = zip(*evening * 20, strict=True)
     >>> log = DrillLog(level, success, session=np.repeat(range(20), 8))
     >>> analysis = analyse_log(log, rng=np.random.default_rng(1), replicas=199)
-    >>> analysis.levels[1].p, round(analysis.implied.mean, 3), analysis.practise_next.level
-    (0.3333333333333333, 1.75, 2)
+    >>> round(analysis.visited.mean, 3), round(analysis.implied.mean, 3)
+    (1.625, 1.75)
+    >>> analysis.practise_next.level, analysis.memory.p_value
+    (2, 0.005)
     """
     replicas = whole(replicas, "replicas", at_least=1)
     attempts, successes = log.attempts, log.successes
@@ -224,9 +229,7 @@ def _reports(
     from scipy.stats import binomtest
 
     attempts, successes = log.attempts, log.successes
-    p_seen = successes / np.maximum(attempts, 1)
-    lift = level_lifts(p_seen, gain)
-    low, high = np.quantile(lifts, _TAILS, axis=0)
+    low, lift, high = np.quantile(lifts, _QUANTILES, axis=0)
     tried = np.where(attempts > 0, lifts, -1.0)
     best = np.bincount(tried.argmax(1), minlength=len(attempts)) / len(lifts)
     expected = played.sum((2, 3)).mean(0) / len(log)
@@ -256,8 +259,8 @@ def _drawn_lifts(
     misses = log.attempts - log.successes
     chances = rng.beta(log.successes + 0.5, misses + 0.5, size=(draws, len(misses)))
     laws = level_laws(chances)
-    low, high = np.quantile(laws @ np.arange(1.0, len(misses) + 1), _TAILS)
-    return float(low), float(high), level_lifts(chances, level_gains(chances, laws))
+    low, _, high = np.quantile(laws @ np.arange(1.0, len(misses) + 1), _QUANTILES)
+    return float(low), float(high), level_lifts(chances)
 
 
 def _distance(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:

@@ -136,9 +136,10 @@ def _jump_warning(table: Table, log: DrillLog) -> list[str]:
     step = 1 if log.success[row - 1] else -1
     ruled = min(max(int(log.level[row - 1]) + step, 1), len(log.attempts))
     many = len(log.jumps)
+    taken = f"{many:,} such rows are taken as new starts" if many > 1 else "it is a new start"
     return [
         f"{table.source}:{table.lines[row]}: level {log.level[row]} follows a "
         f"{'success' if step > 0 else 'miss'} at level {log.level[row - 1]}, which leads to level "
-        f"{ruled}; {f'{many:,} such rows are' if many > 1 else 'the row is'} taken as a new start. "
-        "Rows stand in the order of the attempts; a column session or date says where one begins"
+        f"{ruled}; {taken}. Rows stand in the order of the attempts; a column session or date "
+        "says where one begins"
     ]

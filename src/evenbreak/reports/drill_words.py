@@ -1,0 +1,137 @@
+"""What a drill and its log tell, in the words of a player."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from evenbreak.practice.drills import DrillStatistics
+    from evenbreak.practice.log_analysis import LogAnalysis, PlayedAgainTest
+
+__all__ = ["drill_advice", "log_advice"]
+
+SPACE = "\u00a0"
+"""A space at which no line is broken."""
+
+ODD = 0.05
+"""A p-value below which chance is not blamed."""
+
+SURE = 0.8
+"""From this probability on, the second best level is not mentioned."""
+
+
+def drill_advice(statistics: DrillStatistics) -> str:
+    """Return where practice lifts the mean level of a drill most, in words.
+
+    >>> from evenbreak.games import Drill
+    >>> from evenbreak.practice import drill_statistics
+    >>> drill_advice(drill_statistics(Drill.progressive(0.8))).split(": ")[0]
+    'Practice helps most at level 4'
+    """
+    level = statistics.practise_next
+    if level is None:
+        return "More success would lift the mean level nowhere."
+    lift = statistics.lift[level - 1]
+    return (
+        f"Practice helps most at level {level}: five more successes in 100 there lift the mean "
+        f"level by {lift:.2f}."
+    )
+
+
+def log_advice(analysis: LogAnalysis) -> Iterator[str]:
+    """Yield what a log tells, a paragraph each: what to practise, then what is odd or not."""
+    yield _practise(analysis)
+    test = analysis.difference
+    yield (
+        f"In the long run {100 * test.seen:.0f} of 100 attempts would be at another level than "
+        "they were so far; in sessions like yours, played by chance, it is "
+        f"{100 * test.by_chance:.0f}. {_verdict(test, 'That is more than', 'Nothing odd')}"
+    )
+    if analysis.memory is not None:
+        yield _memory(analysis.memory)
+    yield from _model(analysis)
+
+
+def _practise(analysis: LogAnalysis) -> str:
+    best = analysis.practise_next
+    if best is None:
+        return "A drill of one level has nothing to climb; log the higher levels too."
+    told = (
+        f"Practise level {best.level} next: five more successes in 100 there "
+        f"lift your mean level by {best.lift:.2f} ({best.lift_low:.2f} to {best.lift_high:.2f}). "
+        f"It is {_percent(best.p_best)} sure that no other level helps more"
+    )
+    others = [report for report in analysis.levels if report is not best]
+    second = max(others, key=lambda report: report.p_best)
+    if best.p_best >= SURE:
+        return f"{told}."
+    return (
+        f"{told}, and {_percent(second.p_best)} for level {second.level}; a longer log will tell "
+        "them apart."
+    )
+
+
+def _percent(p: float) -> str:
+    """Return a chance in words that promise nothing for certain.
+
+    >>> [_percent(p).replace(SPACE, " ") for p in (0.714, 0.9995, 0.001)]
+    ['71 %', 'more than 99 %', 'less than 1 %']
+    """
+    if p > 0.99:
+        return f"more than 99{SPACE}%"
+    return f"less than 1{SPACE}%" if p < 0.01 else f"{100 * p:.0f}{SPACE}%"
+
+
+def _verdict(test: PlayedAgainTest, odd: str, plain: str) -> str:
+    p = f"p{SPACE}={SPACE}{test.p_value:.2g}"
+    return f"{odd} chance explains ({p})." if test.p_value < ODD else f"{plain} ({p})."
+
+
+def _memory(test: PlayedAgainTest) -> str:
+    often = "more" if test.seen >= 0 else "less"
+    told = (
+        f"At the same level you succeed {100 * abs(test.seen):.0f} times in 100 {often} often "
+        f"after a success than after a miss; chance alone makes that {_more(test.by_chance)}. "
+    )
+    if test.p_value >= ODD:
+        return (
+            told
+            + f"No sign that one attempt weighs on the next (p{SPACE}={SPACE}{test.p_value:.2g})."
+        )
+    why = (
+        "a miss seems to weigh on the next attempt, or some days are better than others"
+        if test.seen > test.by_chance
+        else "a success seems to make the next attempt worse"
+    )
+    return told + f"More than chance explains (p{SPACE}={SPACE}{test.p_value:.2g}): {why}."
+
+
+def _more(difference: float) -> str:
+    hundredths = round(100 * difference)
+    return f"{abs(hundredths)} {'less' if hundredths < 0 else 'more'}"
+
+
+def _model(analysis: LogAnalysis) -> Iterator[str]:
+    model, off = analysis.model, analysis.furthest_off_model
+    if model is None or off is None:
+        yield "Without attempts above level 1 nothing can be said of a single shot."
+        return
+    told = (
+        f"If level i takes i - 1 good shots in a row, a shot succeeds with {model.p:.3f} "
+        f"({model.low:.3f} to {model.high:.3f})."
+    )
+    test = analysis.model_test
+    if test is not None:
+        told += _verdict(test, " But levels differ from that more than", " All levels fit that")
+        if test.p_value < ODD:
+            told += (
+                f" The furthest off is level {off.level}: {off.successes} of {off.attempts} "
+                f"succeeded, and it would be {off.attempts * (off.p_model or 0.0):.0f}."
+            )
+    if model.level_1_misses:
+        told += (
+            f" By that level 1 could not be missed, so its {model.level_1_attempts} attempts, "
+            f"{model.level_1_misses} missed, are left out of it."
+        )
+    yield told

@@ -1,0 +1,57 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from evenbreak.practice import DrillLog, LogAnalysis, PlayedAgainTest, analyse_log
+from evenbreak.reports.drill_words import SPACE, log_advice
+
+
+@pytest.fixture(scope="module")
+def analysis() -> LogAnalysis:
+    log = DrillLog([1, 2, 3, 2, 3, 2, 1, 1, 2], [1, 1, 0, 1, 0, 0, 0, 1, 1])
+    return analyse_log(log, rng=np.random.default_rng(1), replicas=99)
+
+
+def told(analysis: LogAnalysis, **changes: object) -> str:
+    return " ".join(log_advice(replace(analysis, **changes))).replace(SPACE, " ")  # type: ignore[arg-type]
+
+
+def test_what_is_odd_is_told_as_odd(analysis: LogAnalysis) -> None:
+    odd = PlayedAgainTest(0.25, 0.05, 0.001)
+    assert "That is more than chance explains (p = 0.001)" in told(analysis, difference=odd)
+    assert "a miss seems to weigh on the next attempt" in told(analysis, memory=odd)
+    assert "differ from that more than chance explains" in told(analysis, model_test=odd)
+
+
+def test_what_is_not_odd_is_told_as_such(analysis: LogAnalysis) -> None:
+    plain = PlayedAgainTest(0.25, 0.2, 0.4)
+    assert "Nothing odd (p = 0.4)" in told(analysis, difference=plain)
+    assert "25 times in 100 more often" in told(analysis, memory=plain)
+    assert "No sign that one attempt weighs on the next (p = 0.4)" in told(analysis, memory=plain)
+    assert "All levels fit that (p = 0.4)" in told(analysis, model_test=plain)
+
+
+def test_a_memory_the_other_way_round(analysis: LogAnalysis) -> None:
+    words = told(analysis, memory=PlayedAgainTest(-0.25, -0.02, 0.001))
+    assert "25 times in 100 less often" in words
+    assert "chance alone makes that 2 less" in words
+    assert "a success seems to make the next attempt worse" in words
+
+
+def test_misses_at_level_1_are_told(analysis: LogAnalysis) -> None:
+    assert "its 3 attempts, 1 missed, are left out of it" in told(analysis)
+
+
+def test_who_is_sure_names_one_level(analysis: LogAnalysis) -> None:
+    def advice(share: float) -> str:
+        first, second, third = analysis.levels
+        levels = (
+            first._replace(p_best=0.0),
+            second._replace(p_best=share),
+            third._replace(p_best=1 - share),
+        )
+        return told(analysis, levels=levels)
+
+    assert "It is 90 % sure that no other level helps more." in advice(0.9)
+    assert "It is 60 % sure that no other level helps more, and 40 % for level 3" in advice(0.6)
