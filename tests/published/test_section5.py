@@ -1,0 +1,103 @@
+"""Every number that section 5 of the text prints, beside what the library computes."""
+
+import csv
+from collections import Counter
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from evenbreak.reports.published import (
+    PublishedNumber,
+    errata,
+    further_numbers,
+    p5_6_tables,
+    published_numbers,
+)
+from evenbreak.reports.section5.index import slips_of
+from evenbreak.reports.section5.numbers import ANSWERS, compute, findings, verdict_of
+
+SEED = Path(__file__).resolve().parents[3] / "shared" / "seed" / "section5_numbers.csv"
+NUMBERS = [*published_numbers(), *further_numbers()]
+
+
+def name_of(row: PublishedNumber) -> str:
+    return f"{row.problem} {row.quantity} {row.inputs}"
+
+
+@pytest.mark.parametrize("row", NUMBERS, ids=name_of)
+def test_computed_number_has_the_verdict_that_is_expected(row: PublishedNumber) -> None:
+    computed = float(compute(row.problem, row.quantity, row.inputs))
+    if row.verdict == "agrees":
+        assert abs(computed - float(row.printed)) <= float(row.tolerance)
+    assert verdict_of(row, computed) == row.verdict
+
+
+@pytest.mark.parametrize("p", ["1/2", "2/3"])
+@pytest.mark.parametrize("quantity", ["P(p;m,n)", "W(p;m,n)"])
+def test_cells_of_the_four_tables(quantity: str, p: str) -> None:
+    cells = [row for row in p5_6_tables() if row.quantity == quantity and f"p={p} " in row.inputs]
+    assert len(cells) == 100
+    for row in cells:
+        assert verdict_of(row, float(compute(*row[:3]))) == row.verdict, row
+
+
+def test_every_number_of_the_list_is_computed() -> None:
+    if not SEED.exists():
+        pytest.skip("the list of printed numbers lies beside the repository only in development")
+    found = {finding.published[:3]: finding for finding in findings()}
+    with SEED.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    for row in rows:
+        finding = found[row["problem"], row["quantity"], row["inputs"]]
+        recomputed = pytest.approx(float(row["recomputed"]), rel=1e-9, abs=1e-13)
+        if row["problem"] == "NPL" and row["quantity"].startswith("sd"):
+            recomputed = pytest.approx(float(row["recomputed"]), abs=6e-5)  # listed to four places
+        if not looser(row):
+            assert finding.computed == recomputed, row
+        assert finding.verdict == {"yes": "agrees"}.get(row["agrees"], row["agrees"])
+
+
+def looser(row: dict[str, str]) -> bool:
+    """Return whether the list computes with a table's rounded critical value, or rounded sd."""
+    return row["quantity"].startswith(("80% interval", "standard units of a 53 over"))
+
+
+def test_all_that_is_computed_is_printed_somewhere() -> None:
+    asked = {row[:2] for row in (*NUMBERS, *p5_6_tables())}
+    assert set(ANSWERS) == asked
+
+
+def test_errata_are_explained_where_they_occur() -> None:
+    wrong = {row.problem for row in NUMBERS if row.verdict == "erratum"}
+    assert {problem for problem in wrong if not slips_of(problem)} == set()
+    assert len(errata()) == len(set(errata()))
+
+
+def test_verdict_of_a_wrong_number() -> None:
+    row = PublishedNumber("P", "q", "", Decimal("0.90"), Decimal("0.0101"), "agrees", "")
+    assert verdict_of(row, 0.909) == "agrees"
+    assert verdict_of(row, 0.92) == "differs"
+    erratum = row._replace(verdict="erratum")
+    assert verdict_of(erratum, 0.909) == "erratum"
+    assert verdict_of(erratum, 0.904) == "agrees"
+    assert verdict_of(row._replace(printed=None), 0.5) == "derived"
+
+
+def test_order_is_that_of_the_text() -> None:
+    places = list(dict.fromkeys(finding.published.problem for finding in findings()))
+    assert places[:4] == ["P5.1", "P5.2", "P5.3", "P5.4"]
+    assert places[-4:] == ["P5.25", "Table 5.5", "NPL", "P5.27"]
+    assert Counter(places).most_common(1)[0][1] == 1
+
+
+def test_exact_numbers_are_computed_exactly() -> None:
+    assert compute("P5.4", "P(p;3,1)", "p=2/3") == Fraction(32, 81)
+    assert compute("P5.6", "W(p;m,n)", "p=2/3 m=3 n=2") == Fraction(16, 27)
+    assert compute("P5.13", "shot probability", "mean run 24") == Fraction(24, 25)
+
+
+def test_unknown_quantity_is_a_key_error() -> None:
+    with pytest.raises(KeyError):
+        compute("P5.4", "W(p;3,1)", "p=2/3")

@@ -1,0 +1,179 @@
+import re
+from decimal import Decimal
+from fractions import Fraction
+from itertools import product
+
+import pytest
+
+from evenbreak.chains import chain_of, spectrum
+from evenbreak.games import Ahead, Rack
+from evenbreak.games.breaks import BREAK_FORMATS
+from evenbreak.matches import win_probability
+from evenbreak.practice import long_run_share
+from evenbreak.reports.section5 import break_formats, long_run, one_ball
+from evenbreak.reports.section5.numbers import findings
+from evenbreak.reports.section5.problems import (
+    COLUMNS,
+    DERIVED,
+    PROBLEMS,
+    problem_frames,
+    published_frame,
+)
+
+
+@pytest.fixture(scope="module")
+def frames():
+    return problem_frames(findings())
+
+
+def answers(frame):
+    """Return what is computed, by quantity and inputs."""
+    return {(row.quantity, row.inputs): row.computed for row in frame.itertuples()}
+
+
+def as_python(formula):
+    return re.sub(r"(?<=[\dp]) q", "*q", formula).replace("^", "**")
+
+
+def test_every_problem_has_an_answer(frames):
+    assert list(frames) == [f"problem_5_{n:02}" for n in range(1, 28)]
+    for name, frame in frames.items():
+        assert tuple(frame.columns) == COLUMNS, name
+        assert len(frame) >= 4, name
+        assert not frame.computed.isna().any(), name
+    assert set(DERIVED) <= set(PROBLEMS)
+
+
+def test_quantity_and_inputs_name_a_row(frames):
+    for name, frame in frames.items():
+        named = frame[["problem", "quantity", "inputs", "verdict", "note"]]
+        assert not named.duplicated().any(), name
+
+
+def test_published_frame_has_all_numbers_as_printed():
+    frame = published_frame(findings())
+    assert len(frame) == len(findings())
+    row = frame[frame.quantity == "W where W(p;2,1)=W(p;4,2)"].iloc[0]
+    assert str(row.printed) == "0.411"
+    assert str(row.computed) == "0.4100970508"
+    assert str(row.difference) == "-0.0009029492"
+    assert row.verdict == "erratum"
+    derived = frame[frame.verdict == "derived"]
+    assert derived.printed.isna().all()
+    assert derived.difference.isna().all()
+
+
+def test_choices_are_all_subsets(frames):
+    found = answers(frames["problem_5_03"])
+    chosen = [text for (quantity, _), text in found.items() if quantity.startswith("choice")]
+    assert len(chosen) == len(set(chosen)) == 16
+    assert {"{}", "{1 3}", "{1 2 3 4}"} <= set(chosen)
+
+
+def test_orders_sum_to_the_score(frames):
+    found = answers(frames["problem_5_04"])
+    orders = [chance for (quantity, _), chance in found.items() if quantity.startswith("order")]
+    assert len(orders) == 4
+    assert float(sum(orders)) == pytest.approx(float(Fraction(32, 81)), abs=1e-9)
+
+
+def test_spans_shrink_with_the_length_of_the_race(frames):
+    found = answers(frames["problem_5_07"])
+    name = "width of the span where the longer match is lost more seldom"
+    widths = [width for (quantity, _), width in found.items() if quantity == name]
+    assert len(widths) == 9
+    assert widths == sorted(widths, reverse=True)
+    assert widths[-1] > 0
+
+
+def test_wider_samples_scatter_less(frames):
+    found = answers(frames["problem_5_18"])
+    without = [found["sd of the mean, without replacement", f"1 2 4 5 m={n}"] for n in (1, 2, 3, 4)]
+    assert without == sorted(without, reverse=True)
+    assert without[-1] == 0
+    assert (
+        without[1] == found["sd of the mean, without replacement", "1 2 4 5 m=2 from all six pairs"]
+    )
+
+
+def test_steps_go_to_the_limit(frames):
+    found = answers(frames["problem_5_23"])
+    for start, where in product(("v", "w"), ("W", "S1", "S2", "L")):
+        inputs = f"p1=0.4 p2=0.8 node={where}"
+        last, limit = found[f"{start}, step 5", inputs], found[f"{start}, limit", inputs]
+        assert float(last) == pytest.approx(float(limit), abs=0.02)
+    assert found["v, step 2", "p1=0.4 p2=0.8 node=S1"] == Decimal("0.12")
+
+
+def test_second_eigenvalue_of_break_formats(frames):
+    found = answers(frames["problem_5_24"])
+    assert found["second eigenvalue", "winner breaks p1=0.9 p2=0.5"] == Decimal("0.4")
+    assert found["second eigenvalue", "loser breaks p1=0.9 p2=0.5"] == Decimal("-0.4")
+    assert found["second eigenvalue", "alternate breaks p1=0.9 p2=0.5"] == -1
+    for p1, p2 in break_formats.PAIRS:
+        for name in break_formats.FORMATS:
+            by_chain = found["W by the chain", f"{name} breaks p1={p1} p2={p2}"]
+            by_formula = long_run_share(p1, p2, BREAK_FORMATS[name])
+            assert float(by_chain) == pytest.approx(by_formula, abs=1e-9)
+
+
+def test_pairs_are_the_rows_of_table_5_4():
+    rows = {finding.published.inputs for finding in findings()}
+    for number, (p1, p2) in enumerate(break_formats.PAIRS, 1):
+        assert f"row={number} p1={p1} p2={p2}" in rows
+
+
+def test_formulas_are_those_of_the_diagrams():
+    sympy = pytest.importorskip("sympy", reason="formulas need the extra `symbolic`")
+    from evenbreak.chains import symbolic_limit
+
+    p1, p2 = sympy.symbols("p1 p2")
+    one = [("S1", "W", p1), ("S1", "S2", 1 - p1), ("S2", "L", p2), ("S2", "S1", 1 - p2)]
+    limits = {"v": symbolic_limit(one, "S1"), "w": symbolic_limit(one, "S2")}
+    half = {node: (limits["v"][node] + limits["w"][node]) / 2 for node in ("W", "L")}
+    for (start, node), text in one_ball.FORMULAS.items():
+        exact = limits.get(start, half)[node]
+        assert sympy.simplify(sympy.sympify(text) - exact) == 0, (start, node)
+    diagrams = {
+        "winner": [(1, 1, p1), (1, 2, 1 - p1), (2, 2, p2), (2, 1, 1 - p2)],
+        "loser": [(1, 1, 1 - p1), (1, 2, p1), (2, 2, 1 - p2), (2, 1, p2)],
+        "alternate": [(1, 2, sympy.Integer(1)), (2, 1, sympy.Integer(1))],
+    }
+    for name, arcs in diagrams.items():
+        law = symbolic_limit(arcs, 1)
+        share = law[1] * p1 + law[2] * (1 - p2)
+        formula = sympy.sympify(break_formats.FORMULAS[name])
+        assert sympy.simplify(share - formula) == 0, name
+
+
+@pytest.mark.parametrize(("m", "n"), long_run.HANDICAPS)
+@pytest.mark.parametrize("p", [0.0, 0.3, 0.5, 0.6, 1.0])
+def test_polynomials_of_leads(m, n, p):
+    value = eval(as_python(long_run.ahead_formula(m, n)), {"p": p, "q": 1 - p})  # noqa: S307
+    assert value == pytest.approx(win_probability(Ahead(m, n, Rack(p))), abs=1e-14)
+
+
+def test_polynomials_are_the_formulas_of_the_chain():
+    sympy = pytest.importorskip("sympy", reason="formulas need the extra `symbolic`")
+    from evenbreak.chains import symbolic_limit
+
+    p = sympy.symbols("p")
+    for m, n in long_run.HANDICAPS:
+        arcs = [
+            (k, k + step, p if step > 0 else 1 - p) for k in range(1 - n, m) for step in (1, -1)
+        ]
+        formula = sympy.sympify(as_python(long_run.ahead_formula(m, n))).subs("q", 1 - p)
+        assert sympy.simplify(symbolic_limit(arcs, 0)[m] - formula) == 0
+
+
+def test_eigenvalues_of_a_lead_match():
+    values = spectrum(chain_of(Ahead(3, 3, Rack(0.6)))).values
+    assert sorted(values)[-2:] == pytest.approx([1, 1])
+    assert max(abs(value) for value in sorted(values)[:-2]) < 1
+
+
+def test_drill_rows_tell_what_to_practise(frames):
+    found = answers(frames["problem_5_26"])
+    assert found["level most worth practising", "p=0.8"] == 4
+    gains = [found["gain of the mean level", f"p=0.8 level={level}"] for level in range(1, 10)]
+    assert max(gains) == found["gain of the mean level", "p=0.8 level=4"]
