@@ -230,7 +230,7 @@ def _aligned(match: StraightPool) -> list[tuple[NDArray[Any], NDArray[Any]]]:
         (match.points_2, exact(match.p2), exact(match.safety_2)),
     ]
     for number, (points, p, safety) in enumerate(players, 1):
-        _refuse_ages(number, points, p, safety)
+        _refuse_endless(number, points, p, safety)
     longest = max(_innings_to(*player, at_least=1).size for player in players)
     laws = []
     for player in players:
@@ -276,7 +276,7 @@ def _ratios(points: int, p: Fraction, safety: Fraction) -> Iterator[float]:
         ratio = ((a + b) * j + start - a * b * j / ratio) / (j + 1)
 
 
-def _refuse_ages(number: int, points: int, p: Fraction, safety: Fraction) -> None:
+def _refuse_endless(number: int, points: int, p: Fraction, safety: Fraction) -> None:
     if p * safety == 0:
         return
     innings = (points * (1 - p) + p) / (safety * p)
