@@ -19,8 +19,8 @@ def test_slope_and_interval_by_the_normal_equations():
     assert found.start + found.slope * times.mean() == pytest.approx(scores.mean())
 
 
-def test_scores_that_do_not_move():
-    assert trend([0, 1, 2], [5, 5, 5])[:3] == (0.0, 0.0, 0.0)
+def test_scores_on_a_line():
+    assert trend([0, 1, 2], [5, 6, 7]) == pytest.approx((1.0, 1.0, 1.0, 0.0, 5.0), abs=1e-9)
 
 
 def test_a_slope_of_chance_is_called_one():
@@ -36,6 +36,7 @@ def test_a_slope_of_chance_is_called_one():
         ([0, 1], [5, 6], "scores holds 2 scores; give three or more"),
         ([0, 1], [5, 6, 7], "times holds 2 numbers, but scores 3; give as many"),
         ([1, 1, 1], [5, 6, 7], "times are all 1; give two or more"),
+        ([0, 1, 2], [5, 5, 5], "scores are all 5; give scores that differ"),
         ([1, 2, np.nan], [5, 6, 7], "times holds nan"),
     ],
 )

@@ -22,6 +22,7 @@ COMMANDS = {
     "runs": "Answer how long a player's runs are, and what several innings bring.",
     "straight": "Answer who wins a match of straight pool, and what handicap makes it even.",
     "drill": "Find where a progressive drill settles, and what to practise.",
+    "practice": "Tell what practice scores say: was it luck, did it help?",
     "reproduce": "Write section 5 of the source text, computed anew: tables, problems, figures.",
     "chain": "Find the stochastic limit of any chain, from a file of arcs.",
 }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from evenbreak.stats.compare import Comparison, Scores
 
-__all__ = ["sentence_of", "warnings_of"]
+__all__ = ["how_often", "sentence_of", "warnings_of"]
 
 FEW = 10
 """With fewer scores than this, how near to normal their law is matters."""
@@ -35,7 +35,7 @@ def sentence_of(found: Comparison) -> str:
         f"{_direction(found.difference)} "
         f"({100 * found.confidence:g} % interval {found.low:+.2f} to {found.high:+.2f}). "
         f"By Welch's t test this is {strength}; if nothing had changed, a difference so large, "
-        f"up or down, would come {_how_often(p)}. "
+        f"up or down, would come {how_often(p)}. "
         f"A score after beats one before {wins:.0f} times in 100, a tie counting half."
     )
 
@@ -79,7 +79,12 @@ def _direction(difference: float) -> str:
     return f"The mean is {abs(difference):.2f} {'higher' if difference > 0 else 'lower'} after"
 
 
-def _how_often(p: float) -> str:
+def how_often(p: float) -> str:
+    """Return how often something of probability p comes, in words.
+
+    >>> how_often(0.012), how_often(0.3)
+    ('about 1 time in 83', 'about 30 times in 100')
+    """
     if p < 0.001:
         return "less than 1 time in 1000"
     if p < 0.1:

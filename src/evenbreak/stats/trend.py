@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from evenbreak.errors import InputError
-from evenbreak.stats.confidence import checked_scores, open_share
+from evenbreak.stats.confidence import checked_scores, open_share, sd_of
 
 __all__ = ["Trend", "trend"]
 
@@ -33,7 +33,7 @@ def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
     times
         when each score was made, in any unit; not all at once.
     scores
-        as many numbers, three or more. About the true line they are taken to be
+        as many numbers, three or more, that differ. About the true line they are taken to be
         independent and normal, with one spread.
     confidence
         of the interval, between 0 and 1.
@@ -41,7 +41,7 @@ def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
     Raises
     ------
     InputError
-        if there are fewer than three scores, not as many times, or only one time.
+        if there are fewer than three scores, not as many times, or only one time or score.
 
     >>> found = trend([0, 1, 2, 3], [50, 52, 51, 53])
     >>> found.slope, round(found.low, 2), round(found.high, 2)
@@ -56,8 +56,10 @@ def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
         raise InputError(f"scores holds {points.size} scores; give three or more for a trend")
     if when.size != points.size:
         raise InputError(f"times holds {when.size} numbers, but scores {points.size}; give as many")
-    if when.min() == when.max():
+    if sd_of(when) == 0.0:
         raise InputError(f"times are all {float(when[0]):g}; give two or more for a trend")
+    if sd_of(points) == 0.0:
+        raise InputError(f"scores are all {float(points[0]):g}; give scores that differ")
     line = linregress(when, points)
     half = -float(stdtrit(points.size - 2, (1.0 - share) / 2.0)) * float(line.stderr)
     slope = float(line.slope)
