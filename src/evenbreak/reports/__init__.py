@@ -26,6 +26,7 @@ __getattr__, __dir__, __all__ = attach(
         "read_drill_log": ["DrillLogFile", "read_drill_log"],
         "read_results": ["ResultsFile", "read_results"],
         "read_table": ["Table", "read_table"],
+        "reproduce": ["reproduction"],
         "sheet": ["sheet_text"],
         "sheet_pages": ["sheet_pages"],
         "shot_plots": ["shots_figure"],

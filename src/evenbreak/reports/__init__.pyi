@@ -23,6 +23,7 @@ from evenbreak.reports.read_results import ResultsFile as ResultsFile
 from evenbreak.reports.read_results import read_results as read_results
 from evenbreak.reports.read_table import Table as Table
 from evenbreak.reports.read_table import read_table as read_table
+from evenbreak.reports.reproduce import reproduction as reproduction
 from evenbreak.reports.sheet import sheet_text as sheet_text
 from evenbreak.reports.sheet_pages import sheet_pages as sheet_pages
 from evenbreak.reports.shot_plots import shots_figure as shots_figure

@@ -11,13 +11,12 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from evenbreak.reports.published import Erratum, PublishedNumber, errata
-from evenbreak.reports.section5.break_formats import PAIRS
-from evenbreak.reports.section5.innings import INNINGS
-from evenbreak.reports.section5.long_run import CHARTS, HANDICAPS, LEVELS, ahead_formula
-from evenbreak.reports.section5.markdown import beside, markdown_table, rounded, short
+from evenbreak.reports.section5 import page_tables
+from evenbreak.reports.section5.long_run import HANDICAPS, ahead_formula
+from evenbreak.reports.section5.markdown import markdown_table, short
 from evenbreak.reports.section5.numbers import Finding
 
 if TYPE_CHECKING:
@@ -27,8 +26,6 @@ __all__ = ["index_page", "slips_of"]
 
 _PLACE = re.compile(r"\{\{(\w+)(?: ([^}]*))?\}\}")
 _SHOWN_ELSEWHERE = {"mean of two", "W(1/2;n,n)", "W infinite look-ahead", "W two-shot look-ahead"}
-
-_STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half and half"}
 
 Frames = Mapping[str, "pd.DataFrame"]
 
@@ -65,18 +62,18 @@ def _blocks(found: Sequence[Finding], frames: Frames) -> Mapping[str, Callable[[
         "verdicts": lambda _: _verdicts(found),
         "numbers": lambda problem: _numbers(found, problem),
         "slips": _slips,
-        "scores": lambda p: _square(frames[f"problem_5_06_scores_{_name(p)}"]),
-        "matches": lambda p: _square(frames[f"problem_5_06_matches_{_name(p)}"]),
-        "table_5_1": lambda _: _table_5_1(frames["table_5_1"]),
-        "table_5_2": lambda _: _table_5_2(frames["table_5_2"]),
-        "table_5_3": lambda _: _table_5_3(frames["table_5_3"]),
-        "products": lambda _: _products(found),
-        "table_5_22": lambda _: _table_5_22(found),
-        "steps": lambda _: _steps(frames["problem_5_23"]),
-        "table_5_4": lambda _: _table_5_4(frames["table_5_4"]),
-        "table_5_5": lambda _: _table_5_5(frames["table_5_5"]),
-        "table_5_6": lambda _: _table_5_6(frames["table_5_6"]),
-        "ladder": lambda _: _ladder(frames["npl_ladder"]),
+        "scores": lambda p: page_tables.score_table(frames[f"problem_5_06_scores_{_name(p)}"]),
+        "matches": lambda p: page_tables.score_table(frames[f"problem_5_06_matches_{_name(p)}"]),
+        "table_5_1": lambda _: page_tables.table_5_1(frames["table_5_1"]),
+        "table_5_2": lambda _: page_tables.table_5_2(frames["table_5_2"]),
+        "table_5_3": lambda _: page_tables.table_5_3(frames["table_5_3"]),
+        "products": lambda _: page_tables.products_table(found),
+        "table_5_22": lambda _: page_tables.table_5_22(found),
+        "steps": lambda _: page_tables.steps_table(frames["problem_5_23"]),
+        "table_5_4": lambda _: page_tables.table_5_4(frames["table_5_4"]),
+        "table_5_5": lambda _: page_tables.table_5_5(frames["table_5_5"]),
+        "table_5_6": lambda _: page_tables.table_5_6(frames["table_5_6"]),
+        "ladder": lambda _: page_tables.ladder_table(frames["npl_ladder"]),
         "polynomials": lambda _: markdown_table(
             ["match", "W"], [[f"{m}:{n}", f"`{ahead_formula(m, n)}`"] for m, n in HANDICAPS]
         ),
@@ -99,14 +96,22 @@ def _verdicts(found: Sequence[Finding]) -> str:
 
 def _numbers(found: Sequence[Finding], problem: str) -> str:
     rows = [
-        [row.quantity, _given(row.inputs), short(row.printed), short(computed), verdict]
+        [
+            row.quantity,
+            _given(row.inputs),
+            _printed(row.printed),
+            short(computed),
+            "**erratum**" if verdict == "erratum" else verdict,
+        ]
         for row, computed, verdict in found
         if row.problem == problem and row.printed is not None and not _in_a_table(row)
     ]
-    marked = [
-        [*cells[:4], f"**{cells[4]}**" if cells[4] == "erratum" else cells[4]] for cells in rows
-    ]
-    return markdown_table(["quantity", "given", "text", "computed", "verdict"], marked, left=2)
+    return markdown_table(["quantity", "given", "text", "computed", "verdict"], rows, left=2)
+
+
+def _printed(number: Decimal) -> str:
+    """Return a number with its digits as printed, but of a fraction such as 32/81 only six."""
+    return str(number) if len(str(number)) <= 8 else short(number)
 
 
 def _in_a_table(row: PublishedNumber) -> bool:
@@ -131,152 +136,6 @@ def _slips(place: str) -> str:
 
 
 def _slip(slip: Erratum) -> str:
-    if slip.kind == "scan":
-        return f"> **Not legible in the copy used:** {slip.printed}. {slip.why}"
-    return f"> **Slip: {slip.kind}.** The text: {slip.printed}. Right: {slip.correct}. {slip.why}"
-
-
-def _square(frame: pd.DataFrame) -> str:
-    columns = list(frame.columns)
-    rows = [[f"**{row[0]}**", *map(_chance, row[1:])] for row in frame.itertuples(index=False)]
-    return markdown_table(["m \\ n", *(name.removeprefix("n_") for name in columns[1:])], rows)
-
-
-def _chance(value: Decimal) -> str:
-    return f"{value:.0E}" if value < Decimal("0.00095") else rounded(value, 3)
-
-
-def _records(frame: pd.DataFrame) -> list[dict[str, Any]]:
-    return [dict(zip(frame.columns, row, strict=True)) for row in frame.itertuples(index=False)]
-
-
-def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
-    return beside(row[name], row[f"{name}_printed"], decimals)
-
-
-def _table_5_1(frame: pd.DataFrame) -> str:
-    rows = _records(frame)
-    return markdown_table(
-        ["P", *(str(row["coverage"]) for row in rows)],
-        [
-            ["z_c", *(rounded(row["z_c"], 4) for row in rows)],
-            ["text", *(str(row["z_c_printed"]) for row in rows)],
-        ],
-    )
-
-
-def _table_5_2(frame: pd.DataFrame) -> str:
-    decimals = {"mean_run": 1, "median_bound": 1, "median_run": 0, "median_over_mean": 3}
-    return markdown_table(
-        ["p", "mean", "bound", "median", "median / mean"],
-        [
-            [row["p"], *(_pair(row, *column) for column in decimals.items())]
-            for row in _records(frame)
-        ],
-    )
-
-
-def _table_5_3(frame: pd.DataFrame) -> str:
-    cells = {(row["p"], row["m"]): row for row in _records(frame)}
-    chances = list(dict.fromkeys(p for p, _ in cells))
-    return markdown_table(
-        ["p", "", *(f"m = {innings}" for innings in INNINGS)],
-        [
-            [p, name, *(_pair(cells[p, innings], name, decimals) for innings in INNINGS)]
-            for p in chances
-            for name, decimals in (("mode", 0), ("mean", 1), ("median", 0))
-        ],
-    )
-
-
-def _products(found: Sequence[Finding]) -> str:
-    means = {
-        tuple(finding.published.inputs.split()): short(finding.computed)
-        for finding in found
-        if finding.published.quantity == "mean of two"
-    }
-    values = list(dict.fromkeys(first for first, _ in means))
-    return markdown_table(
-        ["mean of", *values], [[f"**{a}**", *(means[a, b] for b in values)] for a in values]
-    )
-
-
-def _table_5_22(found: Sequence[Finding]) -> str:
-    rows: dict[str, list[str]] = {}
-    for row, computed, _ in found:
-        if row.problem == "P5.22" and row.quantity.startswith("W"):
-            rows.setdefault(row.inputs, []).extend([f"{computed:.4f}", str(row.printed)])
-    return markdown_table(
-        ["shot", "W infinite", "text", "W two shots", "text"],
-        [[inputs, *cells] for inputs, cells in rows.items()],
-    )
-
-
-def _steps(frame: pd.DataFrame) -> str:
-    rows: dict[str, list[str]] = {}
-    for row in _records(frame):
-        start, _, when = row["quantity"].rpartition(", ")
-        if start in _STARTS:
-            rows.setdefault(f"{_STARTS[start]}: {when}", []).append(rounded(row["computed"], 4))
-    return markdown_table(
-        ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],
-        [[name, *cells] for name, cells in rows.items()],
-    )
-
-
-def _table_5_4(frame: pd.DataFrame) -> str:
-    names = ("w_winner_breaks", "w_loser_breaks", "w_alternate_breaks")
-    rows = _records(frame)
-    if len(rows) != len(PAIRS):
-        raise ValueError("Table 5.4 has not the rows that the problem's answer is computed for")
-    return markdown_table(
-        ["row", "p1", "p2", "winner breaks", "loser breaks", "alternate breaks"],
-        [
-            [row["row"], row["p1"], row["p2"], *(_pair(row, name, 3) for name in names)]
-            for row in rows
-        ],
-    )
-
-
-def _table_5_5(frame: pd.DataFrame) -> str:
-    decimals = {f"d{level}": 3 for level in range(1, LEVELS + 1)}
-    decimals |= {"mean": 3, "mode": 0, "median": 0, "standard_deviation": 3}
-    return markdown_table(
-        ["p", *list(decimals)[:-1], "sd"],
-        [
-            [row["p"], *(_pair(row, *column) for column in decimals.items())]
-            for row in _records(frame)
-        ],
-    )
-
-
-def _table_5_6(frame: pd.DataFrame) -> str:
-    charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
-    for row in _records(frame):
-        last = row["difference_to"]
-        span = f"{row['difference_from']}{' up' if last is None else f'–{last}'}"
-        charts[row["chart"]].append([span, f"{row['stronger_needs']}:{row['weaker_needs']}"])
-    header = [name for number in CHARTS for name in (f"chart {number}", "race")]
-    longest = max(map(len, charts.values()))
-    return markdown_table(
-        header,
-        [
-            [cell for rows in charts.values() for cell in (rows[k] if k < len(rows) else ["", ""])]
-            for k in range(longest)
-        ],
-    )
-
-
-def _ladder(frame: pd.DataFrame) -> str:
-    return markdown_table(
-        ["chart", "even races up to", "opponents rated rightly", "opponents err alike"],
-        [
-            [
-                row["chart"],
-                f"{row['even_up_to']} points",
-                _pair(row, "sd_natural", 3),
-                _pair(row, "sd_autocorrelated", 3),
-            ]
-            for row in _records(frame)
-        ],
-    )
+    name = "The copy used" if slip.kind == "scan" else f"Slip: {slip.kind}"
+    right = f" Right: {slip.correct}." if slip.correct else ""
+    return f"> **{name}.** The text: {slip.printed}.{right} {slip.why}"
