@@ -108,6 +108,21 @@ def test_sessions_that_begin_low_make_a_difference_but_no_surprise() -> None:
         assert report.expected == pytest.approx(report.visited, abs=0.03)
 
 
+def test_stopping_when_it_goes_well_is_found() -> None:
+    """Sessions that end at level 7: their ends are higher than chance would have them."""
+    rng = np.random.default_rng(12)
+    level, won, session = [], [], []
+    for number in range(15):
+        at, outcome = 1, False
+        while not (outcome and at >= 7):
+            outcome = bool(rng.random() < MODEL[at - 1])
+            level.append(at)
+            won.append(outcome)
+            session.append(number)
+            at = min(at + 1, 9) if outcome else max(at - 1, 1)
+    assert analysed(DrillLog(level, won, session)).difference.p_value < 0.05
+
+
 def test_tests_let_an_honest_log_pass() -> None:
     """Of 40 logs without memory about 4 fall below .1; 12 or more would be a bad test."""
     p_values = np.array(

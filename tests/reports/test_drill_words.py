@@ -20,6 +20,7 @@ def told(analysis: LogAnalysis, **changes: object) -> str:
 def test_what_is_odd_is_told_as_odd(analysis: LogAnalysis) -> None:
     odd = PlayedAgainTest(0.25, 0.05, 0.001)
     assert "That is more than chance explains (p = 0.001)" in told(analysis, difference=odd)
+    assert "Perhaps you stop when it goes well." in told(analysis, difference=odd)
     assert "a miss seems to weigh on the next attempt" in told(analysis, memory=odd)
     assert "differ from that more than chance explains" in told(analysis, model_test=odd)
 
@@ -27,6 +28,7 @@ def test_what_is_odd_is_told_as_odd(analysis: LogAnalysis) -> None:
 def test_what_is_not_odd_is_told_as_such(analysis: LogAnalysis) -> None:
     plain = PlayedAgainTest(0.25, 0.2, 0.4)
     assert "Nothing odd (p = 0.4)" in told(analysis, difference=plain)
+    assert "Perhaps" not in told(analysis, difference=plain)
     assert "25 times in 100 more often" in told(analysis, memory=plain)
     assert "No sign that one attempt weighs on the next (p = 0.4)" in told(analysis, memory=plain)
     assert "All levels fit that (p = 0.4)" in told(analysis, model_test=plain)

@@ -1,11 +1,12 @@
 import contextlib
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.errors import DataError
-from evenbreak.reports.read_drill_log import WORDS, read_drill_log
+from evenbreak.reports.read_drill_log import OPTIONAL, REQUIRED, WORDS, read_drill_log
 
 
 @pytest.fixture
@@ -106,6 +107,13 @@ def test_files_that_hold_no_log(drill_file, text, words):
     told = problems(drill_file(text))
     assert len(told) == 1
     assert words in told[0]
+
+
+def test_every_column_is_described_with_its_other_names():
+    page = Path(__file__).resolve().parents[2] / "docs" / "reference" / "files.md"
+    text = page.read_text(encoding="utf-8")
+    for column, others in {**REQUIRED, **OPTIONAL}.items():
+        assert f"| `{column}` | {', '.join(others)} |" in text
 
 
 cells = st.sampled_from(["1", "2", "9", "x", "", "yes", "no", "-1", "1e9", '"'])

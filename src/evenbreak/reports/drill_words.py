@@ -47,6 +47,7 @@ def log_advice(analysis: LogAnalysis) -> Iterator[str]:
         f"In the long run {100 * test.seen:.0f} of 100 attempts would be at another level than "
         "they were so far; in sessions like yours, played by chance, it is "
         f"{100 * test.by_chance:.0f}. {_verdict(test, 'That is more than', 'Nothing odd')}"
+        + (" Perhaps you stop when it goes well." if test.p_value < ODD else "")
     )
     if analysis.memory is not None:
         yield _memory(analysis.memory)
@@ -100,7 +101,7 @@ def _memory(test: PlayedAgainTest) -> str:
             + f"No sign that one attempt weighs on the next (p{SPACE}={SPACE}{test.p_value:.2g})."
         )
     why = (
-        "a miss seems to weigh on the next attempt, or some days are better than others"
+        "a miss seems to weigh on the next attempt"
         if test.seen > test.by_chance
         else "a success seems to make the next attempt worse"
     )
