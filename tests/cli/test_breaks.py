@@ -106,6 +106,8 @@ def test_plot(run, tmp_path):
     [
         ("0.9", "Missing argument 'P2'"),
         ("0.9 5", "'5' is not a probability; give a number from 0 to 1"),
+        ("-0.9 0.5", "'P1': '-0.9' is not a probability; give a number from 0 to 1"),
+        ("0.9 0.5 --wins 1", "No such option '--wins'"),
         ("0.9 0.5 --win -1", "'-1' is no stake; give a number from 0 to 1000000"),
         ("0.9 0.5 --lose much", "'much' is no stake"),
         ("0.9 0.5 --lose inf", "'inf' is no stake"),

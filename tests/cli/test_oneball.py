@@ -88,6 +88,7 @@ def test_csv_into_a_pipe(run):
         ([(0.6, 1)], "You are the favourite, whatever a miss leaves."),
         ([(0.5, 1)], "The game is even; a little less left makes you the favourite."),
         ([(0, 0)], "Nobody ever makes a ball: nobody wins."),
+        ([(0, 0.5)], "You are not the favourite, whatever a miss leaves."),
         ([(0.5, 0.5), (0.4, 1 / 3), (0.5, 0.5)], "Shots 1, 2 and 3 are equally good."),
         ([(0.5, 0.5), (0.2, 0.2), (0.5, 0.5)], "Shots 1 and 3 are equally good."),
         (
@@ -116,6 +117,9 @@ def test_plot(run, tmp_path, kind):
         ("0.4", "Missing argument 'P2'"),
         ("1.4 0.8", "'1.4' is not a probability; give a number from 0 to 1"),
         ("0.4 nan", "'nan' is not a probability"),
+        ("-0.1 0.5", "'P1': '-0.1' is not a probability; give a number from 0 to 1"),
+        ("0.1 -5e-1 --json", "'P2': '-5e-1' is not a probability"),
+        ("0.1 0.5 --oder 0.3:0.3", "No such option '--oder'"),
         ("0.4 0.8 --or 0.3", "such as 0.3:0.3"),
         ("0.4 0.8 --or 0.3:1.3", "such as 0.3:0.3"),
         ("0.4 0.8 --or 0.3:0.3:0.3", "such as 0.3:0.3"),
@@ -129,7 +133,7 @@ def test_wrong_use_says_how_to_mend_it(run, line, remedy):
     assert remedy in result.stderr
 
 
-WORDS_OF_A_LINE = "--or --look-ahead two --json 0.5 0 1 0.3:0.3 0:0 :"
+WORDS_OF_A_LINE = "--or --look-ahead two --json 0.5 -0.5 0 1 0.3:0.3 0:0 :"
 words = st.sampled_from(WORDS_OF_A_LINE.split()) | st.text(max_size=4)
 
 

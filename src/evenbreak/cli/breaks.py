@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import NUMBER, chance, wants_json
+from evenbreak.cli.options import NUMBER, PlainCommand, chance, wants_json
 from evenbreak.cli.output import (
     SCHEMA_VERSION,
     chance_text,
@@ -60,7 +60,7 @@ def _points(ctx: click.Context, param: click.Parameter, value: str) -> float:
     return number
 
 
-@click.command(epilog=EXAMPLES)
+@click.command(cls=PlainCommand, epilog=EXAMPLES)
 @click.argument("p1", metavar="P1", callback=chance)
 @click.argument("p2", metavar="P2", callback=chance)
 @click.option(

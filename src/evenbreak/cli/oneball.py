@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import NUMBER, chance, wants_json
+from evenbreak.cli.options import NUMBER, PlainCommand, chance, wants_json
 from evenbreak.cli.output import (
     SCHEMA_VERSION,
     chance_text,
@@ -56,7 +55,7 @@ def _shots(
     """Return the two chances of each further shot, such as 0.3:0.3."""
     shots = []
     for value in values:
-        parts = [part.strip() for part in re.split(":", value)]
+        parts = [part.strip() for part in value.split(":")]
         numbers = [float(part) if NUMBER.fullmatch(part) else math.nan for part in parts]
         if len(numbers) != 2 or not all(0.0 <= number <= 1.0 for number in numbers):
             raise click.BadParameter(
@@ -69,7 +68,7 @@ def _shots(
     return shots
 
 
-@click.command(epilog=EXAMPLES)
+@click.command(cls=PlainCommand, epilog=EXAMPLES)
 @click.argument("p1", metavar="P1", callback=chance)
 @click.argument("p2", metavar="P2", callback=chance)
 @click.option(
@@ -180,8 +179,10 @@ def advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot]) -> str
     second, turn = ranked[1], best.turning_p2
     told = f"Take shot {best.shot.name}: it wins {chance_text(second.behind)} more than shot "
     told += second.shot.name
-    told += ", whatever its p2 is." if turn is None else ", and is the best while its p2 is below "
-    told += "" if turn is None else f"{turn:.4f}."
+    if turn is None:
+        told += ", whatever its p2 is."
+    else:
+        told += f", and is the best while its p2 is below {turn:.4f}."
     if next(one for one in otherwise if one.shot is best.shot).behind > SAME:
         told += f"\nThe other look-ahead prefers shot {otherwise[0].shot.name}."
     return told
@@ -191,6 +192,8 @@ def _alone(one: RankedShot) -> str:
     from evenbreak.practice.shots import critical_p2
 
     critical = critical_p2(one.shot.p1)
+    if critical == 0.0:
+        return "You are not the favourite, whatever a miss leaves."
     if critical > 1.0:
         return "You are the favourite, whatever a miss leaves."
     if abs(critical - one.shot.p2) < SAME:

@@ -40,10 +40,11 @@ NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.AS
 class PlainCommand(click.Command):
     """A command that reads -20 as a number, where click alone sees an unknown option."""
 
-    ignore_unknown_options = True
-
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the arguments; what only looked like a number is refused here."""
+        ctx.ignore_unknown_options = any(
+            word.startswith("-") and NUMBER.fullmatch(word) for word in args
+        )
         rest = super().parse_args(ctx, args)
         words: Sequence[str] = ctx.params.get("ratings", ())
         for word in words:
