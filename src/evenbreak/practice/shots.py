@@ -220,7 +220,7 @@ class RankedShot(NamedTuple):
 def compare_shots(shots: Iterable[Shot], *, look_ahead: str = "infinite") -> tuple[RankedShot, ...]:
     """Return the shots by the chance to win the game with each, the best first.
 
-    Of equally good ones the first named comes first.
+    Of equally good ones (to 1e-12) the first named comes first.
 
     Parameters
     ----------
@@ -247,16 +247,17 @@ def compare_shots(shots: Iterable[Shot], *, look_ahead: str = "infinite") -> tup
     (0.5143, 0.4667)
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
-    ranked = sorted(shots, key=lambda shot: -shot.win(look_ahead))
+    ranked = sorted(shots, key=lambda shot: -round(shot.win(look_ahead), 12))
     if not ranked:
         raise InputError("shots is empty; give one Shot or more")
     wins = [shot.win(look_ahead) for shot in ranked]
+    best = max(wins)
     rivals = [wins[1] if len(wins) > 1 else None] + [wins[0]] * (len(wins) - 1)
     return tuple(
         RankedShot(
             shot,
             win,
-            wins[0] - win,
+            best - win,
             None if rival is None else break_even_p2(shot.p1, rival, look_ahead=look_ahead),
         )
         for shot, win, rival in zip(ranked, wins, rivals, strict=True)
