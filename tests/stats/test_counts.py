@@ -84,6 +84,14 @@ def test_between_takes_in_both_ends() -> None:
     assert law.between([0, 1, 60], [0, 0, 60]).tolist() == [0.5, 0.0, 0.5**61]
 
 
+@pytest.mark.parametrize("end", ["1", 0.5, None, float("inf")])
+def test_the_ends_of_a_span_are_whole_numbers(end: Any) -> None:
+    with pytest.raises(InputError, match=r"^low is .*; give whole numbers$"):
+        Steps().between(end, 2)
+    with pytest.raises(InputError, match=r"^high is .*; give whole numbers$"):
+        Steps().between(0, end)
+
+
 def test_a_rare_span_keeps_its_digits() -> None:
     assert Steps().between(100, 101) == pytest.approx(0.75 * 2.0**-100, rel=1e-15)
 

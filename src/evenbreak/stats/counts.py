@@ -64,11 +64,16 @@ class CountLaw(ABC):
         """Return P(low <= count <= high), both ends included; 0 where high is below low.
 
         A float for numbers, an array for arrays.
+
+        Raises
+        ------
+        InputError
+            if an end is not a whole number.
         """
         import numpy as np
 
         # Two sums of the smaller tail are subtracted, so that a rare span keeps its digits.
-        low, high = np.asarray(low), np.asarray(high)
+        low, high = whole_counts(low, "low"), whole_counts(high, "high")
         below = self.cumulative(high) - self.cumulative(low - 1)
         above = self.at_least(low) - self.at_least(high + 1)
         inside = np.where(self.cumulative(high) < 0.5, below, above)
