@@ -17,7 +17,8 @@ __getattr__, __dir__, __all__ = attach(
         ],
         "drill_log": ["DrillLog"],
         "drills": ["DrillStatistics", "drill_statistics"],
-        "log_analysis": ["LevelReport", "LogAnalysis", "PlayedAgainTest", "analyse_log"],
+        "log_analysis": ["LevelReport", "LogAnalysis", "analyse_log"],
+        "log_tests": ["PlayedAgainTest"],
         "progressive_fit": ["ProgressiveFit", "fit_progressive"],
         "shots": [
             "RankedShot",

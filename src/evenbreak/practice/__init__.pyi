@@ -8,8 +8,8 @@ from evenbreak.practice.drills import DrillStatistics as DrillStatistics
 from evenbreak.practice.drills import drill_statistics as drill_statistics
 from evenbreak.practice.log_analysis import LevelReport as LevelReport
 from evenbreak.practice.log_analysis import LogAnalysis as LogAnalysis
-from evenbreak.practice.log_analysis import PlayedAgainTest as PlayedAgainTest
 from evenbreak.practice.log_analysis import analyse_log as analyse_log
+from evenbreak.practice.log_tests import PlayedAgainTest as PlayedAgainTest
 from evenbreak.practice.progressive_fit import ProgressiveFit as ProgressiveFit
 from evenbreak.practice.progressive_fit import fit_progressive as fit_progressive
 from evenbreak.practice.shots import RankedShot as RankedShot

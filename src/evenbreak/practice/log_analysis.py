@@ -1,12 +1,4 @@
-"""What the log of a drill tells: chances, where they lead, what to practise, what is odd.
-
-Every test here plays the log again many times by chance, with its starts and lengths, and
-asks how often chance alone goes as far as the log did. A formula would mislead. The share
-of attempts at each level and the chances estimated from the same log are nearly bound to
-agree: a session that keeps to the drill's rule crosses between two levels upwards as often
-as downwards, give or take once. And over short sessions even chances without any memory
-seem, on average, to have one (Miller & Sanjurjo 2018).
-"""
+"""What the log of a drill tells: chances, where they lead, what to practise, what is odd."""
 
 from __future__ import annotations
 
@@ -16,10 +8,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from evenbreak.checks import whole
-from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS
 from evenbreak.practice.levels import level_gains, level_laws, level_lifts
+from evenbreak.practice.log_tests import (
+    PlayedAgainTest,
+    difference_test,
+    memory_test,
+    model_test,
+)
 from evenbreak.practice.played_again import play_again
-from evenbreak.practice.progressive_fit import ProgressiveFit, deviance, fit_progressive
+from evenbreak.practice.progressive_fit import ProgressiveFit, fit_progressive
 from evenbreak.stats.summary import Distribution
 
 if TYPE_CHECKING:
@@ -27,7 +24,7 @@ if TYPE_CHECKING:
 
     from evenbreak.practice.drill_log import DrillLog
 
-__all__ = ["LevelReport", "LogAnalysis", "PlayedAgainTest", "analyse_log"]
+__all__ = ["LevelReport", "LogAnalysis", "analyse_log"]
 
 _CONFIDENCE = 0.95
 _QUANTILES = (0.5 - _CONFIDENCE / 2, 0.5, 0.5 + _CONFIDENCE / 2)
@@ -55,8 +52,8 @@ class LevelReport(NamedTuple):
         the derivative of the long-run mean level to p; see `DrillStatistics`.
     lift, lift_low, lift_high
         by how much the long-run mean level rises with the chance at this level 0.05
-        higher, or 1 if it is above 0.95 already: the median over chances that fit the log, and the
-        95 % interval.
+        higher, or 1 if it is above 0.95 already: the median over chances that fit the
+        log, and the 95 % interval.
     p_best
         how probable it is that no other attempted level has a greater lift.
     """
@@ -76,24 +73,6 @@ class LevelReport(NamedTuple):
     lift_low: float
     lift_high: float
     p_best: float
-
-
-class PlayedAgainTest(NamedTuple):
-    """A figure of a log beside the same figure of logs that chance plays.
-
-    Parameters
-    ----------
-    seen
-        the figure of the log.
-    by_chance
-        its mean over the logs that chance played.
-    p_value
-        the probability that chance goes as far as the log; small: chance explains it badly.
-    """
-
-    seen: float
-    by_chance: float
-    p_value: float
 
 
 @dataclass(frozen=True)
@@ -210,10 +189,10 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
         Distribution(values, tuple(law.tolist())),
         mean_low,
         mean_high,
-        _larger(_distance(log.outcomes), _distance(played)),
-        _memory_test(log, played),
+        difference_test(log, played),
+        memory_test(log, played),
         model,
-        _model_test(log, model, replicas, rng),
+        None if model is None else model_test(log, model.p, replicas=replicas, rng=rng),
         replicas,
     )
 
@@ -261,56 +240,3 @@ def _drawn_lifts(
     laws = level_laws(chances)
     low, _, high = np.quantile(laws @ np.arange(1.0, len(misses) + 1), _QUANTILES)
     return float(low), float(high), level_lifts(chances)
-
-
-def _distance(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return half the absolute differences of visited and implied fractions, log by log."""
-    attempts = outcomes.sum((-1, -2))
-    p = outcomes[..., 1].sum(-1) / np.maximum(attempts, 1)
-    visited = attempts / attempts.sum(-1, keepdims=True)
-    return np.asarray(np.abs(visited - level_laws(p)).sum(-1) / 2.0)
-
-
-def _memory(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return how much likelier success was after a success than after a miss, level by level.
-
-    The differences of the levels are weighted as Mantel and Haenszel do; NaN where no
-    level was attempted after both.
-    """
-    after = outcomes[..., [AFTER_MISS, AFTER_SUCCESS], :]
-    attempts = after.sum(-1)
-    rate = after[..., 1] / np.maximum(attempts, 1)
-    weight = attempts.prod(-1) / np.maximum(attempts.sum(-1), 1)
-    with np.errstate(invalid="ignore"):
-        return np.asarray((weight * (rate[..., 1] - rate[..., 0])).sum(-1) / weight.sum(-1))
-
-
-def _memory_test(log: DrillLog, played: NDArray[np.int64]) -> PlayedAgainTest | None:
-    seen, by_chance = float(_memory(log.outcomes)), _memory(played)
-    by_chance = by_chance[~np.isnan(by_chance)]
-    if np.isnan(seen) or not len(by_chance):
-        return None
-    mean = float(by_chance.mean())
-    test = _larger(abs(seen - mean), np.abs(by_chance - mean))
-    return PlayedAgainTest(seen, mean, test.p_value)
-
-
-def _model_test(
-    log: DrillLog, model: ProgressiveFit | None, replicas: int, rng: np.random.Generator
-) -> PlayedAgainTest | None:
-    """Test the model on logs that it plays; level 1 keeps the chance seen, as it is left out."""
-    if model is None or np.count_nonzero(log.attempts[1:]) < 2:
-        return None
-    success = np.power(model.p, np.arange(len(log.attempts), dtype=np.float64))
-    if log.attempts[0]:
-        success[0] = log.successes[0] / log.attempts[0]
-    played = play_again(log, success, replicas=replicas, rng=rng).sum(2)
-    seen = deviance(log.successes, log.attempts - log.successes)
-    return _larger(seen, deviance(played[..., 1], played[..., 0]))
-
-
-def _larger(seen: float | NDArray[np.float64], by_chance: NDArray[np.float64]) -> PlayedAgainTest:
-    """Return how often chance is as large as what was seen; the log itself counts as one."""
-    as_large = int(np.count_nonzero(by_chance >= float(seen) * (1.0 - 1e-12)))
-    p_value = (1 + as_large) / (1 + len(by_chance))
-    return PlayedAgainTest(float(seen), float(by_chance.mean()), p_value)

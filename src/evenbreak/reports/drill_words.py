@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from evenbreak.practice.drills import DrillStatistics
-    from evenbreak.practice.log_analysis import LogAnalysis, PlayedAgainTest
+    from evenbreak.practice.log_analysis import LogAnalysis
+    from evenbreak.practice.log_tests import PlayedAgainTest
 
 __all__ = ["drill_advice", "log_advice"]
 
@@ -84,9 +85,12 @@ def _percent(p: float) -> str:
     return f"less than 1{SPACE}%" if p < 0.01 else f"{100 * p:.0f}{SPACE}%"
 
 
+def _p(test: PlayedAgainTest) -> str:
+    return f"(p{SPACE}={SPACE}{test.p_value:.2g})"
+
+
 def _verdict(test: PlayedAgainTest, odd: str, plain: str) -> str:
-    p = f"p{SPACE}={SPACE}{test.p_value:.2g}"
-    return f"{odd} chance explains ({p})." if test.p_value < ODD else f"{plain} ({p})."
+    return f"{odd} chance explains {_p(test)}." if test.p_value < ODD else f"{plain} {_p(test)}."
 
 
 def _memory(test: PlayedAgainTest) -> str:
@@ -96,16 +100,13 @@ def _memory(test: PlayedAgainTest) -> str:
         f"after a success than after a miss; chance alone makes that {_more(test.by_chance)}. "
     )
     if test.p_value >= ODD:
-        return (
-            told
-            + f"No sign that one attempt weighs on the next (p{SPACE}={SPACE}{test.p_value:.2g})."
-        )
+        return told + f"No sign that one attempt weighs on the next {_p(test)}."
     why = (
         "a miss seems to weigh on the next attempt"
         if test.seen > test.by_chance
         else "a success seems to make the next attempt worse"
     )
-    return told + f"More than chance explains (p{SPACE}={SPACE}{test.p_value:.2g}): {why}."
+    return told + f"More than chance explains {_p(test)}: {why}."
 
 
 def _more(difference: float) -> str:
