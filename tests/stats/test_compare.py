@@ -159,42 +159,15 @@ def test_no_spread_at_all():
     assert same.mann_whitney is None
     assert same.chi_squared is None
     assert same.effect.p_after_higher == 0.5
-    assert same.sentence == "All scores, before and after, are 5: nothing has changed."
     assert moved.effect.p_after_higher == 1.0
-    assert moved.sentence.startswith("The mean is 0.10 higher after: all scores before are 0.1")
-    assert sum("spread is not known" in line for line in moved.warnings) == 2
+    # Of 35 ways to deal seven scores, two set the lists apart; ties make scipy's a rough one.
+    assert moved.mann_whitney.p_value < 0.05
 
 
 def test_one_list_without_spread():
     found = compare([0.1, 0.1, 0.1], [1.0, 2.0, 3.0])
     assert found.variances is None
     assert found.welch.freedom == pytest.approx((2.0,))
-    assert "all scores before are 0.1" in "\n".join(found.warnings)
-
-
-def test_warnings_come_where_they_are_due():
-    text = "\n".join(compare(BEFORE, AFTER).warnings)
-    assert "only 6 scores" in text
-    assert "Mann-Whitney" in text
-    assert "chi-squared" in text
-    many = compare(np.arange(0.0, 40.0), np.arange(0.5, 40.5))
-    assert many.warnings == ()
-
-
-@pytest.mark.parametrize(
-    ("shift", "words"),
-    [
-        (0.0, ("The mean is the same after as before", "no evidence", "about 100 times in 100")),
-        (-1.5, ("The mean is 1.50 lower after", "a hint of a change", "about 13 times in 100")),
-        (2.0, ("The mean is 2.00 higher after", "this is evidence of a change", "1 time in 20")),
-        (9.0, ("9.00 higher", "strong evidence of a change", "less than 1 time in 1000")),
-    ],
-)
-def test_sentence(shift, words):
-    before = np.arange(10.0) * 0.7
-    sentence = compare(before, before + shift).sentence
-    for word in (*words, "95 % interval", "Welch's t test"):
-        assert word in sentence
 
 
 numbers = st.floats() | st.sampled_from([0.0, 0.1, 1e-300, 1e-61, 1e9, 1e8 + 0.1, -5.0])

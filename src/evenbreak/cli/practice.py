@@ -166,7 +166,7 @@ def _new(file: ScoresFile, new: float, confidence: float, plot: str | None, as_j
     own = _interval(file, confidence)
     if own is None:
         raise DataError(
-            [f"{file.source}: holds no two scores that differ; --new needs some to compare with"]
+            [f"{file.source}: holds no two scores that differ; --new needs them, add some"]
         )
     luck = was_it_luck(file.scores, new, confidence=confidence)
     answer = {
@@ -202,8 +202,8 @@ def _versus(
     from evenbreak.stats.compare import compare
 
     short = [
-        f"{file.source}: holds {many(len(file.scores))}; a comparison needs two or more"
-        + (", for a single new one there is --new" if file is after else "")
+        f"{file.source}: holds {many(len(file.scores))}; a comparison needs two or more, add some"
+        + ("; for a single new one there is --new" if file is after else "")
         for file in (before, after)
         if len(file.scores) < 2
     ]

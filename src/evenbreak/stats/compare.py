@@ -155,8 +155,6 @@ def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
     evidence of a change; if nothing had changed, a difference so large, up or down, would come
     about 1 time in 84. A score after beats one before 84 times in 100, a tie counting half.
     """
-    import numpy as np
-
     old, new = checked_scores(before, "before"), checked_scores(after, "after")
     share = open_share(confidence)
     first, second = _in_short(old), _in_short(new)
@@ -186,10 +184,7 @@ def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
         counts=counts,
         effect=_effect(first, second, share, wins),
         warnings=warnings_of(
-            first,
-            second,
-            counts,
-            tied=np.unique(np.concatenate([old, new])).size < first.n + second.n,
+            first, second, counts, ties=rank_test is not None and _any_equal(old, new)
         ),
     )
 
@@ -246,6 +241,12 @@ def _ranks(old: NDArray[np.float64], new: NDArray[np.float64]) -> tuple[float, S
     if min(old.min(), new.min()) == max(old.max(), new.max()):
         return wins, None
     return wins, Significance(float(found.statistic), (), float(found.pvalue))
+
+
+def _any_equal(old: NDArray[np.float64], new: NDArray[np.float64]) -> bool:
+    import numpy as np
+
+    return np.unique(np.concatenate([old, new])).size < old.size + new.size
 
 
 def _about_the_median(

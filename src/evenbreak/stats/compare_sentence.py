@@ -41,9 +41,19 @@ def sentence_of(found: Comparison) -> str:
 
 
 def warnings_of(
-    before: Scores, after: Scores, counts: tuple[tuple[int, int], tuple[int, int]], *, tied: bool
+    before: Scores, after: Scores, counts: tuple[tuple[int, int], tuple[int, int]], *, ties: bool
 ) -> tuple[str, ...]:
-    """Return what to keep in mind with these lists, a line each."""
+    """Return what to keep in mind with these lists, a line each.
+
+    Parameters
+    ----------
+    before, after
+        the two lists in short.
+    counts
+        their scores (below, above) the median of all.
+    ties
+        whether scores are equal that the test by ranks compares.
+    """
     told = []
     fewest = min(before.n, after.n)
     if fewest < FEW:
@@ -51,15 +61,15 @@ def warnings_of(
             f"one list has only {fewest} scores: one odd score changes the answer; gather "
             f"{FEW} or more of each"
         )
-    for name, side in (("before", before), ("after", after)):
-        if side.sd == 0.0:
+    for name, side, other in (("before", before, after), ("after", after, before)):
+        if side.sd == 0.0 < other.sd:
             told.append(
                 f"all scores {name} are {side.mean:g}: their spread is not known, so take the "
                 "p-values as too small"
             )
-    if tied:
+    if ties:
         told.append("some scores are equal: the Mann-Whitney p-value is an approximation")
-    if _least_expected(counts) < EXPECTED_AT_LEAST:
+    if 0.0 < _least_expected(counts) < EXPECTED_AT_LEAST:
         told.append("chi-squared expects fewer than 5 scores in a cell: its p-value is a rough one")
     return tuple(told)
 
@@ -82,9 +92,11 @@ def _direction(difference: float) -> str:
 def how_often(p: float) -> str:
     """Return how often something of probability p comes, in words.
 
-    >>> how_often(0.012), how_often(0.3)
-    ('about 1 time in 83', 'about 30 times in 100')
+    >>> how_often(0.012), how_often(0.3), how_often(1.0)
+    ('about 1 time in 83', 'about 30 times in 100', 'nearly always')
     """
+    if p > 0.99:
+        return "nearly always"
     if p < 0.001:
         return "less than 1 time in 1000"
     if p < 0.1:
