@@ -192,6 +192,12 @@ class TestLaws:
         assert 1 - inside == pytest.approx(1e-12, rel=0.1)
         assert law.exact_range(1) == (0, 10**6, 1.0)
 
+    def test_a_billion_games_take_no_more_room_than_their_spread(self) -> None:
+        low, high, inside = GamesWon(10**9, 0.5).exact_range(0.5)
+        assert low + high == 10**9 - 1
+        assert (high - low + 1) / (10**9 / 4) ** 0.5 == pytest.approx(2 * 0.67449, rel=1e-4)
+        assert 0.5 <= inside < 0.50003
+
     @pytest.mark.parametrize("n", [-1, 0, 40, 59, 60, 119, 120, 121])
     def test_the_exact_sum_from_either_end(self, n: int) -> None:
         law = GamesWon(120, 0.52)
@@ -300,6 +306,7 @@ def test_wrong_parameters_are_refused(games: Any, p: Any, message: str) -> None:
         (1.5, 1, 2, "p is 1.5, not a probability"),
         (Fraction(3, 2), 1, 2, "p is .*, not a probability"),
         (Fraction(1, 2), -1, 2, "m is -1; give a whole number, 0 or more"),
+        (0.5, [1, 2], [1, 2, 3], r"shapes \(\), \(2,\) and \(3,\); give shapes that broadcast"),
     ],
 )
 def test_a_score_that_cannot_be_is_refused(p: Any, m: Any, n: Any, message: str) -> None:

@@ -40,7 +40,8 @@ def score_probability(p: Any, m: Any, n: Any) -> Any:
     Raises
     ------
     InputError
-        if p is not a probability, or m or n not a whole number, 0 or more.
+        if p is not a probability, m or n not a whole number, 0 or more, or their shapes do
+        not broadcast.
 
     Notes
     -----
@@ -56,10 +57,19 @@ def score_probability(p: Any, m: Any, n: Any) -> Any:
     if isinstance(p, Fraction) and not hasattr(m, "__len__") and not hasattr(n, "__len__"):
         p, m, n = exact(p), whole(m, "m"), whole(n, "n")
         return math.comb(m + n, m) * p**m * (1 - p) ** n
+    import numpy as np
     from scipy.stats import binom
 
+    p = probability(p, "p")
     m, n = (whole_counts(many, name, at_least=0) for many, name in ((m, "m"), (n, "n")))
-    found = binom.pmf(m, m + n, probability(p, "p"))
+    try:
+        np.broadcast_shapes(np.shape(p), m.shape, n.shape)
+    except ValueError:
+        raise InputError(
+            f"p, m and n have shapes {np.shape(p)}, {m.shape} and {n.shape}; "
+            "give shapes that broadcast together"
+        ) from None
+    found = binom.pmf(m, m + n, p)
     return found if found.ndim else float(found)
 
 
@@ -246,12 +256,15 @@ class GamesWon(CountLaw):
         """
         import numpy as np
 
-        chance = self.probability(np.arange(-1, self.games + 2)).tolist()[1:]  # [-1] is 0 too
         low = high = self.mode
+        # Farther from the mode than this (Bernstein's inequality) a float chance is 0.
+        reach = 500 + math.ceil(40 * self.sd)
+        near = np.arange(max(low - reach, 0), min(low + reach, self.games) + 1)
+        chance = dict(zip(near.tolist(), self.probability(near).tolist(), strict=True))
         inside = chance[low]
         yield low, high, inside
         while high - low < self.games:
-            below, above = chance[low - 1], chance[high + 1]
+            below, above = chance.get(low - 1, 0.0), chance.get(high + 1, 0.0)
             # Equal chances, of p = 1/2 above all, differ in floats by their rounding only.
             if low > 0 and (high == self.games or below >= above * (1 - 1e-12)):
                 low -= 1
