@@ -119,6 +119,7 @@ def test_plot(run, tmp_path, line, name):
         ("--p1 .5 --points 5", "who plays is missing"),
         ("9 4 --p1 .5 --points 5", "who plays is said twice"),
         ("9 x --points 5", "'x' is no average"),
+        ("9 -4 --points 5", "'-4' is no average; give balls an inning from 0 to"),
         ("9 1e9 --points 5", "balls an inning from 0 to 100000"),
         ("9 4 --points 0", "whole number from 1 to 1000"),
         ("9 4 --points 5:", "such as 100:80"),

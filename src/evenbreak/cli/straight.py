@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from evenbreak.cli.options import LONGEST, NUMBER, chance, refuse, wants_json
+from evenbreak.cli.options import LONGEST, NUMBER, PlainCommand, chance, refuse, wants_json
 from evenbreak.cli.output import chance_text, print_quantities
 from evenbreak.cli.plot import plot_option, write_plot
 from evenbreak.cli.runs import MOST_BALLS
@@ -93,7 +93,7 @@ class Shots(NamedTuple):
         return cls(p_a, p_b, safety)
 
 
-@click.command(epilog=EXAMPLES)
+@click.command(cls=PlainCommand, epilog=EXAMPLES)
 @click.argument("averages", nargs=-1, metavar="[A B]")
 @click.option("--p1", metavar="P", callback=chance, help="Chance that A makes a shot.")
 @click.option("--p2", metavar="P", callback=chance, help="Chance that B makes a shot.")
