@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from evenbreak.reports.style import LINES
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 __all__ = ["mark_points"]
-
-_MIDDLE = 0.5
 
 
 def mark_points(axes: Axes, points: Iterable[tuple[float, float, str]]) -> None:
@@ -29,8 +29,8 @@ def mark_points(axes: Axes, points: Iterable[tuple[float, float, str]]) -> None:
     for x, y, name in points:
         names.setdefault((x, y), []).append(name)
     for (x, y), together in names.items():
-        right, above = x <= _MIDDLE, y <= _MIDDLE
-        axes.plot([x], [y], "o", color="#D55E00", mec="white", ms=9, clip_on=False, zorder=5)
+        right, above = x <= 0.5, y <= 0.5
+        axes.plot([x], [y], "o", color=LINES[2].color, mec="white", ms=9, clip_on=False, zorder=5)
         told = ", ".join(filter(None, together))
         if not told:
             continue
