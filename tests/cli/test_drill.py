@@ -93,6 +93,12 @@ def test_a_drill_on_a_terminal(terminal):
     assert "nowhere" in terminal("--success", "1,1")
 
 
+def test_a_giant_gain_keeps_the_table_narrow(terminal):
+    shown = terminal("--success", "1e-300,1,0.5")
+    assert "5.56e+299" in shown
+    assert max(map(len, shown.splitlines())) < 80
+
+
 def test_a_log(drill):
     answer = drill("--log", str(DATA))
     assert list(answer) == LOG_KEYS

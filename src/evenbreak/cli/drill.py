@@ -59,6 +59,9 @@ LOG_COLUMNS = {
 }
 """The columns of a log, with what a terminal calls those that it shows."""
 
+MUCH = 1e6
+"""From here on a terminal shows three digits of a gain."""
+
 WIDTH = 79
 """Of a line of words on a terminal."""
 
@@ -321,5 +324,5 @@ def _text(column: str, value: Any) -> str:
     if column in ("level", "attempts", "successes"):
         return str(value)
     if column in ("gain", "lift"):
-        return f"{value:.3f}"
+        return f"{value:.3f}" if value < MUCH else f"{value:.3g}"
     return chance_text(value)
