@@ -101,9 +101,12 @@ def _race_curves(axes: Axes, p: NDArray[np.float64], lengths: Iterable[int]) -> 
 
 def _one_ball() -> Figure:
     """Fig. 5.3: the one-ball game, by the infinite and by the two-shot look-ahead."""
+    from matplotlib.figure import Figure
+
     from evenbreak.practice.shots import one_ball_win
 
-    figure, panels = _panels(1, 2, size=(9.0, 4.7))
+    figure = Figure(figsize=(9.0, 4.7), layout="constrained")
+    panels = figure.subplots(1, 2)
     names = {"infinite": "Infinite look-ahead", "two shots": "Two-shot look-ahead"}
     for axes, (look_ahead, name) in zip(panels, names.items(), strict=True):
         contour_axes(
@@ -118,40 +121,14 @@ def _one_ball() -> Figure:
 
 def _break_formats() -> Figure:
     """Fig. 5.6: player 1's share of the games by break format, and WB less LB."""
-    from evenbreak.games import alternate_breaks, loser_breaks, winner_breaks
-    from evenbreak.practice.breaks import long_run_share
+    from evenbreak.reports.break_plots import share_panels
 
-    figure, panels = _panels(2, 2, size=(8.8, 9.2))
-    formats = {
-        "Winner breaks": winner_breaks,
-        "Loser breaks": loser_breaks,
-        "Alternate breaks": alternate_breaks,
-    }
-    for axes, (name, breaks) in zip(panels, formats.items(), strict=False):
-        contour_axes(
-            axes,
-            partial(long_run_share, breaks=breaks),
-            x=_BREAK_1,
-            y=_BREAK_2,
-        )
-        axes.set_title(f"{name}: player 1's share $W$")
-    contour_axes(
-        panels[3],
-        lambda p1, p2: long_run_share(p1, p2, winner_breaks) - long_run_share(p1, p2, loser_breaks),
-        x=_BREAK_1,
-        y=_BREAK_2,
-        levels=(-0.3, -0.2, -0.1, -0.05, 0, 0.05, 0.1, 0.2, 0.3),
-        main=0.0,
-    )
-    panels[3].set_title("Winner breaks less loser breaks")
+    figure, panels = share_panels(x=_BREAK_1, y=_BREAK_2)
+    names = ("Winner breaks", "Loser breaks", "Alternate breaks")
+    titles = [f"{name}: player 1's share $W$" for name in names]
+    for axes, title in zip(panels, [*titles, "Winner breaks less loser breaks"], strict=True):
+        axes.set_title(title)
     return figure
-
-
-def _panels(rows: int, columns: int, *, size: tuple[float, float]) -> tuple[Figure, list[Axes]]:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=size, layout="constrained")
-    return figure, list(np.ravel(figure.subplots(rows, columns)))
 
 
 def _progressive_drill() -> Figure:
