@@ -50,7 +50,6 @@ def test_the_main_line_alone_is_thick() -> None:
     assert [width > 1.5 for width in drawn(share)[1].get_linewidths()] == [
         level == 0.5 for level in TENTHS
     ]
-    assert len(set(drawn(share, main=None)[1].get_linewidths())) == 1
 
 
 def test_negative_lines_alone_are_dashed() -> None:

@@ -19,6 +19,8 @@ Surface: TypeAlias = "Callable[[NDArray[np.float64], NDArray[np.float64]], NDArr
 TENTHS = tuple(tenth / 10 for tenth in range(1, 10))
 """The levels 0.1, 0.2, ..., 0.9 of a probability."""
 
+_POINTS = 201
+"""Of the grid along each side."""
 _INSIDE = 1e-6
 """How far the grid keeps from the edges: at a corner a limit may depend on the way to it."""
 _CLEAR = 0.06
@@ -34,8 +36,7 @@ def contour_axes(
     x: str,
     y: str,
     levels: Sequence[float] = TENTHS,
-    main: float | None = 0.5,
-    points: int = 201,
+    main: float = 0.5,
 ) -> QuadContourSet:
     """Draw the contour lines of a function of two probabilities, each labelled with its level.
 
@@ -54,9 +55,7 @@ def contour_axes(
     levels
         of the lines, increasing.
     main
-        the level of the thick line, as a rule the even chance; None for no such line.
-    points
-        of the grid along each side.
+        the level of the thick line, as a rule the even chance.
 
     Returns
     -------
@@ -73,7 +72,7 @@ def contour_axes(
     >>> [text.get_text() for text in lines.labelTexts]
     ['−0.5', '0', '0.5']
     """
-    side = np.clip(np.linspace(0.0, 1.0, points), _INSIDE, 1.0 - _INSIDE)
+    side = np.clip(np.linspace(0.0, 1.0, _POINTS), _INSIDE, 1.0 - _INSIDE)
     p1, p2 = np.meshgrid(side, side)
     values = np.round(function(p1, p2), _NOISE)
     lines = axes.contour(
