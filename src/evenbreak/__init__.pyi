@@ -33,13 +33,27 @@ from evenbreak.games.one_ball import OneBallLookAhead as OneBallLookAhead
 from evenbreak.games.race import Race as Race
 from evenbreak.games.rack import Rack as Rack
 from evenbreak.games.series import Series as Series
+from evenbreak.handicaps.chart import chart as chart
 from evenbreak.handicaps.fair import fair_races as fair_races
+from evenbreak.handicaps.ladder import autocorrelated_ladder as autocorrelated_ladder
+from evenbreak.handicaps.ladder import natural_ladder as natural_ladder
 from evenbreak.matches.length import match_length as match_length
 from evenbreak.matches.scalar import match_odds as match_odds
 from evenbreak.matches.scores import final_scores as final_scores
+from evenbreak.matches.straight_pool import StraightPool as StraightPool
+from evenbreak.matches.straight_pool import straight_pool_odds as straight_pool_odds
 from evenbreak.matches.win import race_win_probability as race_win_probability
 from evenbreak.matches.win import win_probability as win_probability
+from evenbreak.practice.breaks import compare_break_formats as compare_break_formats
+from evenbreak.practice.drills import drill_statistics as drill_statistics
+from evenbreak.practice.log_analysis import analyse_log as analyse_log
+from evenbreak.practice.shots import Shot as Shot
+from evenbreak.practice.shots import compare_shots as compare_shots
 from evenbreak.ratings.fit import fit as fit
 from evenbreak.ratings.results import Results as Results
+from evenbreak.stats.binomial import GamesWon as GamesWon
+from evenbreak.stats.innings import InningsScore as InningsScore
+from evenbreak.stats.runs import RunLength as RunLength
+from evenbreak.stats.summary import Distribution as Distribution
 
 __version__: str

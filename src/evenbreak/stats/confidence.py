@@ -204,7 +204,7 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
     Notes
     -----
     P5.19: 53 after ten scores is 1.90 units out by the normal law, and 1.51 over the upper
-    end of the 80 % interval (3.8 / 2.52, both rounded; 1.4981 unrounded). P(|z| < 1.51) is
+    end of the 80 % interval (3.8 / 2.52, both rounded; 1.4981 unrounded). `P(|z| < 1.51)` is
     .87, so a score so far out comes by chance 13 % of the time; the text reads the two
     numbers the other way round. A single list of scores cannot say more than how rare
     such a score is: `compare` asks whether the scores have changed.
