@@ -192,6 +192,12 @@ class TestLaws:
         assert 1 - inside == pytest.approx(1e-12, rel=0.1)
         assert law.exact_range(1) == (0, 10**6, 1.0)
 
+    def test_rare_spans_keep_their_digits_at_both_ends(self) -> None:
+        law = GamesWon(300, 0.5)
+        chance = float(sum(exact_law(300, 0.5)[5:8]))
+        assert law.between(5, 7) == pytest.approx(chance, rel=1e-12, abs=0)
+        assert law.between(293, 295) == pytest.approx(chance, rel=1e-12, abs=0)
+
     def test_a_billion_games_take_no_more_room_than_their_spread(self) -> None:
         low, high, inside = GamesWon(10**9, 0.5).exact_range(0.5)
         assert low + high == 10**9 - 1

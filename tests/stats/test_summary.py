@@ -157,6 +157,11 @@ class TestLaws:
         assert merge([Moments.of(far), Moments.of(far)]).variance == pytest.approx(94 / 25)
 
 
+def test_a_sum_that_falls_short_of_1_leaves_the_last_quantiles_to_the_largest_value() -> None:
+    law = Distribution((0, 1, 2), (0.5, 0.5 - 1e-10, 0.0))
+    assert law.quantile(1 - 1e-11) == law.quantile(1) == 1
+
+
 def test_cumulative_and_quartiles() -> None:
     law = Distribution.of([0, 1, 1, 4, 5])
     assert law.cumulative == (Fraction(1, 5), Fraction(3, 5), Fraction(4, 5), 1)
