@@ -199,6 +199,20 @@ def test_equal_players_spot_little_for_the_first_inning():
     assert even.p_win_1_less < 0.5 < even.p_win_1_more
 
 
+def test_points_that_take_too_long_are_not_asked_for():
+    # 4096 points of a player who runs 1/3 would take more innings than are counted with.
+    even = even_points(2000, 0.2, 0.25)
+    assert even.p_win_1_less < 0.5 < even.p_win_1_more
+    assert even.points_2 == pytest.approx(2000 * 4 / 3, rel=0.01)
+    assert even_points(1, 0.9, 0.01).points_2 == 1
+
+
+def test_who_never_wins_gets_the_smallest_spot():
+    even = even_points(5, 0, 0.5)
+    assert (even.points_2, even.p_win_1, even.p_win_1_less, even.p_win_1_more) == (1, 0, None, 0)
+    assert even_points(5, 0.5, 0).points_2 == 1
+
+
 def test_arguments_may_be_averages():
     match = StraightPool(100, 100, RunLength.of_mean(9).p, RunLength.of_mean(4).p)
     assert straight_pool_odds(match) == straight_pool_odds(StraightPool(100, 100, 0.9, 0.8))

@@ -17,6 +17,7 @@ more, so every chance keeps nearly all its digits, without safety play (a = 0) a
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterator
 from dataclasses import KW_ONLY, dataclass
 from fractions import Fraction
@@ -192,7 +193,8 @@ def even_points(
     Returns
     -------
     EvenPoints
-        the nearest to even from 1 to `most`; of two that are equally near the fewer points.
+        the nearest to even from 1 to `most`, or to the most that can be counted with where
+        that is fewer; of those that are equally near the fewest points.
 
     Raises
     ------
@@ -203,7 +205,9 @@ def even_points(
     >>> even.points_2, round(even.p_win_1, 3)
     (60, 0.497)
     """
-    most = whole(most, "most", at_least=1)
+    most = min(
+        whole(most, "most", at_least=1), _most_points(exact(p2, "p2"), exact(safety_2, "safety_2"))
+    )
 
     def win(points_2: int) -> float:
         match = StraightPool(
@@ -217,7 +221,8 @@ def even_points(
     while high - low > 1:
         middle = (low + high) // 2
         low, high = (middle, high) if win(middle) < 0.5 else (low, middle)
-    nearest = high if low == 0 or abs(win(high) - 0.5) < abs(win(low) - 0.5) else low
+    # 1 is among them for a player 1 who never wins, whatever player 2 needs.
+    nearest = min({1, low or 1, high}, key=lambda points_2: (abs(win(points_2) - 0.5), points_2))
     less = win(nearest - 1) if nearest > 1 else None
     more = win(nearest + 1) if nearest < most else None
     return EvenPoints(nearest, win(nearest), less, more)
@@ -274,6 +279,13 @@ def _ratios(points: int, p: Fraction, safety: Fraction) -> Iterator[float]:
         yield ratio
         j += 1
         ratio = ((a + b) * j + start - a * b * j / ratio) / (j + 1)
+
+
+def _most_points(p: Fraction, safety: Fraction) -> int:
+    """Return the most points that take no more than the most innings, on average."""
+    if p == 1 or p * safety == 0:
+        return sys.maxsize
+    return max(1, math.floor((_LONGEST * safety * p - p) / (1 - p)))
 
 
 def _refuse_endless(number: int, points: int, p: Fraction, safety: Fraction) -> None:
