@@ -1,10 +1,12 @@
 """Every number that section 5 of the text prints, beside what the library computes."""
 
 import csv
+import math
 from collections import Counter
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
+from statistics import NormalDist, mean, pstdev
 
 import pytest
 
@@ -73,6 +75,31 @@ def test_errata_are_explained_where_they_occur() -> None:
     wrong = {row.problem for row in NUMBERS if row.verdict == "erratum"}
     assert {problem for problem in wrong if not slips_of(problem)} == set()
     assert len(errata()) == len(set(errata()))
+
+
+def test_what_is_right_in_place_of_a_wrong_number() -> None:
+    # By hand and by the standard library: no verdict tells an erratum from a wrong computation.
+    crossing = (1 + math.sqrt(17)) / 8
+    scores = [50, 44, 46, 52, 47, 51, 49, 45, 48, 50]
+    normal, sd = NormalDist(), pstdev(scores)
+    units = (53 - mean(scores)) / sd - normal.inv_cdf(0.9) / math.sqrt(10)
+    right = {
+        ("P5.7", "p where W(p;2,1)=W(p;4,2)"): [crossing],
+        ("P5.7", "W where W(p;2,1)=W(p;4,2)"): [crossing**2],
+        ("P5.10", "range low, normal"): [62.4 - normal.inv_cdf(0.975) * math.sqrt(62.4 * 0.48)],
+        ("P5.17", "relative deviation"): [1 / math.sqrt(5 * 0.96)],
+        ("P5.19", "standard units of a 53 over the interval"): [units],
+        ("P5.19", "chance of a score so far out"): [2 * normal.cdf(-units)],
+        ("P5.19", "confidence that it was no chance"): [1 - 2 * normal.cdf(-units)],
+        ("P5.22", "W infinite look-ahead"): [10 / 11],
+        ("Table 5.4", "W winner breaks less 1/2"): [1 / 22],
+        ("P5.25", "expected points per game"): [1 / 2, -1 / 14],
+    }
+    found: dict[tuple[str, str], list[float]] = {}
+    for row in NUMBERS:
+        if row.verdict == "erratum":
+            found.setdefault(row[:2], []).append(float(compute(*row[:3])))
+    assert found == {key: pytest.approx(values, rel=1e-12) for key, values in right.items()}
 
 
 def test_verdict_of_a_wrong_number() -> None:

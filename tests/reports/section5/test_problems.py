@@ -1,3 +1,4 @@
+import math
 import re
 from decimal import Decimal
 from fractions import Fraction
@@ -8,8 +9,9 @@ import pytest
 from evenbreak.chains import chain_of, spectrum
 from evenbreak.games import Ahead, Rack
 from evenbreak.games.breaks import BREAK_FORMATS
+from evenbreak.games.series import Series
 from evenbreak.matches import win_probability
-from evenbreak.practice import long_run_share
+from evenbreak.practice import long_run_share, one_ball_win
 from evenbreak.reports.section5 import break_formats, long_run, one_ball
 from evenbreak.reports.section5.numbers import findings
 from evenbreak.reports.section5.problems import (
@@ -19,6 +21,7 @@ from evenbreak.reports.section5.problems import (
     problem_frames,
     published_frame,
 )
+from evenbreak.stats import GamesWon, InningsScore, RunLength
 
 
 @pytest.fixture(scope="module")
@@ -144,6 +147,55 @@ def test_formulas_are_those_of_the_diagrams():
         share = law[1] * p1 + law[2] * (1 - p2)
         formula = sympy.sympify(break_formats.FORMULAS[name])
         assert sympy.simplify(share - formula) == 0, name
+
+
+LAWS = {
+    "p": Fraction(7, 10),
+    "q": Fraction(3, 10),
+    "alpha": Fraction(4, 5),
+    "N": 12,
+    "m": 4,
+    "n": 3,
+}
+RUN, SAFE, SCORE = RunLength(0.7), RunLength(0.7, 0.8), InningsScore(0.7, 4)
+GAMES = GamesWon(12, 0.7)
+
+
+@pytest.mark.parametrize(
+    ("problem", "quantity", "inputs", "value"),
+    [
+        (9, "mode", "", GAMES.mode),
+        (9, "mean", "", GAMES.mean),
+        (9, "standard deviation", "", GAMES.sd),
+        (11, "P(run = n)", "", RUN.probability(3)),
+        (11, "P(run >= n)", "", RUN.at_least(3)),
+        (11, "mode", "", RUN.mode),
+        (11, "mean", "", RUN.mean),
+        (15, "P(run = 0)", "", SAFE.probability(0)),
+        (15, "P(run = n)", "n > 0", SAFE.probability(3)),
+        (15, "mean", "", SAFE.mean),
+        (16, "P(score = n)", "m innings", SCORE.probability(3)),
+        (16, "mean", "m innings", SCORE.mean),
+        (16, "standard deviation", "m innings", SCORE.sd),
+        (16, "mode", "m innings", SCORE.mode),
+    ],
+)
+def test_formulas_of_scores_and_runs(frames, problem, quantity, inputs, value):
+    text = answers(frames[f"problem_5_{problem:02}"])[f"formula: {quantity}", inputs]
+    formula = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text).replace("^", "**")
+    functions = {"C": math.comb, "sqrt": math.sqrt, "ceiling": math.ceil}
+    assert eval(formula, {**LAWS, **functions}) == pytest.approx(value, rel=1e-12)  # noqa: S307
+
+
+def test_formulas_of_the_two_shot_look_ahead_and_of_eigenvalues():
+    p1, p2 = 0.4, 0.8
+    win = eval(one_ball.TWO_SHOTS, {"p1": p1, "p2": p2})  # noqa: S307
+    assert win == pytest.approx(one_ball_win(p1, p2, look_ahead="two shots"), rel=1e-14)
+    for name, text in break_formats.EIGENVALUES.items():
+        series = Series(Rack(p1, p2), breaks=BREAK_FORMATS[name])
+        second = eval(text.removeprefix("1 and "), {"p1": p1, "p2": p2})  # noqa: S307
+        values = sorted(spectrum(chain_of(series)).values)
+        assert values == pytest.approx([second, 1], abs=1e-14), name
 
 
 @pytest.mark.parametrize(("m", "n"), long_run.HANDICAPS)

@@ -13,7 +13,7 @@ from evenbreak.games.series import Series
 from evenbreak.practice.breaks import compare_break_formats, long_run_share
 from evenbreak.reports.section5.rows import Answers, Derived, Inputs, Row
 
-__all__ = ["ANSWERS", "DERIVED", "FORMATS", "FORMULAS", "PAIRS"]
+__all__ = ["ANSWERS", "DERIVED", "EIGENVALUES", "FORMATS", "FORMULAS", "PAIRS"]
 
 FORMATS = ("winner", "loser", "alternate")
 PAIRS = (
@@ -35,11 +35,12 @@ FORMULAS = {
     "alternate": "(1 + p1 - p2)/2",
 }
 """The fraction of racks that player 1 wins in the long run, by format."""
-_EIGENVALUES = {
+EIGENVALUES = {
     "winner": "1 and p1 + p2 - 1",
     "loser": "1 and 1 - p1 - p2",
     "alternate": "1 and -1",
 }
+"""Of the chain of who breaks, by format."""
 
 
 def _share(inputs: Inputs, name: str) -> float:
@@ -68,7 +69,7 @@ ANSWERS: Answers = {
 def _p5_24() -> Iterator[Row]:
     for name in FORMATS:
         yield Row("formula: W", f"{name} breaks", FORMULAS[name])
-        yield Row("formula: eigenvalues", f"{name} breaks", _EIGENVALUES[name])
+        yield Row("formula: eigenvalues", f"{name} breaks", EIGENVALUES[name])
     for p1, p2 in PAIRS:
         for name in FORMATS:
             series = Series(Rack(p1, p2), breaks=BREAK_FORMATS[name])

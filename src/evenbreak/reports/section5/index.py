@@ -10,6 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
+from fractions import Fraction
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
@@ -110,8 +111,13 @@ def _numbers(found: Sequence[Finding], problem: str) -> str:
 
 
 def _printed(number: Decimal) -> str:
-    """Return a number with its digits as printed, but of a fraction such as 32/81 only six."""
-    return str(number) if len(str(number)) <= 8 else short(number)
+    """Return a number as printed: with its digits, or as a fraction.
+
+    >>> _printed(Decimal("0.90")), _printed(Decimal("0.3950617283950617"))
+    ('0.90', '32/81')
+    """
+    as_fraction = Fraction(number).limit_denominator(100)
+    return str(number) if len(str(number)) <= 8 else str(as_fraction)
 
 
 def _in_a_table(row: PublishedNumber) -> bool:
@@ -123,11 +129,13 @@ def _in_a_table(row: PublishedNumber) -> bool:
 
 
 def _given(inputs: str) -> str:
-    """Return inputs as a reader would like them: those of P5.2 are the two lists of P5.1.
+    """Return inputs as a reader would like them: lists of scores by name, not over and over.
 
-    >>> _given("as above"), _given("p=.96 innings=5")
-    ('both lists', 'p=.96 innings=5')
+    >>> _given("as above"), _given("scores 50 44 46"), _given("p=.96 innings=5")
+    ('both lists', 'the scores', 'p=.96 innings=5')
     """
+    if inputs.startswith("scores "):
+        return "the scores"
     return "both lists" if inputs == "as above" or inputs.startswith("N=5;5") else inputs
 
 

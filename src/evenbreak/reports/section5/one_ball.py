@@ -14,7 +14,7 @@ from evenbreak.games.one_ball import OneBall
 from evenbreak.practice.shots import critical_p2, one_ball_win
 from evenbreak.reports.section5.rows import Answers, Derived, Inputs, Row
 
-__all__ = ["ANSWERS", "DERIVED", "FORMULAS", "SHOTS"]
+__all__ = ["ANSWERS", "DERIVED", "FORMULAS", "SHOTS", "TWO_SHOTS"]
 
 SHOTS = ((0.1, 0.9), (0.9, 0.1), (0.9, 0.9), (0.5, 0.5), (0.25, 0.33), (0.4, 0.8), (0.3, 0.3))
 """The pairs p1, p2 of the table in P5.22."""
@@ -35,6 +35,8 @@ FORMULAS = {
     ("half v, half w", "L"): "p2*(2 - p1)/(2*(p1 + p2 - p1*p2))",
 }
 """The stochastic limits of P5.23 by start and node; 1 - q1 q2 is p1 + p2 - p1 p2."""
+TWO_SHOTS = "p1 + (1 - p1)*(1 - p2)/2"
+"""W of P5.21."""
 
 
 def _win(inputs: Inputs, look_ahead: str) -> float:
@@ -63,27 +65,23 @@ def _curve() -> Iterator[Row]:
 
 
 def _p5_20() -> Iterator[Row]:
-    yield Row("formula: W infinite look-ahead", "", FORMULAS["v", "W"])
-    yield from _curve()
-    for tenths in range(1, 10):
-        p1 = tenths / 10
-        for p2 in (0.1, 0.5, 0.9):
-            yield Row("W infinite look-ahead", f"p1={p1} p2={p2}", one_ball_win(p1, p2))
+    yield from _surface("W infinite look-ahead", FORMULAS["v", "W"], "infinite")
 
 
 def _p5_21() -> Iterator[Row]:
-    yield Row("formula: W two-shot look-ahead", "", "p1 + (1 - p1)*(1 - p2)/2")
+    yield from _surface("W two-shot look-ahead", TWO_SHOTS, "two shots")
+
+
+def _surface(name: str, formula: str, look_ahead: str) -> Iterator[Row]:
+    yield Row(f"formula: {name}", "", formula)
     yield from _curve()
     for tenths in range(1, 10):
         p1 = tenths / 10
         for p2 in (0.1, 0.5, 0.9):
-            win = one_ball_win(p1, p2, look_ahead="two shots")
-            yield Row("W two-shot look-ahead", f"p1={p1} p2={p2}", win)
+            yield Row(name, f"p1={p1} p2={p2}", one_ball_win(p1, p2, look_ahead=look_ahead))
 
 
 def _p5_22() -> Iterator[Row]:
-    note = "printed as problem 5.7, a number that the text uses twice"
-    yield Row("number of the problem", "", "5.22", note)
     for p1, p2 in SHOTS:
         worth = one_ball_win(p1, p2) - one_ball_win(p1, p2, look_ahead="two shots")
         yield Row("W infinite less W two-shot", f"p1={p1} p2={p2}", worth)
