@@ -188,6 +188,30 @@ def test_one_attempt() -> None:
     analysis = analysed(DrillLog([4], [1]))
     assert analysis.visited.probability == (1,)
     assert [report.attempts for report in analysis.levels] == [0, 0, 0, 1]
+    assert analysis.implied.probability == (0, 0, 0, 1)
+    assert analysis.difference.seen == 0.0
+
+
+def test_who_begins_high_and_never_falls_low_is_not_held_up_at_level_1() -> None:
+    """Three easier levels that nobody needed change nothing of what is said."""
+    log = played(np.array([1.0, 0.8, 0.6, 0.4]), 10, 30, seed=13)
+    low = analysed(log)
+    high = analysed(DrillLog(log.level + 3, log.success, log.session))
+    assert log.successes[0] == log.attempts[0]
+    assert [report.attempts for report in high.levels[:3]] == [0, 0, 0]
+    assert [report.lift for report in high.levels[:3]] == [0.0, 0.0, 0.0]
+    assert high.implied.mean - 3 == pytest.approx(low.implied.mean)
+    assert high.mean_low < high.implied.mean < high.mean_high
+    assert high.difference.seen == pytest.approx(low.difference.seen)
+    assert high.difference.by_chance == pytest.approx(low.difference.by_chance, abs=0.02)
+
+
+def test_levels_above_all_tried_count_as_out_of_reach() -> None:
+    log = DrillLog([1, 2, 3, 2] * 20, [1, 1, 0, 0] * 20, np.repeat(range(20), 4), levels=9)
+    analysis = analysed(log)
+    assert [report.implied for report in analysis.levels[3:]] == [0.0] * 6
+    # Of level 3 none of 20 succeeded, so level 4 may be reached now and then, but is not passed.
+    assert analysis.implied.mean < analysis.mean_high < 3
 
 
 def test_the_same_seed_gives_the_same_answer() -> None:

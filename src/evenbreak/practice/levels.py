@@ -21,10 +21,29 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["MORE", "level_gains", "level_laws", "level_lifts"]
+__all__ = ["MORE", "chances_seen", "level_gains", "level_laws", "level_lifts"]
 
 MORE = 0.05
 """The rise of a chance by which levels are compared: five more successes in a hundred."""
+
+
+def chances_seen(attempts: NDArray[np.int64], successes: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return the fraction of successes at each level, and what levels not tried count as.
+
+    Those below all that were tried count as always succeeding: who begins at level 4 and
+    never falls below 3 is not held up at level 1. All others count as never succeeding.
+
+    Parameters
+    ----------
+    attempts, successes
+        shape (..., n): the counts at each level, one log a row.
+
+    >>> chances_seen(np.array([0, 2, 4, 0]), np.array([0, 2, 1, 0]))
+    array([1.  , 1.  , 0.25, 0.  ])
+    """
+    tried = attempts > 0
+    below_all = ~np.logical_or.accumulate(tried, axis=-1)
+    return np.where(tried, successes / np.maximum(attempts, 1), below_all)
 
 
 def level_laws(success: NDArray[np.float64]) -> NDArray[np.float64]:

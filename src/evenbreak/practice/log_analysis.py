@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from evenbreak.checks import whole
-from evenbreak.practice.levels import level_gains, level_laws, level_lifts
+from evenbreak.practice.levels import chances_seen, level_gains, level_laws, level_lifts
 from evenbreak.practice.log_tests import (
     PlayedAgainTest,
     difference_test,
@@ -138,9 +138,9 @@ class LogAnalysis:
 def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999) -> LogAnalysis:
     """Return what the log of a drill tells, with how sure it is.
 
-    What is said of the long run is conditional on chances that stay as they are. Levels
-    that were not attempted count as never succeeding in what `implied`, `expected` and
-    `gain` are worked out from.
+    What is said of the long run is conditional on chances that stay as they are, and on
+    what levels count as that were not attempted: those below all attempted ones as always
+    succeeding, all others as never succeeding.
 
     Parameters
     ----------
@@ -175,11 +175,11 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
     (2, 0.005)
     """
     replicas = whole(replicas, "replicas", at_least=1)
-    attempts, successes = log.attempts, log.successes
-    p_seen = successes / np.maximum(attempts, 1)
+    attempts = log.attempts
+    p_seen = chances_seen(attempts, log.successes)
     law = level_laws(p_seen)
     played = play_again(log, p_seen, replicas=replicas, rng=rng)
-    mean_low, mean_high, lifts = _drawn_lifts(log, rng, replicas)
+    mean_low, mean_high, lifts = _drawn_lifts(log, p_seen, rng, replicas)
     values = tuple(range(1, len(attempts) + 1))
     model = fit_progressive(log) if attempts[1:].any() else None
     reports = _reports(log, law, level_gains(p_seen, law), played, lifts, model)
@@ -229,14 +229,15 @@ def _reports(
 
 
 def _drawn_lifts(
-    log: DrillLog, rng: np.random.Generator, draws: int
+    log: DrillLog, p_seen: NDArray[np.float64], rng: np.random.Generator, draws: int
 ) -> tuple[float, float, NDArray[np.float64]]:
     """Return the interval of the mean level, and the lifts of chances that fit the log.
 
     Shape (draws, levels): each row goes with one draw of all chances.
     """
     misses = log.attempts - log.successes
-    chances = rng.beta(log.successes + 0.5, misses + 0.5, size=(draws, len(misses)))
+    drawn = rng.beta(log.successes + 0.5, misses + 0.5, size=(draws, len(misses)))
+    chances = np.where(log.attempts > 0, drawn, p_seen)
     laws = level_laws(chances)
     low, _, high = np.quantile(laws @ np.arange(1.0, len(misses) + 1), _QUANTILES)
     return float(low), float(high), level_lifts(chances)

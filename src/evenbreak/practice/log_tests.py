@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS
-from evenbreak.practice.levels import level_laws
+from evenbreak.practice.levels import chances_seen, level_laws
 from evenbreak.practice.played_again import play_again
 from evenbreak.practice.progressive_fit import deviance
 
@@ -114,7 +114,7 @@ def model_test(
 def _distance(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return half the absolute differences of visited and implied fractions, log by log."""
     attempts = outcomes.sum((-1, -2))
-    p = outcomes[..., 1].sum(-1) / np.maximum(attempts, 1)
+    p = chances_seen(attempts, outcomes[..., 1].sum(-1))
     visited = attempts / attempts.sum(-1, keepdims=True)
     return np.asarray(np.abs(visited - level_laws(p)).sum(-1) / 2.0)
 

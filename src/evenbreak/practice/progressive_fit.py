@@ -17,6 +17,7 @@ import numpy as np
 from scipy.special import xlog1py, xlogy
 
 from evenbreak.errors import InputError
+from evenbreak.stats.confidence import open_share
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -85,8 +86,7 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
     """
     from scipy.stats import chi2
 
-    if not 0.0 < confidence < 1.0:
-        raise InputError(f"confidence is {confidence!r}; give a number between 0 and 1")
+    confidence = open_share(confidence)
     successes, failures = log.successes, log.attempts - log.successes
     attempts = int(log.attempts[1:].sum())
     if not attempts:
