@@ -3,8 +3,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from evenbreak.practice import DrillLog, LogAnalysis, PlayedAgainTest, analyse_log
-from evenbreak.reports.drill_words import SPACE, log_advice
+from evenbreak.games import Drill
+from evenbreak.practice import (
+    DrillLog,
+    LogAnalysis,
+    PlayedAgainTest,
+    analyse_log,
+    drill_statistics,
+)
+from evenbreak.reports.drill_words import SPACE, drill_advice, log_advice
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +28,8 @@ def test_what_is_odd_is_told_as_odd(analysis: LogAnalysis) -> None:
     odd = PlayedAgainTest(0.25, 0.05, 0.001)
     assert "That is more than chance explains (p = 0.001)" in told(analysis, difference=odd)
     assert "Perhaps you stop when it goes well." in told(analysis, difference=odd)
-    assert "a miss seems to weigh on the next attempt" in told(analysis, memory=odd)
+    memory = told(analysis, memory=odd)
+    assert "a miss seems to weigh on the next attempt, or you have good days" in memory
     assert "differ from that more than chance explains" in told(analysis, model_test=odd)
 
 
@@ -31,7 +39,7 @@ def test_what_is_not_odd_is_told_as_such(analysis: LogAnalysis) -> None:
     assert "Perhaps" not in told(analysis, difference=plain)
     assert "25 times in 100 more often" in told(analysis, memory=plain)
     assert "No sign that one attempt weighs on the next (p = 0.4)" in told(analysis, memory=plain)
-    assert "All levels fit that (p = 0.4)" in told(analysis, model_test=plain)
+    assert "No level stands out from that (p = 0.4)" in told(analysis, model_test=plain)
 
 
 def test_a_memory_the_other_way_round(analysis: LogAnalysis) -> None:
@@ -57,3 +65,15 @@ def test_who_is_sure_names_one_level(analysis: LogAnalysis) -> None:
 
     assert "It is 90 % sure that no other level helps more." in advice(0.9)
     assert "It is 60 % sure that no other level helps more, and 40 % for level 3" in advice(0.6)
+
+
+def test_a_level_hardly_missed_has_no_room_for_five_more() -> None:
+    words = drill_advice(drill_statistics(Drill([0.99, 0.98, 0.97])))
+    assert "at level 3: successes without a miss there lift the mean level by 0.03" in words
+    assert "five more" in drill_advice(drill_statistics(Drill([0.99, 0.98, 0.95])))
+
+
+def test_nobody_is_sure_of_the_only_level_tried() -> None:
+    words = told(analyse_log(DrillLog([4], [1]), rng=np.random.default_rng(1), replicas=9))
+    assert "It is the only level that you tried; log others too." in words
+    assert "sure" not in words

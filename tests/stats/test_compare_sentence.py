@@ -21,7 +21,8 @@ def test_warnings_come_where_they_are_due():
     ("shift", "words"),
     [
         (0.0, ("The mean is the same after as before", "no evidence", "come nearly always")),
-        (-1.5, ("The mean is 1.50 lower after", "a hint of a change", "about 13 times in 100")),
+        (-1.5, ("The mean is 1.50 lower after", "no evidence", "about 13 times in 100")),
+        (-1.7, ("The mean is 1.70 lower after", "a hint of a change", "1 time in 11")),
         (2.0, ("The mean is 2.00 higher after", "this is evidence of a change", "1 time in 20")),
         (9.0, ("9.00 higher", "strong evidence of a change", "less than 1 time in 1000")),
     ],

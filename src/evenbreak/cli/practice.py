@@ -151,7 +151,9 @@ def _summary(file: ScoresFile, confidence: float, plot: str | None, as_json: boo
             "one score, or equal ones, show no spread: how far the true mean is off is not known"
         )
     if line is not None and line.p_value < DRIFTS:
-        told.append("the scores drift with time, but the interval takes the true mean for steady")
+        told.append(
+            "the scores seem to drift with time, but the interval takes the true mean for steady"
+        )
     heading = f"{many(len(file.scores))} in {file.source}{_days(file)}"
     print_answer(answer, SUMMARY_WORDS, heading, told, as_json=as_json)
     if plot is not None:

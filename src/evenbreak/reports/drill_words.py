@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from evenbreak.practice.levels import MORE
+
 if TYPE_CHECKING:
     from evenbreak.practice.drills import DrillStatistics
     from evenbreak.practice.log_analysis import LogAnalysis
@@ -35,8 +37,8 @@ def drill_advice(statistics: DrillStatistics) -> str:
         return "More success would lift the mean level nowhere."
     lift = statistics.lift[level - 1]
     return (
-        f"Practice helps most at level {level}: five more successes in 100 there lift the mean "
-        f"level by {lift:.2f}."
+        f"Practice helps most at level {level}: {_better(statistics.drill.success[level - 1])} "
+        f"there lift the mean level by {lift:.2f}."
     )
 
 
@@ -60,11 +62,13 @@ def _practise(analysis: LogAnalysis) -> str:
     if best is None:
         return "A drill of one level has nothing to climb; log the higher levels too."
     told = (
-        f"Practise level {best.level} next: five more successes in 100 there "
+        f"Practise level {best.level} next: {_better(best.p or 0.0)} there "
         f"lift your mean level by {best.lift:.2f} ({best.lift_low:.2f} to {best.lift_high:.2f}). "
-        f"It is {_percent(best.p_best)} sure that no other level helps more"
     )
-    others = [report for report in analysis.levels if report is not best]
+    others = [report for report in analysis.levels if report.attempts and report is not best]
+    if not others:
+        return f"{told}It is the only level that you tried; log others too."
+    told += f"It is {_percent(best.p_best)} sure that no other level helps more"
     second = max(others, key=lambda report: report.p_best)
     if best.p_best >= SURE:
         return f"{told}."
@@ -72,6 +76,11 @@ def _practise(analysis: LogAnalysis) -> str:
         f"{told}, and {_percent(second.p_best)} for level {second.level}; a longer log will tell "
         "them apart."
     )
+
+
+def _better(p: float) -> str:
+    """Return by how much a chance p is raised to see what a level is worth."""
+    return "five more successes in 100" if p <= 1.0 - MORE else "successes without a miss"
 
 
 def _percent(p: float) -> str:
@@ -102,7 +111,7 @@ def _memory(test: PlayedAgainTest) -> str:
     if test.p_value >= ODD:
         return told + f"No sign that one attempt weighs on the next {_p(test)}."
     why = (
-        "a miss seems to weigh on the next attempt"
+        "a miss seems to weigh on the next attempt, or you have good days and bad ones"
         if test.seen > test.by_chance
         else "a success seems to make the next attempt worse"
     )
@@ -125,7 +134,9 @@ def _model(analysis: LogAnalysis) -> Iterator[str]:
     )
     test = analysis.model_test
     if test is not None:
-        told += _verdict(test, " But levels differ from that more than", " All levels fit that")
+        told += _verdict(
+            test, " But levels differ from that more than", " No level stands out from that"
+        )
         if test.p_value < ODD:
             told += (
                 f" The furthest off is level {off.level}: {off.successes} of {off.attempts} "

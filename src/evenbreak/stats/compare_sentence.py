@@ -18,7 +18,7 @@ EXPECTED_AT_LEAST = 5.0
 STRENGTHS = (
     (0.01, "strong evidence of a change"),
     (0.05, "evidence of a change"),
-    (0.2, "a hint of a change, no more"),
+    (0.1, "a hint of a change, no more"),
     (1.0, "no evidence of a change: chance alone does this often"),
 )
 """What to call a p-value up to each bound."""
