@@ -77,3 +77,8 @@ def test_difference_of_equal_numbers_is_zero():
     assert str(difference_cell(0.1 + 0.2, Decimal("0.3"))) == "0"
     assert str(difference_cell(0.5, Decimal("0.49"))) == "0.01"
     assert str(difference_cell(-1 / 14, Decimal("-0.08"))) == "0.0085714286"
+
+
+@pytest.mark.parametrize("noise", [-2e-16, 0.0, 2e-16])
+def test_difference_that_ends_in_a_half_hides_the_noise_of_machines(noise):
+    assert str(difference_cell(0.80615234375 * (1 + noise), Decimal("0.806"))) == "0.0001523438"

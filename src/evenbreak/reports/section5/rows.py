@@ -25,8 +25,6 @@ __all__ = [
 
 _NUMBER = re.compile(r"\d*\.?\d+(/\d+)?")
 _DIGITS = Context(prec=10, rounding=ROUND_HALF_EVEN)
-_SURE = ".14g"
-"""Digits that are the same on every machine; a tie is rounded from these, not from noise."""
 
 
 class Row(NamedTuple):
@@ -91,7 +89,7 @@ def number_cell(value: Any) -> Decimal:
     >>> number_cell(1 / 3), number_cell(0.1 + 0.2), number_cell(16)
     (Decimal('0.3333333333'), Decimal('0.3'), Decimal('16'))
     """
-    return _plain(_DIGITS.create_decimal(f"{_noiseless(value):{_SURE}}"))
+    return _plain(_DIGITS.create_decimal(_sure(value)))
 
 
 def difference_cell(computed: Any, printed: Decimal) -> Decimal:
@@ -100,7 +98,8 @@ def difference_cell(computed: Any, printed: Decimal) -> Decimal:
     >>> difference_cell(0.1 + 0.2, Decimal("0.3")), difference_cell(0.25, Decimal("0.2"))
     (Decimal('0'), Decimal('0.05'))
     """
-    return _plain(Decimal(f"{float(computed) - float(printed):.10f}"))
+    difference = _sure(computed) - printed
+    return _plain(difference.quantize(Decimal("1e-10"), ROUND_HALF_EVEN))
 
 
 def fixed_cell(value: Any) -> Decimal:
@@ -109,12 +108,13 @@ def fixed_cell(value: Any) -> Decimal:
     >>> fixed_cell(2**-7), fixed_cell(2**-7 + 1e-18)
     (Decimal('0.007812'), Decimal('0.007812'))
     """
-    return Decimal(f"{_noiseless(value):{_SURE}}").quantize(Decimal("0.000001"), ROUND_HALF_EVEN)
+    return _sure(value).quantize(Decimal("0.000001"), ROUND_HALF_EVEN)
 
 
-def _noiseless(value: Any) -> float:
+def _sure(value: Any) -> Decimal:
+    """Return the digits that are the same on every machine: a tie is rounded from these."""
     number = float(value)
-    return 0.0 if abs(number) < 1e-14 else number
+    return Decimal(f"{number:.14g}") if abs(number) >= 1e-14 else Decimal(0)
 
 
 def _plain(value: Decimal) -> Decimal:
