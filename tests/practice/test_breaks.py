@@ -209,6 +209,9 @@ def test_fair_ratio_keeps_its_digits_at_both_ends():
     best = compare_break_formats(Rack(1 - 2**-50, 2**-50))
     assert [value.fair_ratio for value in best] == pytest.approx([2**-50] * 5)
     assert compare_break_formats(Rack(0, 1))[0].fair_ratio == math.inf
+    # In loser breaks player 1 loses the fraction p2 / (p1 + p2) of the racks.
+    ratios = {value.name: value.fair_ratio for value in compare_break_formats(Rack(0.5, 1e-20))}
+    assert ratios["loser"] == pytest.approx(2e-20, rel=1e-12, abs=0)
 
 
 @given(INNER, INNER)

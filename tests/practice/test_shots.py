@@ -136,6 +136,9 @@ def test_no_p2_breaks_even(look_ahead):
         (0.9, 0.1, "two-way shot"),
         (0.9, 0.9, "must-make"),
         (0.3, 0.3, "safety"),
+        (0.5, 0.5, "must-make"),
+        (0.5, 0.49, "two-way shot"),
+        (0.49, 0.5, "sell-out"),
     ],
 )
 def test_regions_are_those_of_p5_22(p1, p2, region):

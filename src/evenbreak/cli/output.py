@@ -143,7 +143,7 @@ def aligned(rows: Sequence[Sequence[str]], *, left: int = 1) -> str:
 def chance_text(p: float) -> str:
     """Return a probability for a person to read.
 
-    >>> chance_text(0.65263), chance_text(1.234e-9), chance_text(1 - 1e-9)
-    ('0.6526', '1.2e-09', '1.0000')
+    >>> chance_text(0.65263), chance_text(0.00101), chance_text(1.234e-9), chance_text(1 - 1e-9)
+    ('0.6526', '0.0010', '1.2e-09', '1.0000')
     """
     return f"{p:.2g}" if 0.0 < p < 5e-5 else f"{p:.4f}"
