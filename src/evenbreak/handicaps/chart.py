@@ -168,7 +168,8 @@ def chart(name: str) -> Chart:
     """Return a chart that comes with the package, by its name in `CHARTS`.
 
     `npl_8`, `npl_10`, `npl_12` and `npl_20` are the National Pool League's charts, short
-    to very long; `fargo_r6_hot` is a Fargo chart of races to 6 and more.
+    to very long; `fargo_r6_hot` is a chart of races to 6 and more for Fargo ratings, of which
+    100 points double the odds.
 
     Raises
     ------
@@ -177,7 +178,7 @@ def chart(name: str) -> Chart:
 
     Notes
     -----
-    Source: Table 5.6 (National Pool League).
+    Source: Table 5.6 (National Pool League); the chart "R6 Hot" as leagues print it (Fargo).
 
     >>> chart("npl_8").rows[1]
     ChartRow(difference_from=7, difference_to=18, stronger_needs=4, weaker_needs=3)
