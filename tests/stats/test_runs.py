@@ -60,6 +60,7 @@ def test_safety_play_takes_more_from_the_median_than_from_the_mean(safety, ratio
     assert median_ratio_limit(safety) == pytest.approx(ratio, abs=0.005)
     long = RunLength.of_mean(50_000, safety)
     assert long.median_ratio == pytest.approx(median_ratio_limit(safety), abs=1e-4)
+    assert long.median_estimate == pytest.approx(long.median, abs=1)
 
 
 def test_the_median_is_nothing_where_half_of_the_innings_are_blank():

@@ -2,7 +2,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from evenbreak.reports.section5.rows import (
@@ -41,7 +41,10 @@ def test_one_input_must_be_one():
         parse_inputs("1 2").one()
 
 
-@given(st.floats(-1e6, 1e6, allow_subnormal=False))
+# At 1e-14 itself, where noise ends, one side is written and the other is not.
+@given(st.floats(-1e6, 1e6, allow_subnormal=False).filter(lambda x: not 0.9 < abs(x) * 1e14 < 1.1))
+@example(0.20947265625)
+@example(1.1e-14)
 def test_cells_hide_the_noise_of_machines(value):
     noisy = [value * (1 + 2e-16), value * (1 - 2e-16)]
     assert {number_cell(v) for v in noisy} == {number_cell(value)}
