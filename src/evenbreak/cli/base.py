@@ -19,11 +19,11 @@ COMMANDS = {
     "fair": "Find the race that is nearest to an even chance.",
     "oneball": "Answer who wins the one-ball game, and which shot is best.",
     "breaks": "Weigh break formats and stakes for two players, in the long run.",
-    "runs": "Answer how long a player's runs are, and what several innings bring.",
-    "straight": "Answer who wins a match of straight pool, and what handicap makes it even.",
+    "runs": "Answer how long runs are, and what several innings bring.",
+    "straight": "Answer who wins at straight pool, and what handicap is even.",
     "drill": "Find where a progressive drill settles, and what to practise.",
     "practice": "Tell what practice scores say: was it luck, did it help?",
-    "reproduce": "Write section 5 of the source text, computed anew: tables, problems, figures.",
+    "reproduce": "Write section 5 of the source text, computed anew.",
     "chain": "Find the stochastic limit of any chain, from a file of arcs.",
 }
 """Each command with its line of help; module and function bear the command's name."""
