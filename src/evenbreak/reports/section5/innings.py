@@ -11,10 +11,8 @@ from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength, median_ratio_limit
 from evenbreak.stats.summary import Distribution
 
-__all__ = ["ANSWERS", "DERIVED", "INNINGS", "SAFETIES", "SCORE_P", "SHOT_P"]
+__all__ = ["ANSWERS", "DERIVED", "INNINGS", "SAFETIES", "SCORE_P"]
 
-SHOT_P = (*range(50, 100, 10), *range(91, 100))
-"""The shot chances of Table 5.2, in hundredths."""
 SCORE_P = range(50, 100, 10)
 """The shot chances of Table 5.3, in hundredths."""
 INNINGS = (1, 2, 4, 8, 16)

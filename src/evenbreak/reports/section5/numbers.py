@@ -22,13 +22,12 @@ from evenbreak.reports.section5 import (
 )
 from evenbreak.reports.section5.rows import Answers, parse_inputs
 
-__all__ = ["ANSWERS", "Finding", "by_problem", "compute", "findings", "verdict_of"]
+__all__ = ["ANSWERS", "PARTS", "Finding", "by_problem", "compute", "findings", "verdict_of"]
 
-ANSWERS: Answers = {
-    key: function
-    for part in (samples, games_won, innings, one_ball, break_formats, long_run)
-    for key, function in part.ANSWERS.items()
-}
+PARTS = (samples, games_won, innings, one_ball, break_formats, long_run)
+"""The modules that answer the problems."""
+
+ANSWERS: Answers = {key: function for part in PARTS for key, function in part.ANSWERS.items()}
 """How each quantity is computed from its inputs, by problem and quantity."""
 
 _HOME = {

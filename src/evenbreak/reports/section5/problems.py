@@ -5,15 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.reports.section5 import (
-    break_formats,
-    games_won,
-    innings,
-    long_run,
-    one_ball,
-    samples,
-)
-from evenbreak.reports.section5.numbers import Finding, by_problem
+from evenbreak.reports.section5.numbers import PARTS, Finding, by_problem
 from evenbreak.reports.section5.rows import Derived, Row, difference_cell, number_cell
 
 if TYPE_CHECKING:
@@ -23,11 +15,7 @@ __all__ = ["COLUMNS", "DERIVED", "PROBLEMS", "file_of", "problem_frames", "publi
 
 PROBLEMS = tuple(f"P5.{number}" for number in range(1, 28))
 
-DERIVED: Derived = {
-    key: function
-    for part in (samples, games_won, innings, one_ball, break_formats, long_run)
-    for key, function in part.DERIVED.items()
-}
+DERIVED: Derived = {key: function for part in PARTS for key, function in part.DERIVED.items()}
 """What answers each problem beyond the numbers that the text prints."""
 
 COLUMNS = (
