@@ -57,7 +57,7 @@ VERSUS_WORDS = {
     "p_welch": "Welch's t test: p-value",
     "g": "Hedges' g: difference in standard deviations",
     "g_interval": "its {share} interval",
-    "p_after_higher": "a score after beats one before",
+    "p_after_higher": "pairs in which the one after is higher",
     "p_student": "beside it: Student's t",
     "p_anova": "analysis of variance",
     "p_variances": "F: are the spreads equal?",

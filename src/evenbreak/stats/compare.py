@@ -153,7 +153,8 @@ def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
     >>> print(found.sentence)
     The mean is 3.30 higher after (95 % interval +0.85 to +5.75). By Welch's t test this is
     evidence of a change; if nothing had changed, a difference so large, up or down, would come
-    about 1 time in 84. A score after beats one before 84 times in 100, a tie counting half.
+    about 1 time in 84. In 84 of 100 pairs of these scores the one after is higher, a tie
+    counting half.
     """
     old, new = checked_scores(before, "before"), checked_scores(after, "after")
     share = open_share(confidence)

@@ -36,7 +36,7 @@ def sentence_of(found: Comparison) -> str:
         f"({100 * found.confidence:g} % interval {found.low:+.2f} to {found.high:+.2f}). "
         f"By Welch's t test this is {strength}; if nothing had changed, a difference so large, "
         f"up or down, would come {how_often(p)}. "
-        f"A score after beats one before {wins:.0f} times in 100, a tie counting half."
+        f"In {wins:.0f} of 100 pairs of these scores the one after is higher, a tie counting half."
     )
 
 

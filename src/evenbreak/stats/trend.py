@@ -14,15 +14,13 @@ class Trend(NamedTuple):
     """The slope of the line through scores, in points for each unit of time.
 
     `low` to `high` is its interval with the confidence asked for. `p_value` is the chance
-    of a slope at least so steep, up or down, if the true one is 0. `start` is the line's
-    score at time 0.
+    of a slope at least so steep, up or down, if the true one is 0.
     """
 
     slope: float
     low: float
     high: float
     p_value: float
-    start: float
 
 
 def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
@@ -63,4 +61,4 @@ def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
     line = linregress(when, points)
     half = -float(stdtrit(points.size - 2, (1.0 - share) / 2.0)) * float(line.stderr)
     slope = float(line.slope)
-    return Trend(slope, slope - half, slope + half, float(line.pvalue), float(line.intercept))
+    return Trend(slope, slope - half, slope + half, float(line.pvalue))
