@@ -2,7 +2,7 @@ from itertools import accumulate
 
 import numpy as np
 import pytest
-from scipy.stats import binomtest
+from scipy.stats import beta, binomtest
 
 from evenbreak.errors import InputError
 from evenbreak.games import Drill
@@ -212,6 +212,20 @@ def test_levels_above_all_tried_count_as_out_of_reach() -> None:
     assert [report.implied for report in analysis.levels[3:]] == [0.0] * 6
     # Of level 3 none of 20 succeeded, so level 4 may be reached now and then, but is not passed.
     assert analysis.implied.mean < analysis.mean_high < 3
+
+
+def test_the_interval_of_the_mean_is_that_of_jeffreys() -> None:
+    """Level 1 is never missed and level 2 missed thrice: the mean is 1 + 1/(2 - p)."""
+    analysis = analysed(DrillLog([2, 2, 2], [0, 0, 0], session=range(3)), replicas=20_000)
+    low, high = beta.ppf([0.025, 0.975], 0.5, 3.5)
+    assert analysis.mean_low == pytest.approx(1 + 1 / (2 - low), abs=1e-3)
+    assert analysis.mean_high == pytest.approx(1 + 1 / (2 - high), abs=1e-2)
+
+
+def test_no_advice_rests_on_a_level_nobody_tried() -> None:
+    analysis = analysed(DrillLog([1, 2], [1, 1], levels=3))
+    assert analysis.levels[2].lift > 0
+    assert analysis.levels[2].p_best == 0.0
 
 
 def test_the_same_seed_gives_the_same_answer() -> None:

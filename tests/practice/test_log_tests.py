@@ -4,6 +4,7 @@ import pytest
 from evenbreak.practice import DrillLog, fit_progressive
 from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS
 from evenbreak.practice.log_tests import difference_test, memory_test, model_test
+from evenbreak.practice.progressive_fit import deviance
 
 
 def outcomes(*logs: DrillLog) -> np.ndarray:
@@ -63,6 +64,20 @@ def test_the_model_is_tested_by_its_deviance() -> None:
     model = sum(won[i] * (i - 1) * np.log(p) + lost[i] * np.log(1 - p ** (i - 1)) for i in (2, 3))
     assert test.seen == pytest.approx(2 * (free - model))
     assert test.p_value > 0.1
+
+
+def test_the_model_is_played_with_the_chance_seen_at_level_1() -> None:
+    """Who always misses at level 1 plays levels 2 and 3 only where a session begins there."""
+    level, success = [1] * 50 + [2, 3], [0] * 50 + [0, 0]
+    log = DrillLog(level, success, session=[1] * 50 + [2, 3])
+    test = model_test(log, 0.5, replicas=200, rng=np.random.default_rng(1))
+    assert test is not None
+    # One attempt at each: by hand the deviances of the four courses, with the model's chances.
+    mean = sum(
+        chance * deviance(np.array([0, a, b]), np.array([50, 1 - a, 1 - b]))
+        for a, b, chance in ((0, 0, 3 / 8), (0, 1, 1 / 8), (1, 0, 3 / 8), (1, 1, 1 / 8))
+    )
+    assert test.by_chance == pytest.approx(mean, abs=0.3)
 
 
 def test_one_level_above_the_first_cannot_contradict_the_model() -> None:
