@@ -77,3 +77,12 @@ def test_nobody_is_sure_of_the_only_level_tried() -> None:
     words = told(analyse_log(DrillLog([4], [1]), rng=np.random.default_rng(1), replicas=9))
     assert "It is the only level that you tried; log others too." in words
     assert "sure" not in words
+
+
+def test_a_level_that_nobody_tried_is_named(analysis: LogAnalysis) -> None:
+    assert "never tried" not in told(analysis)
+    rng = np.random.default_rng(1)
+    gap = DrillLog([2, 1, 5, 4], [0, 1, 0, 1], session=[1, 1, 2, 2])
+    assert "You never tried level 3: it counts as" in told(analyse_log(gap, rng=rng, replicas=9))
+    higher = DrillLog([3, 2], [0, 1], levels=5)
+    assert "You never tried level 4: it counts as" in told(analyse_log(higher, rng=rng, replicas=9))

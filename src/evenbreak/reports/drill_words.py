@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from evenbreak.practice.levels import MORE
@@ -44,7 +45,7 @@ def drill_advice(statistics: DrillStatistics) -> str:
 
 def log_advice(analysis: LogAnalysis) -> Iterator[str]:
     """Yield what a log tells, a paragraph each: what to practise, then what is odd or not."""
-    yield _practise(analysis)
+    yield _practise(analysis) + _untried(analysis)
     test = analysis.difference
     yield (
         f"In the long run {100 * test.seen:.0f} of 100 attempts would be at another level than "
@@ -76,6 +77,17 @@ def _practise(analysis: LogAnalysis) -> str:
         f"{told}, and {_percent(second.p_best)} for level {second.level}; a longer log will tell "
         "them apart."
     )
+
+
+def _untried(analysis: LogAnalysis) -> str:
+    """Return what the first level counts as that nobody tried above one that was tried."""
+    for below, report in pairwise(analysis.levels):
+        if below.attempts and not report.attempts:
+            return (
+                f" You never tried level {report.level}: it counts as one that never succeeds "
+                "until your log says otherwise."
+            )
+    return ""
 
 
 def _better(p: float) -> str:
