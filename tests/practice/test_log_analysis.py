@@ -15,6 +15,7 @@ from evenbreak.practice import (
 )
 
 MODEL = 0.85 ** np.arange(9)
+_COLUMNS = ("level", "success")
 
 
 def played(
@@ -143,6 +144,16 @@ def test_a_memory_is_found(memory: float) -> None:
     assert analysis.memory.p_value < 0.02
     assert np.sign(analysis.memory.seen) == np.sign(memory)
     assert abs(analysis.memory.by_chance) < 0.05
+
+
+def test_good_days_and_bad_ones_are_no_memory() -> None:
+    """Within a day a level is entered as often from below, after a success, as from above."""
+    rng = np.random.default_rng(15)
+    days = [played(rng.uniform(0.7, 0.95) ** np.arange(9), 1, 40, seed=k) for k in range(12)]
+    level, success = (np.concatenate([getattr(day, name) for day in days]) for name in _COLUMNS)
+    analysis = analysed(DrillLog(level, success, np.repeat(range(12), 40)))
+    assert analysis.memory is not None
+    assert analysis.memory.p_value > 0.05 or analysis.memory.seen < analysis.memory.by_chance
 
 
 def test_a_wrong_model_is_found_and_a_right_one_kept(plain: LogAnalysis) -> None:

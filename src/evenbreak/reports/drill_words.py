@@ -123,7 +123,7 @@ def _memory(test: PlayedAgainTest) -> str:
     if test.p_value >= ODD:
         return told + f"No sign that one attempt weighs on the next {_p(test)}."
     why = (
-        "a miss seems to weigh on the next attempt, or you have good days and bad ones"
+        "a miss seems to weigh on the next attempt"
         if test.seen > test.by_chance
         else "a success seems to make the next attempt worse"
     )
