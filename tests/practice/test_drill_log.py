@@ -69,7 +69,9 @@ def test_up_and_down_balance_in_one_session(success: list[bool], n: int) -> None
         ([1, 2], [1, 0], {"session": ["Mo"]}, "session does not match"),
         ([1, 2], [1, 0], {"levels": 1}, "levels is 1, but the log has level 2"),
         ([1, 2], [1, 0], {"levels": 2.5}, "levels is 2.5"),
-        ([1, 101], [1, 0], {}, "the drill has 101 levels; give 100"),
+        ([1, 101], [1, 0], {}, "the log has level 101; give 100"),
+        ([1, 1e30], [1, 0], {}, r"the log has level 1e\+30; give 100"),
+        ([1, 2], [1, 0], {"levels": 101}, "the drill has 101 levels; give 100"),
     ],
 )
 def test_what_a_log_cannot_be(level: object, success: object, more: object, words: str) -> None:

@@ -143,4 +143,6 @@ def _level_array(given: Any) -> NDArray[np.int64]:
         raise InputError("level is empty or no list; give the level of each attempt")
     if level.dtype.kind not in "iuf" or not ((level >= 1) & (level == np.floor(level))).all():
         raise InputError("level is not whole numbers from 1; give the level of each attempt")
+    if level.max() > MOST_LEVELS:
+        raise InputError(f"the log has level {level.max():g}; give {MOST_LEVELS} at the most")
     return level.astype(np.int64)
