@@ -97,7 +97,7 @@ def test_no_whole_points_are_refused_with_the_remedy(difference):
         ([(0, None, 3)], "give rows of four"),
         ([(1, None, 3, 3)], "row 1 begins at 1; begin the chart at 0"),
         ([(0, None, 4, 3)], "row 1 is a race 4:3; give an even race"),
-        ([(0, 9, 3, 3)], "the last row ends at 9; give None"),
+        ([(0, 9, 3, 3)], "the last row ends at 9; leave its end empty"),
         ([(0, None, 3, 3), (10, None, 4, 3)], "row 1 has no end but is not the last"),
         ([(0, 9, 3, 3), (11, None, 4, 3)], "row 2 begins at 11 .* let it begin at 10"),
         ([(0, 9, 3, 3), (9, None, 4, 3)], "row 2 begins at 9 .* let it begin at 10"),

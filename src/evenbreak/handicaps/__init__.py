@@ -1,7 +1,8 @@
 """Handicaps: what makes an uneven game even, and what it does to ratings in the long run.
 
 `fair` finds the races that come nearest to a chance that was asked for, `chart` looks races
-up by rating difference, `ladder` says how far ratings wander that each match moves by a point.
+up by rating difference, `level_chart` by skill levels, `ladder` says how far ratings wander
+that each match moves by a point.
 """
 
 from evenbreak._lazy import attach
@@ -9,8 +10,10 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
-        "chart": ["CHARTS", "Chart", "ChartRow", "chart"],
+        "chart": ["CHARTS", "Chart", "chart"],
+        "chart_rows": ["ChartRow"],
         "fair": ["FairRace", "fair_races"],
         "ladder": ["LadderLaw", "RatingLadder", "autocorrelated_ladder", "natural_ladder"],
+        "level_chart": ["LEVEL_CHARTS", "LevelChart", "level_chart"],
     },
 )

@@ -1,10 +1,13 @@
 from evenbreak.handicaps.chart import CHARTS as CHARTS
 from evenbreak.handicaps.chart import Chart as Chart
-from evenbreak.handicaps.chart import ChartRow as ChartRow
 from evenbreak.handicaps.chart import chart as chart
+from evenbreak.handicaps.chart_rows import ChartRow as ChartRow
 from evenbreak.handicaps.fair import FairRace as FairRace
 from evenbreak.handicaps.fair import fair_races as fair_races
 from evenbreak.handicaps.ladder import LadderLaw as LadderLaw
 from evenbreak.handicaps.ladder import RatingLadder as RatingLadder
 from evenbreak.handicaps.ladder import autocorrelated_ladder as autocorrelated_ladder
 from evenbreak.handicaps.ladder import natural_ladder as natural_ladder
+from evenbreak.handicaps.level_chart import LEVEL_CHARTS as LEVEL_CHARTS
+from evenbreak.handicaps.level_chart import LevelChart as LevelChart
+from evenbreak.handicaps.level_chart import level_chart as level_chart

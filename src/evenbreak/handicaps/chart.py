@@ -7,34 +7,19 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
+from evenbreak.handicaps.chart_rows import ChartRow, row_faults
 
 __all__ = ["CHARTS", "Chart", "ChartRow", "chart"]
 
 CHARTS = ("fargo_r6_hot", "npl_8", "npl_10", "npl_12", "npl_20")
 """The charts that come with the package, by name."""
-
-
-class ChartRow(NamedTuple):
-    """One line of a chart: the race for a span of rating differences.
-
-    Parameters
-    ----------
-    difference_from, difference_to
-        the first and the last difference in rating points, stronger minus weaker;
-        `difference_to` is None in the last row, which has no end.
-    stronger_needs, weaker_needs
-        the games that each of the two needs.
-    """
-
-    difference_from: int
-    difference_to: int | None
-    stronger_needs: int
-    weaker_needs: int
 
 
 @dataclass(frozen=True)
@@ -72,7 +57,8 @@ class Chart:
         rows = [_checked(row, f"row {i}") for i, row in enumerate(_rows(self.rows), 1)]
         if not rows:
             raise InputError("rows is empty; give a row for each span of differences")
-        _check_ends(rows)
+        for _, fault in row_faults(rows):
+            raise InputError(fault)
         object.__setattr__(self, "rows", tuple(rows))
 
     def race(self, difference: Any) -> tuple[int, int]:
@@ -104,6 +90,31 @@ class Chart:
         needs = row.stronger_needs, row.weaker_needs
         return needs if points >= 0 else needs[::-1]
 
+    def races(self, differences: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return (m, n), two arrays: the games that player 1 and player 2 need, elementwise.
+
+        Parameters
+        ----------
+        differences
+            rating of player 1 minus rating of player 2, in whole points, of any shape.
+
+        Raises
+        ------
+        InputError
+            if a difference is not a whole number.
+
+        >>> m, n = chart("npl_10").races([5, 6, -6])
+        >>> m, n
+        (array([5, 5, 4]), array([5, 4, 5]))
+        """
+        points = _array_of_points(differences)
+        needs = np.array([row[2:] for row in self.rows])
+        starts = [row.difference_from for row in self.rows]
+        place = np.searchsorted(starts, np.abs(points), side="right") - 1
+        stronger, weaker = needs[place, 0], needs[place, 1]
+        ahead = points >= 0.0
+        return np.where(ahead, stronger, weaker), np.where(ahead, weaker, stronger)
+
 
 def _rows(rows: Iterable[Iterable[Any]]) -> list[ChartRow]:
     try:
@@ -117,37 +128,13 @@ def _rows(rows: Iterable[Iterable[Any]]) -> list[ChartRow]:
 
 def _checked(row: ChartRow, name: str) -> ChartRow:
     """Return a row with its numbers as ints, or refuse it."""
-    first = whole(row.difference_from, f"difference_from of {name}")
     last = row.difference_to
-    if last is not None:
-        last = whole(last, f"difference_to of {name}", at_least=first)
-    weaker = whole(row.weaker_needs, f"weaker_needs of {name}", at_least=1)
-    stronger = whole(row.stronger_needs, f"stronger_needs of {name}", at_least=weaker)
-    return ChartRow(first, last, stronger, weaker)
-
-
-def _check_ends(rows: Sequence[ChartRow]) -> None:
-    """Refuse rows that do not cover each difference from 0 on once."""
-    first, last = rows[0], rows[-1]
-    if first.difference_from != 0:
-        raise InputError(f"row 1 begins at {first.difference_from}; begin the chart at 0")
-    if first.stronger_needs != first.weaker_needs:
-        raise InputError(
-            f"row 1 is a race {first.stronger_needs}:{first.weaker_needs}; give an even race "
-            "for the difference 0, where neither player is the stronger"
-        )
-    for number, (row, after) in enumerate(pairwise(rows), 1):
-        if row.difference_to is None:
-            raise InputError(f"row {number} has no end but is not the last; give its last point")
-        if after.difference_from != row.difference_to + 1:
-            raise InputError(
-                f"row {number + 1} begins at {after.difference_from} and row {number} ends at "
-                f"{row.difference_to}; let it begin at {row.difference_to + 1}"
-            )
-    if last.difference_to is not None:
-        raise InputError(
-            f"the last row ends at {last.difference_to}; give None there, for all differences above"
-        )
+    return ChartRow(
+        whole(row.difference_from, f"difference_from of {name}"),
+        None if last is None else whole(last, f"difference_to of {name}"),
+        whole(row.stronger_needs, f"stronger_needs of {name}", at_least=1),
+        whole(row.weaker_needs, f"weaker_needs of {name}", at_least=1),
+    )
 
 
 def _whole_points(difference: Any) -> int:
@@ -160,6 +147,18 @@ def _whole_points(difference: Any) -> int:
         raise InputError(
             f"difference is {difference!r}; give whole points (round the two ratings before "
             "you subtract)"
+        )
+    return points
+
+
+def _array_of_points(differences: ArrayLike) -> NDArray[np.float64]:
+    array = np.asarray(differences)
+    points = array.astype(float) if array.dtype.kind in "iuf" else np.array(np.nan)
+    wrong = ~(np.isfinite(points) & (points == np.floor(points)))
+    if wrong.any():
+        held = f"hold {points[wrong].flat[0]:g}" if points.ndim else f"are {differences!r}"
+        raise InputError(
+            f"differences {held}; give whole points (round the ratings before you subtract)"
         )
     return points
 

@@ -23,6 +23,7 @@ __getattr__, __dir__, __all__ = attach(
             "published_numbers",
         ],
         "read_arcs": ["ArcsFile", "read_arcs"],
+        "read_chart": ["chart_frame", "find_chart", "read_chart"],
         "read_drill_log": ["DrillLogFile", "read_drill_log"],
         "read_results": ["ResultsFile", "read_results"],
         "read_table": ["Table", "read_table"],

@@ -17,6 +17,9 @@ from evenbreak.reports.published import p5_6_tables as p5_6_tables
 from evenbreak.reports.published import published_numbers as published_numbers
 from evenbreak.reports.read_arcs import ArcsFile as ArcsFile
 from evenbreak.reports.read_arcs import read_arcs as read_arcs
+from evenbreak.reports.read_chart import chart_frame as chart_frame
+from evenbreak.reports.read_chart import find_chart as find_chart
+from evenbreak.reports.read_chart import read_chart as read_chart
 from evenbreak.reports.read_drill_log import DrillLogFile as DrillLogFile
 from evenbreak.reports.read_drill_log import read_drill_log as read_drill_log
 from evenbreak.reports.read_results import ResultsFile as ResultsFile
