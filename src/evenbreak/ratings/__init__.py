@@ -14,5 +14,8 @@ __getattr__, __dir__, __all__ = attach(
         "results": ["Played", "Results"],
         "consistency": ["Problem", "find_problems"],
         "fit": ["Ratings", "fit"],
+        "prior": ["PriorChoice", "best_prior"],
+        "race_likelihood": ["RaceSlopes", "race_slopes"],
+        "walk_forward": ["Forecasts", "walk_forward"],
     },
 )

@@ -2,8 +2,14 @@ from evenbreak.ratings.consistency import Problem as Problem
 from evenbreak.ratings.consistency import find_problems as find_problems
 from evenbreak.ratings.fit import Ratings as Ratings
 from evenbreak.ratings.fit import fit as fit
+from evenbreak.ratings.prior import PriorChoice as PriorChoice
+from evenbreak.ratings.prior import best_prior as best_prior
+from evenbreak.ratings.race_likelihood import RaceSlopes as RaceSlopes
+from evenbreak.ratings.race_likelihood import race_slopes as race_slopes
 from evenbreak.ratings.results import Played as Played
 from evenbreak.ratings.results import Results as Results
 from evenbreak.ratings.scale import SCALES as SCALES
 from evenbreak.ratings.scale import Scale as Scale
 from evenbreak.ratings.scale import scale_of as scale_of
+from evenbreak.ratings.walk_forward import Forecasts as Forecasts
+from evenbreak.ratings.walk_forward import walk_forward as walk_forward

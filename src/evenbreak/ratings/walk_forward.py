@@ -1,0 +1,262 @@
+"""Walk forward through a season: each date is predicted before it is learnt from.
+
+What a rating is worth shows in matches that it has not seen. So the season is walked
+through date by date: the ratings from all earlier dates predict every match of a date,
+and only then are they refitted with its results.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import expit
+
+from evenbreak.errors import InputError
+from evenbreak.matches.win import race_win_probability
+from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.growing import GrowingLeague
+from evenbreak.ratings.results import Results
+
+__all__ = ["Forecasts", "even_races", "walk_forward"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+NODES = 31
+"""Nodes of the Gauss-Hermite rule that integrates a prediction over a rating difference."""
+
+
+@dataclass(frozen=True, eq=False)
+class Forecasts:
+    """What the ratings said of each match before its date, beside what came of it.
+
+    One entry a match, in the order of the dates; all chances are those of player a, given
+    the results of earlier dates, the model and the prior.
+
+    Attributes
+    ----------
+    results
+        the matches that were predicted: played, with a date.
+    date_of
+        the number of each match's date, from 0 on.
+    difference, sd
+        skill a - skill b in natural log-odds: the posterior mode before the date, and
+        its standard deviation (Laplace).
+    known_a, known_b
+        games that each had played before that date.
+    p_game, p_game_integrated
+        P(a wins a game): of the mode alone (plug-in), and with the posterior of the
+        difference integrated out (Gauss-Hermite).
+    race_a, race_b
+        the race: as stated, or else an even race to the winner's games (see
+        `even_races`); 0 where there is none.
+    p_match, p_match_integrated
+        P(a wins the match), likewise; NaN where there is no race.
+    won
+        1 where a won the race, 0 where b did, NaN where there is none.
+    prior_sd, half_life
+        what the ratings were fitted with.
+    undated, forfeits, empty
+        rows left out because they have no date, were given away, or stand at 0-0.
+    """
+
+    results: Results
+    date_of: Ints
+    difference: Floats
+    sd: Floats
+    known_a: Floats
+    known_b: Floats
+    p_game: Floats
+    p_game_integrated: Floats
+    race_a: Ints
+    race_b: Ints
+    p_match: Floats
+    p_match_integrated: Floats
+    won: Floats
+    prior_sd: float
+    half_life: float | None
+    undated: int
+    forfeits: int
+    empty: int
+
+    def __len__(self) -> int:
+        return len(self.results)
+
+    @property
+    def games(self) -> Ints:
+        """The games of each match."""
+        return self.results.score_a + self.results.score_b
+
+    @property
+    def new(self) -> NDArray[np.bool_]:
+        """Whether one of the two had not played before, so that the prior speaks for him."""
+        return np.asarray((self.known_a == 0) | (self.known_b == 0))
+
+
+def walk_forward(
+    results: Results, *, prior_sd: float = PRIOR_SD, half_life: float | None = None
+) -> Forecasts:
+    """Predict every dated match of `results` from the matches of earlier dates alone.
+
+    Parameters
+    ----------
+    results
+        the matches. All of one date are predicted before any of it is learnt from.
+    prior_sd
+        standard deviation of the prior in natural log-odds.
+    half_life
+        days after which a game counts half; None: games never age.
+
+    Raises
+    ------
+    InputError
+        if there are not two dates with games, or prior_sd or half_life is out of range.
+    AccuracyError
+        if a mode is not found to rounding.
+
+    Notes
+    -----
+    The prequential principle: Dawid (1984), "Statistical theory: the prequential
+    approach". The fit of each date is that of `fit`.
+
+    >>> season = Results.from_names(["Ann", "Ann"], ["Bo", "Bo"], [7, 7], [2, 4],
+    ...     date=["2024-09-03", "2024-09-10"])
+    >>> told = walk_forward(season)
+    >>> told.p_game.round(3), told.p_game_integrated.round(3)
+    (array([0.5  , 0.687]), array([0.5  , 0.675]))
+    """
+    precision = _between(prior_sd, "prior_sd", 1e-3, 100.0, "in log-odds") ** -2
+    if half_life is not None:
+        half_life = _between(half_life, "half_life", 0.01, 1e6, "in days")
+    season, undated, forfeits, empty = _in_order(results)
+    days, date_of = np.unique(np.asarray(season.date), return_inverse=True)
+    if len(days) < 2:
+        raise InputError(
+            f"results hold games of {len(days)} date{'s' * (len(days) != 1)}; give two dates or "
+            "more in the column date, so that the earlier can predict the later"
+        )
+    a, b = season.player_a, season.player_b
+    league = GrowingLeague(len(season.players), a, b, precision)
+    difference, variance = np.zeros(len(season)), np.zeros(len(season))
+    starts = np.searchsorted(date_of, np.arange(len(days) + 1))
+    for day, (start, end) in enumerate(pairwise(starts)):
+        rows = slice(start, end)
+        if half_life is not None and day:
+            passed = (days[day] - days[day - 1]).astype(int)
+            league.fade(0.5 ** (float(passed) / half_life))
+        difference[rows] = league.skill[a[rows]] - league.skill[b[rows]]
+        variance[rows] = league.difference_variance(a[rows], b[rows])
+        league.learn(rows, season.score_a[rows], season.score_b[rows])
+    return _forecasts(
+        season,
+        date_of,
+        difference,
+        np.sqrt(variance),
+        prior_sd=float(prior_sd),
+        half_life=half_life,
+        undated=undated,
+        forfeits=forfeits,
+        empty=empty,
+    )
+
+
+def even_races(results: Results) -> tuple[Ints, Ints, Floats]:
+    """Return the race of each match and whether a won it: race_a, race_b, won.
+
+    A match without a stated race is read as an even race to the winner's games, unless
+    such matches end in draws: then they are not races, and none of them has one. Where
+    there is no race its games are 0 and `won` is NaN.
+
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Ann"], [7, 4], [5, 6])
+    >>> even_races(season)
+    (array([7, 6]), array([7, 6]), array([1., 0.]))
+    """
+    score_a, score_b = results.score_a, results.score_b
+    zeros = np.zeros(len(results), dtype=np.int64)
+    race_a = zeros if results.race_a is None else results.race_a
+    race_b = zeros if results.race_b is None else results.race_b
+    stated = (race_a > 0) & (race_b > 0)
+    drawn = bool((~stated & (score_a == score_b)).any())
+    most = zeros if drawn else np.maximum(score_a, score_b)
+    race_a, race_b = np.where(stated, race_a, most), np.where(stated, race_b, most)
+    won_a, won_b = score_a >= race_a, score_b >= race_b
+    told = (race_a > 0) & (won_a ^ won_b)
+    won = np.where(told, won_a.astype(float), np.nan)
+    return np.where(told, race_a, 0), np.where(told, race_b, 0), won
+
+
+def _in_order(results: Results) -> tuple[Results, int, int, int]:
+    """Return the played matches with a date, by date, and how many rows were left out."""
+    played, forfeits, empty = results.played()
+    dates = played.date
+    if dates is None:
+        raise InputError("results have no dates; add a column date, so that time has an order")
+    dated = ~np.isnat(dates)
+    season = played.select(dated)
+    season = season.select(np.argsort(dates[dated], kind="stable"))
+    return season, int((~dated).sum()), forfeits, empty
+
+
+def _forecasts(
+    season: Results, date_of: Ints, difference: Floats, sd: Floats, **told: Any
+) -> Forecasts:
+    race_a, race_b, won = even_races(season)
+    raced = race_a > 0
+    p_game = expit(difference)
+    # Any race will do where there is none: the answer is thrown away.
+    needs = np.maximum(race_a, 1), np.maximum(race_b, 1)
+    p_match = np.where(raced, race_win_probability(p_game, *needs), np.nan)
+    p_game_integrated, p_match_integrated = np.zeros(len(season)), np.zeros(len(season))
+    points, weights = np.polynomial.hermite_e.hermegauss(NODES)
+    for point, weight in zip(points, weights / math.sqrt(2.0 * math.pi), strict=True):
+        p = expit(difference + sd * point)
+        p_game_integrated += weight * p
+        p_match_integrated += weight * race_win_probability(p, *needs)
+    known_a, known_b = _known_before(season, date_of)
+    return Forecasts(
+        results=season,
+        date_of=date_of,
+        difference=difference,
+        sd=sd,
+        known_a=known_a,
+        known_b=known_b,
+        p_game=p_game,
+        p_game_integrated=p_game_integrated,
+        race_a=race_a,
+        race_b=race_b,
+        p_match=p_match,
+        # Rounding of the weights may bring a sum above 1.
+        p_match_integrated=np.where(raced, np.minimum(p_match_integrated, 1.0), np.nan),
+        won=won,
+        **told,
+    )
+
+
+def _known_before(season: Results, date_of: Ints) -> tuple[Floats, Floats]:
+    """Return the games that a and b of each match had played before its date."""
+    known = np.zeros(len(season.players))
+    before = np.zeros((2, len(season)))
+    games = (season.score_a + season.score_b).astype(float)
+    starts = np.searchsorted(date_of, np.arange(int(date_of[-1]) + 2))
+    for start, end in pairwise(starts):
+        rows = slice(start, end)
+        for side, players in enumerate((season.player_a[rows], season.player_b[rows])):
+            before[side, rows] = known[players]
+        for players in (season.player_a[rows], season.player_b[rows]):
+            known += np.bincount(players, games[rows], len(known))
+    return before[0], before[1]
+
+
+def _between(value: Any, name: str, least: float, most: float, unit: str) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not least <= number <= most:
+        raise InputError(f"{name} is {value!r}; give a number from {least:g} to {most:,g}, {unit}")
+    return number
