@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from evenbreak.errors import InputError
-from evenbreak.ratings.inverse_diagonal import inverse_diagonal
-from evenbreak.ratings.posterior import PairCounts, count_pairs, find_mode, hessian
+from evenbreak.ratings.decay import day_of, match_weights, until
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.mixed_posterior import Evidence, evidence_of, find_mixed_mode
+from evenbreak.ratings.posterior import PairCounts, count_pairs, find_mode
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
 
-__all__ = ["PRIOR_SD", "Ratings", "fit"]
+__all__ = ["BREAK_SD", "PRIOR_SD", "Ratings", "fit"]
 
 PRIOR_SD = math.log(2.0)
 """Default standard deviation of the prior, in natural log-odds: one doubling of the odds.
@@ -28,88 +30,11 @@ snooker professionals, who are nearer to each other, is highest at 0.5. It weigh
 as eight games against an equal opponent, so after a few matches the results speak.
 """
 
+BREAK_SD = math.log(2.0)
+"""Standard deviation of the prior of the break advantage, about 0, in natural log-odds.
 
-@dataclass(frozen=True, eq=False)
-class Ratings:
-    """Ratings of players, in the order of `players`.
-
-    Attributes
-    ----------
-    players
-        the names.
-    rating
-        points on `scale`; a middling player of a component is at `anchor`.
-    standard_error
-        the posterior standard deviation of each rating (Laplace's approximation: the
-        square root of the diagonal of the inverse Hessian), in points, given the model
-        and the prior. It is worked out when first asked for.
-    games, won, lost
-        games played, won and lost by each player, without forfeits.
-    component
-        players who are connected through opponents share a number, from 1 for the
-        largest component; across components the ratings compare nothing but the prior.
-    scale, anchor, prior_sd
-        the scale, the mean of the prior in points, and its standard deviation in
-        natural log-odds.
-    iterations, gradient
-        Newton steps, and the largest entry of the log-posterior's gradient after them,
-        in games.
-    matches, forfeits, empty
-        rows used, rows left out as forfeits, and rows left out as 0-0.
-    """
-
-    players: tuple[str, ...]
-    rating: NDArray[np.float64]
-    games: NDArray[np.int64]
-    won: NDArray[np.int64]
-    lost: NDArray[np.int64]
-    component: NDArray[np.int64]
-    scale: Scale
-    anchor: float
-    prior_sd: float
-    iterations: int
-    gradient: float
-    matches: int
-    forfeits: int
-    empty: int
-    _pairs: PairCounts = field(repr=False)
-    _skill: NDArray[np.float64] = field(repr=False)
-
-    @cached_property
-    def standard_error(self) -> NDArray[np.float64]:
-        """The posterior standard deviation of each rating, in points.
-
-        Good to rounding for up to 2,000 players, and for more who play in divisions; for
-        more who all play each other within 0.1 %, as a rule within 1e-5.
-        """
-        precision = self.prior_sd**-2
-        variance = inverse_diagonal(hessian(self._pairs, self._skill, precision), precision)
-        return np.sqrt(variance) * self.scale.points_per_log_odds
-
-    def win_probability(self, player: str, opponent: str) -> float:
-        """Return P(`player` wins a game against `opponent` | both ratings are right).
-
-        Raises
-        ------
-        InputError
-            if a player is not among the rated, or the two cannot be compared because no
-            chain of opponents connects them.
-        """
-        first, second = self._position(player), self._position(opponent)
-        if self.component[first] != self.component[second]:
-            raise InputError(
-                f"{player!r} and {opponent!r} are not connected through opponents; add results "
-                "that connect them"
-            )
-        difference = float(self.rating[first] - self.rating[second])
-        return float(self.scale.win_probability(difference))
-
-    def _position(self, player: str) -> int:
-        if player not in self.players:
-            raise InputError(
-                f"player {player!r} is not among the rated; give a name of the results"
-            )
-        return self.players.index(player)
+Wide beside the advantages that are met with; it keeps one finite where every breaker won.
+"""
 
 
 def fit(
@@ -117,13 +42,17 @@ def fit(
     *,
     prior_sd: float = PRIOR_SD,
     scale: Any = "npl",
-    anchor: float | None = None,
+    anchor: float | Mapping[str, float] | None = None,
+    half_life: float | None = None,
+    as_of: Any = None,
+    break_advantage: float | str | None = None,
 ) -> Ratings:
     """Return the ratings that are most likely a posteriori, given the games of `results`.
 
-    Every game counts alike: a match is so many games won and lost, whatever the race.
-    Forfeits and 0-0 are left out and counted. A player who won (or lost) every game gets
-    a finite rating from the prior.
+    Every game counts alike: a match is so many games won and lost, whatever the race. Of a
+    match that is known by its winner alone, the race counts (see `race_slopes`). Forfeits
+    and 0-0 are left out and counted. A player who won (or lost) every game gets a finite
+    rating from the prior.
 
     Parameters
     ----------
@@ -135,76 +64,239 @@ def fit(
     scale
         'npl', 'fargo', 'elo', points that double the odds, or a `Scale`.
     anchor
-        the prior mean in points; None is the scale's centre.
+        the prior mean in points; or the ratings of named players: all ratings of their
+        component are shifted so that on average these have the ratings given. None is
+        the scale's centre, also for components without a named player.
+    half_life
+        days after which a match counts half; None: age does not matter.
+    as_of
+        the day for which the ratings are: later matches are left out and counted, and
+        ages are counted from it. None is the last date of the results.
+    break_advantage
+        by how many points the breaker of a rack plays better; 'fit' to estimate it from
+        the racks of which it is known who broke (see `count_broken`); None: the break
+        does not matter.
 
     Raises
     ------
     InputError
-        if prior_sd is not in 0.001 to 100, the anchor is not finite, or a score is negative or a
-        player meets himself (see `find_problems`).
+        if prior_sd is not in 0.001 to 100, an anchor is not finite or not a player with
+        results, half_life is not above 0, a date is missing where dates are needed, or a
+        score is negative or a player meets himself (see `find_problems`).
     AccuracyError
         if the mode is not found to rounding.
 
     Notes
     -----
     Bradley & Terry (1952), "Rank analysis of incomplete block designs"; the prior after
-    Caron & Doucet (2012), there gamma, here normal. A component's ratings have the mean
-    `anchor` exactly.
+    Caron & Doucet (2012), there gamma, here normal. Without named players a component's
+    ratings have the mean `anchor` exactly.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
     >>> ratings = fit(season, scale="fargo")
     >>> ratings.rating.round(1), ratings.standard_error.round(1)
     (array([552.3, 492. , 455.8]), array([69.4, 68.3, 68.9]))
+    >>> fit(season, scale="fargo", anchor={"Ann": 600}).rating.round(1)
+    array([600. , 539.7, 503.5])
     """
     prior_sd = _checked_sd(prior_sd)
     scale = scale_of(scale)
-    anchor = scale.centre if anchor is None else float(anchor)
-    if not math.isfinite(anchor):
-        raise InputError(f"anchor is {anchor!r}; give a finite number of points")
-    played, forfeits, empty = results.played()
-    if (played.score_a < 0).any() or (played.score_b < 0).any():
-        raise InputError("results hold a negative score; correct what find_problems tells")
-    if (played.player_a == played.player_b).any():
-        raise InputError("results hold a player against himself; correct what find_problems tells")
+    centre, named = _anchors(anchor, scale, results.players)
+    day = None if as_of is None else day_of(as_of)
+    in_time = results if day is None else results.select(until(results, day))
+    scored, forfeits, empty = in_time.played()
+    won_only = in_time.won_only()
+    _refuse_nonsense(scored, won_only)
     pairs = count_pairs(
-        len(results.players), played.player_a, played.player_b, played.score_a, played.score_b
+        len(results.players), scored.player_a, scored.player_b, scored.score_a, scored.score_b
     )
-    mode = find_mode(pairs, prior_sd**-2)
+    if not len(won_only) and half_life is None and break_advantage is None:
+        found = _by_games(pairs, prior_sd)
+    else:
+        weights = _weights(scored, won_only, half_life, day)
+        breaks = _break(break_advantage, scale)
+        found = _by_all(
+            evidence_of(scored, won_only, weights, breaks=breaks.enters), prior_sd, breaks
+        )
+    component = _components(found.graph)
+    rating = centre + scale.points_per_log_odds * found.skill
+    races_won, races_lost = _races(won_only)
     return Ratings(
         players=results.players,
-        rating=anchor + scale.points_per_log_odds * mode.skill,
+        rating=_shifted(rating, named, results.players, component),
         games=pairs.won + pairs.lost,
         won=pairs.won,
         lost=pairs.lost,
-        component=_components(pairs),
+        component=component,
         scale=scale,
-        anchor=anchor,
+        anchor=centre,
         prior_sd=prior_sd,
-        iterations=mode.iterations,
-        gradient=mode.gradient,
-        matches=len(played),
+        iterations=found.iterations,
+        gradient=found.gradient,
+        matches=len(scored) + len(won_only),
         forfeits=forfeits,
         empty=empty,
-        _pairs=pairs,
-        _skill=mode.skill,
+        races_won=races_won,
+        races_lost=races_lost,
+        named=tuple(named.items()),
+        half_life=None if half_life is None else float(half_life),
+        as_of=day,
+        later=len(results) - len(in_time),
+        break_advantage=None if found.advantage is None else float(scale.points(found.advantage)),
+        break_games=found.break_games,
+        _played=found.played,
+        _skill=found.skill,
+        _break_precision=found.break_precision,
     )
 
 
-def _checked_sd(prior_sd: Any) -> float:
+class _Found(NamedTuple):
+    """The mode, and what the ratings' uncertainty is worked out from."""
+
+    skill: NDArray[np.float64]
+    gradient: float
+    iterations: int
+    played: PairCounts | Evidence
+    graph: sparse.csr_array
+    advantage: float | None = None
+    break_precision: float | None = None
+    break_games: float = 0.0
+
+
+class _Break(NamedTuple):
+    """Whether the break enters, whether its advantage is estimated, and else what it is."""
+
+    enters: bool
+    estimated: bool
+    advantage: float
+
+
+def _by_games(pairs: PairCounts, prior_sd: float) -> _Found:
+    """Return the mode where every game counts alike."""
+    mode = find_mode(pairs, prior_sd**-2)
+    return _Found(mode.skill, mode.gradient, mode.iterations, pairs, pairs.games)
+
+
+def _by_all(evidence: Evidence, prior_sd: float, breaks: _Break) -> _Found:
+    """Return the mode where matches differ in weight, in what is known, and in who broke."""
+    known = evidence.games_with_breaker if breaks.enters else 0.0
+    estimated = breaks.estimated and known > 0.0
+    break_precision = BREAK_SD**-2 if estimated else None
+    mode = find_mixed_mode(
+        evidence, prior_sd**-2, advantage=breaks.advantage, break_precision=break_precision
+    )
+    enters = breaks.enters and known > 0.0
+    return _Found(
+        mode.skill,
+        mode.gradient,
+        mode.iterations,
+        evidence,
+        evidence.graph,
+        mode.advantage if enters else None,
+        break_precision,
+        known,
+    )
+
+
+def _break(value: Any, scale: Scale) -> _Break:
+    if value is None:
+        return _Break(False, False, 0.0)
+    if value == "fit":
+        return _Break(True, True, 0.0)
+    points = _finite(value, f"break_advantage is {value!r}; give points, 'fit' or None")
+    return _Break(True, False, float(scale.log_odds(points)))
+
+
+def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float, dict[str, float]]:
+    """Return the mean of the prior in points, and the ratings of named players."""
+    if not isinstance(anchor, Mapping):
+        if anchor is None:
+            return scale.centre, {}
+        return _finite(anchor, f"anchor is {anchor!r}; give a finite number of points"), {}
+    for name in anchor:
+        if name not in players:
+            raise InputError(
+                f"anchor {name!r} is not among the players; give a name of the results"
+            )
+    return scale.centre, {
+        name: _finite(points, f"anchor of {name!r} is {points!r}; give a finite number of points")
+        for name, points in anchor.items()
+    }
+
+
+def _finite(value: Any, message: str) -> float:
     try:
-        value = float(prior_sd)
+        number = float(value)
     except (TypeError, ValueError):
-        value = math.nan
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(message)
+    return number
+
+
+def _shifted(
+    rating: NDArray[np.float64],
+    named: Mapping[str, float],
+    players: tuple[str, ...],
+    component: NDArray[np.int64],
+) -> NDArray[np.float64]:
+    """Return the ratings, each component moved to where its named players are on average."""
+    at = np.array([players.index(name) for name in named], dtype=np.int64)
+    missing = np.array(list(named.values())) - rating[at]
+    rating = rating.copy()
+    for number in np.unique(component[at]):
+        rating[component == number] += missing[component[at] == number].mean()
+    return rating
+
+
+def _weights(
+    scored: Results, won_only: Results, half_life: float | None, day: np.datetime64 | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return what each match weighs; ages are counted from the last of all."""
+    if half_life is None:
+        return np.ones(len(scored)), np.ones(len(won_only))
+    if day is None:
+        days = [
+            part.date.max() for part in (scored, won_only) if part.date is not None and len(part)
+        ]
+        day = max(days, default=None)
+    return match_weights(scored, half_life, day), match_weights(won_only, half_life, day)
+
+
+def _races(won_only: Results) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return how many matches each player won and lost of which only the winner is known."""
+    players = len(won_only.players)
+    a_won = np.zeros(0, bool) if won_only.winner is None else won_only.winner == 1
+    winner = np.where(a_won, won_only.player_a, won_only.player_b)
+    loser = np.where(a_won, won_only.player_b, won_only.player_a)
+    return np.bincount(winner, minlength=players), np.bincount(loser, minlength=players)
+
+
+def _refuse_nonsense(scored: Results, won_only: Results) -> None:
+    if (scored.score_a < 0).any() or (scored.score_b < 0).any():
+        raise InputError("results hold a negative score; correct what find_problems tells")
+    for part in (scored, won_only):
+        if (part.player_a == part.player_b).any():
+            raise InputError(
+                "results hold a player against himself; correct what find_problems tells"
+            )
+
+
+def _checked_sd(prior_sd: Any) -> float:
+    value = _finite(
+        prior_sd,
+        message := f"prior_sd is {prior_sd!r}; give a number from 0.001 to 100, in log-odds",
+    )
     # Beyond these the data, or the prior, are nothing but rounding to the other.
     if not 1e-3 <= value <= 100.0:
-        raise InputError(f"prior_sd is {prior_sd!r}; give a number from 0.001 to 100, in log-odds")
+        raise InputError(message)
     return value
 
 
-def _components(pairs: PairCounts) -> NDArray[np.int64]:
+def _components(graph: sparse.csr_array) -> NDArray[np.int64]:
     """Return the component of each player, numbered from 1, the largest first."""
-    number, label = connected_components(pairs.games, directed=False)
+    number, label = connected_components(graph, directed=False)
     size = np.bincount(label, minlength=number)
     # Stable, so that of equal components the one with the earlier player comes first:
     # scipy labels components in the order of their first node.

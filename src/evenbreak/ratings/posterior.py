@@ -23,8 +23,9 @@ from scipy.sparse.linalg import LinearOperator, cg
 from scipy.special import expit
 
 from evenbreak.errors import AccuracyError
+from evenbreak.ratings.covariance import Curvature
 
-__all__ = ["Mode", "PairCounts", "count_pairs", "find_mode"]
+__all__ = ["Mode", "PairCounts", "count_pairs", "curvature", "find_mode"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -76,16 +77,11 @@ class Mode(NamedTuple):
     iterations: int
 
 
-def hessian(pairs: PairCounts, skill: Floats, precision: float) -> sparse.csc_array:
-    """Return the Hessian of the negative log-posterior, in natural log-odds.
-
-    Shape (players, players), symmetric, its row sums all `precision`.
-    """
+def curvature(pairs: PairCounts, skill: Floats, precision: float) -> Curvature:
+    """Return the Hessian of the negative log-posterior, in natural log-odds."""
     difference = skill[pairs.low] - skill[pairs.high]
     weight = pairs.games.data * expit(difference) * expit(-difference)
-    upper = _with_data(pairs.games, -weight)
-    diagonal = sparse.diags_array(_ends(pairs, weight) + precision)
-    return sparse.csc_array(upper + upper.T + diagonal)
+    return Curvature(len(skill), pairs.low, pairs.high, weight, precision)
 
 
 def find_mode(pairs: PairCounts, precision: float) -> Mode:

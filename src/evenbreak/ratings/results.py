@@ -35,6 +35,7 @@ _TYPES: dict[str, Any] = {
     "racks": object,
     "event": object,
     "forfeit": np.bool_,
+    "unscored": np.bool_,
 }
 _CODES = {"winner": 3, "first_break": 3, "break_format": len(FORMATS)}
 
@@ -75,6 +76,9 @@ class Results:
         any text.
     forfeit
         whether the match was given away; its scores are then no games played.
+    unscored
+        whether only the race and the winner are known; both must then be stated, and
+        the scores are 0.
 
     The optional columns are None where there is no such column.
 
@@ -104,6 +108,7 @@ class Results:
     racks: NDArray[np.object_] | None = None
     event: NDArray[np.object_] | None = None
     forfeit: NDArray[np.bool_] | None = None
+    unscored: NDArray[np.bool_] | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "players", tuple(self.players))
@@ -125,6 +130,18 @@ class Results:
             limit = len(self.players) if name.startswith("player_") else _CODES.get(name)
             if limit is not None and rows and not (0 <= column.min() <= column.max() < limit):
                 raise InputError(f"{name} holds a code outside 0..{limit - 1}; give codes in range")
+        self._refuse_unknown()
+
+    def _refuse_unknown(self) -> None:
+        """Refuse unscored matches whose race or winner is not stated."""
+        if self.unscored is None:
+            return
+        for name in ("race_a", "race_b", "winner"):
+            column = getattr(self, name)
+            if (self.unscored if column is None else self.unscored & (column <= 0)).any():
+                raise InputError(f"unscored marks a match without {name}; give it, or the scores")
+        if (self.unscored & ((self.score_a != 0) | (self.score_b != 0))).any():
+            raise InputError("unscored marks a match with games in its score; unmark it")
 
     @classmethod
     def from_names(
@@ -165,7 +182,7 @@ class Results:
         """Return the matches with games in them, and how many rows were left out.
 
         A forfeit is left out whatever its score says; a 0-0 that is no forfeit is
-        counted as empty.
+        counted as empty. Matches known by their winner alone are for `won_only`.
 
         >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 0], [5, 0])
         >>> season.played()[1:]
@@ -175,4 +192,13 @@ class Results:
         forfeit = np.zeros(len(self), dtype=bool) if self.forfeit is None else self.forfeit
         left_out = empty | forfeit
         kept = self.select(~left_out) if left_out.any() else self
+        if self.unscored is not None:
+            empty &= ~self.unscored
         return Played(kept, int(forfeit.sum()), int((empty & ~forfeit).sum()))
+
+    def won_only(self) -> Results:
+        """Return the matches of which only the race and the winner are known, without forfeits."""
+        if self.unscored is None:
+            return self.select(np.zeros(0, dtype=np.int64))
+        given_away = False if self.forfeit is None else self.forfeit
+        return self.select(self.unscored & ~given_away)

@@ -1,0 +1,140 @@
+"""How uncertain ratings are together: the inverse of the curvature at the mode.
+
+The Hessian of the negative log-posterior is a weighted Laplacian of who met whom plus τ
+on the diagonal, and, where a break advantage is estimated too, one more row and column b
+with the corner c. By the Schur complement s = c - bᵀH⁻¹b,
+
+    covariance of the ratings = H⁻¹ + H⁻¹b bᵀH⁻¹ / s,    variance of the advantage = 1 / s.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.linalg import cho_factor, cho_solve
+from scipy.sparse.linalg import LinearOperator, cg
+
+from evenbreak.errors import AccuracyError
+from evenbreak.ratings.inverse_diagonal import inverse_diagonal
+
+__all__ = ["Curvature"]
+
+Floats = NDArray[np.float64]
+
+_DENSE_UP_TO = 2000
+"""Players up to which the Hessian is factorised once; of more, each answer is iterated for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Curvature:
+    """The Hessian of the negative log-posterior at its mode, in natural log-odds.
+
+    Attributes
+    ----------
+    size
+        how many players there are.
+    low, high, weight
+        the two players of each pair that met, and the pair's curvature, 0 or more.
+    precision
+        τ, the prior precision of a rating.
+    border, corner
+        the second derivatives in a rating and the break advantage, and in the advantage
+        twice; None where it is not estimated.
+    """
+
+    size: int
+    low: NDArray[np.intp]
+    high: NDArray[np.intp]
+    weight: Floats
+    precision: float
+    border: Floats | None = None
+    corner: float | None = None
+
+    @cached_property
+    def matrix(self) -> sparse.csc_array:
+        """The ratings' block: shape (size, size), symmetric, its row sums all `precision`."""
+        shape = (self.size, self.size)
+        upper = sparse.coo_array((-self.weight, (self.low, self.high)), shape=shape).tocsr()
+        return sparse.csc_array(upper + upper.T + sparse.diags_array(self._diagonal))
+
+    @cached_property
+    def _diagonal(self) -> Floats:
+        total: Floats = np.bincount(self.low, self.weight, self.size).astype(np.float64)
+        total += np.bincount(self.high, self.weight, self.size)
+        return total + self.precision
+
+    @cached_property
+    def _factor(self) -> Any:
+        return cho_factor(self.matrix.toarray(), lower=True)
+
+    @cached_property
+    def _with_border(self) -> Floats | None:
+        return None if self.border is None else self._solve(self.border)
+
+    @cached_property
+    def border_variance(self) -> float | None:
+        """The variance of the break advantage, or None where it is not estimated."""
+        if self.border is None or self.corner is None or self._with_border is None:
+            return None
+        return 1.0 / (self.corner - float(self.border @ self._with_border))
+
+    def variances(self) -> Floats:
+        """Return the variance of each rating."""
+        variance = inverse_diagonal(self.matrix, self.precision)
+        if self._with_border is not None and self.border_variance is not None:
+            variance = variance + self._with_border**2 * self.border_variance
+        return variance
+
+    def times(self, contrast: Floats) -> Floats:
+        """Return the covariance of each rating with a weighted sum of them.
+
+        The variance of the sum itself is `contrast @ times(contrast)`.
+        """
+        product = self._solve(contrast)
+        if self._with_border is not None and self.border_variance is not None:
+            shared = float(self._with_border @ contrast) * self.border_variance
+            product = product + self._with_border * shared
+        return product
+
+    def _solve(self, right: Floats) -> Floats:
+        if self.size <= _DENSE_UP_TO:
+            return np.asarray(cho_solve(self._factor, right))
+        return self._iterate(right, 1e-12)
+
+    def newton_step(self, gradient: Floats, slope: float, accuracy: float) -> tuple[Floats, float]:
+        """Return the step of the ratings and of the break advantage that Newton's method takes.
+
+        Parameters
+        ----------
+        gradient, slope
+            the first derivatives in each rating, and in the advantage.
+        accuracy
+            the relative residual of the linear systems.
+        """
+        step = -self._iterate(gradient, accuracy)
+        if self.border is None or self.corner is None:
+            return step, 0.0
+        bordered = self._iterate(self.border, accuracy)
+        rest = self.corner - float(self.border @ bordered)
+        shift = -(slope + float(self.border @ step)) / rest
+        return step - bordered * shift, shift
+
+    def _iterate(self, right: Floats, accuracy: float) -> Floats:
+        """Return H⁻¹ times a vector by conjugate gradients, H scaled to a unit diagonal."""
+        scale = 1.0 / np.sqrt(self._diagonal)
+        matrix = self.matrix
+
+        def product(v: Floats) -> Floats:
+            return np.asarray(scale * (matrix @ (scale * v)))
+
+        shape = (self.size, self.size)
+        scaled = LinearOperator(shape, product, dtype=np.float64)
+        solution, failed = cg(scaled, scale * right, rtol=accuracy, atol=0.0)
+        if failed:
+            raise AccuracyError("the ratings' covariance was not found; give a smaller prior_sd")
+        return np.asarray(scale * solution)

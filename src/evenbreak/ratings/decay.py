@@ -1,0 +1,105 @@
+"""How much an older match still says: a weight that halves every so many days."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.errors import InputError
+from evenbreak.ratings.results import Results
+
+__all__ = ["day_of", "match_weights", "until"]
+
+
+def day_of(value: Any, name: str = "as_of") -> np.datetime64:
+    """Return a day: a date, a `numpy.datetime64`, or text such as '2026-01-31'.
+
+    Raises
+    ------
+    InputError
+        if it is none of these.
+
+    >>> day_of("2026-01-31")
+    np.datetime64('2026-01-31')
+    """
+    try:
+        day = np.datetime64(value, "D")
+    except (TypeError, ValueError):
+        day = np.datetime64("NaT", "D")
+    if np.isnat(day):
+        raise InputError(f"{name} is {value!r}; give a day, such as 2026-01-31")
+    return day
+
+
+def until(results: Results, as_of: np.datetime64) -> NDArray[np.bool_]:
+    """Return which matches were played by the end of a day.
+
+    Raises
+    ------
+    InputError
+        if a match has no date.
+    """
+    date = _dated(results)
+    return np.asarray(date <= as_of)
+
+
+def match_weights(
+    results: Results, half_life: float, as_of: np.datetime64 | None = None
+) -> NDArray[np.float64]:
+    """Return the weight of each match: 1 on the day `as_of`, 1/2 `half_life` days before.
+
+    A game of weight w counts in the likelihood as its w-th power, so as w games.
+
+    Parameters
+    ----------
+    results
+        matches that all have a date.
+    half_life
+        days, above 0.
+    as_of
+        the day from which ages are counted; None is the last date among the matches. A
+        later match has the weight 1.
+
+    Raises
+    ------
+    InputError
+        if half_life is not above 0, or a match has no date.
+
+    >>> season = Results.from_names(
+    ...     ["A", "A"], ["B", "B"], [7, 3], [5, 7], date=["2026-01-01", "2026-01-31"]
+    ... )
+    >>> match_weights(season, 30)
+    array([0.5, 1. ])
+    """
+    days = _half_life(half_life)
+    date = _dated(results)
+    if not len(date):
+        return np.zeros(0)
+    today = date.max() if as_of is None else as_of
+    age = np.maximum((today - date) / np.timedelta64(1, "D"), 0.0)
+    return np.asarray(np.exp2(-age / days))
+
+
+def _half_life(value: Any) -> float:
+    try:
+        days = float(value)
+    except (TypeError, ValueError):
+        days = math.nan
+    if not (math.isfinite(days) and days > 0):
+        raise InputError(f"half_life is {value!r}; give a number of days above 0")
+    return days
+
+
+def _dated(results: Results) -> NDArray[np.datetime64]:
+    undated = len(results) if results.date is None else int(np.isnat(results.date).sum())
+    if results.date is None or undated:
+        if not len(results):
+            return np.zeros(0, dtype="datetime64[D]")
+        raise InputError(
+            f"{undated:,} of {len(results):,} matches have no date; add their dates, or leave out "
+            "half_life and as_of"
+        )
+    return results.date

@@ -1,0 +1,211 @@
+"""Ratings as they come out of a fit, with what is known of their uncertainty."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.errors import InputError
+from evenbreak.ratings.covariance import Curvature
+from evenbreak.ratings.mixed_posterior import Evidence
+from evenbreak.ratings.posterior import PairCounts, curvature
+from evenbreak.ratings.scale import Scale
+
+__all__ = ["Ratings"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Ratings:
+    """Ratings of players, in the order of `players`.
+
+    Attributes
+    ----------
+    players
+        the names.
+    rating
+        points on `scale`; a middling player of a component is at `anchor`, unless
+        `named` says otherwise.
+    games, won, lost
+        games played, won and lost by each player, without forfeits, each counted once
+        whatever its age.
+    component
+        players who are connected through opponents share a number, from 1 for the
+        largest component; across components the ratings compare nothing but the prior.
+    scale, anchor, prior_sd
+        the scale, the mean of the prior in points, and its standard deviation in
+        natural log-odds.
+    iterations, gradient
+        Newton steps, and the largest entry of the log-posterior's gradient after them,
+        in games.
+    matches, forfeits, empty
+        rows used, rows left out as forfeits, and rows left out as 0-0.
+    races_won, races_lost
+        matches of each player of which only the race and the winner are known.
+    named
+        the players at whose ratings their components are anchored, and these ratings.
+    half_life, as_of, later
+        days after which a match counts half, or None; the day for which the ratings
+        are, or None; rows left out because they are later than that.
+    break_advantage
+        by how many points the breaker of a rack plays better, estimated or given; None
+        where the break does not enter.
+    break_games
+        the games, by weight, of which it is known who broke, if the break enters.
+    """
+
+    players: tuple[str, ...]
+    rating: Floats
+    games: Ints
+    won: Ints
+    lost: Ints
+    component: Ints
+    scale: Scale
+    anchor: float
+    prior_sd: float
+    iterations: int
+    gradient: float
+    matches: int
+    forfeits: int
+    empty: int
+    _: KW_ONLY
+    races_won: Ints
+    races_lost: Ints
+    named: tuple[tuple[str, float], ...] = ()
+    half_life: float | None = None
+    as_of: np.datetime64 | None = None
+    later: int = 0
+    break_advantage: float | None = None
+    break_games: float = 0.0
+    _played: PairCounts | Evidence = field(repr=False)
+    _skill: Floats = field(repr=False)
+    _break_precision: float | None = field(default=None, repr=False)
+
+    @cached_property
+    def standard_error(self) -> Floats:
+        """The posterior standard deviation of each rating, in points.
+
+        Laplace's approximation: the square root of the diagonal of the inverse Hessian,
+        given the model and the prior. Where a component is anchored at named players it is
+        that of the difference from their mean. Good to rounding for up to 2,000 players,
+        and for more who play in divisions; for more who all play each other within 0.1 %,
+        as a rule within 1e-5.
+        """
+        variance = self._curvature.variances()
+        for members, level in self._levels():
+            shared = self._curvature.times(level)
+            beside = variance[members] - 2.0 * shared[members] + level @ shared
+            variance[members] = np.maximum(beside, 0.0)
+        return np.sqrt(variance) * self.scale.points_per_log_odds
+
+    @property
+    def break_error(self) -> float | None:
+        """The standard error of the break advantage in points, None if it was not estimated."""
+        variance = self._curvature.border_variance
+        return None if variance is None else math.sqrt(variance) * self.scale.points_per_log_odds
+
+    def difference_error(self, player: str, opponent: str) -> float:
+        """Return the standard error of the difference of two ratings, in points.
+
+        It takes their covariance into account, so it is less than both ratings' standard
+        errors make one believe: most of what is uncertain in common, such as the level of
+        the whole league, cancels.
+
+        Raises
+        ------
+        InputError
+            if a player is not among the rated, or no chain of opponents connects the two.
+
+        Notes
+        -----
+        The variance is (e₁ - e₂)ᵀ H⁻¹ (e₁ - e₂): of up to 2,000 players H is factorised
+        once; of more, each pair is one linear system, solved by conjugate gradients.
+
+        >>> from evenbreak.ratings import Results, fit
+        >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [70], [50]), scale="fargo")
+        >>> ratings.standard_error.round(1), round(ratings.difference_error("Ann", "Bo"), 1)
+        (array([71.9, 71.9]), 26.2)
+        """
+        first, second = self._comparable(player, opponent)
+        contrast = np.zeros(len(self.players))
+        contrast[first] += 1.0
+        contrast[second] -= 1.0
+        variance = max(float(contrast @ self._curvature.times(contrast)), 0.0)
+        return math.sqrt(variance) * self.scale.points_per_log_odds
+
+    def covariance(self, players: Sequence[str]) -> Floats:
+        """Return the covariance of some players' ratings with each other, in squared points.
+
+        Parameters
+        ----------
+        players
+            names; the matrix has a row and a column for each, in their order.
+
+        Raises
+        ------
+        InputError
+            if a player is not among the rated.
+        """
+        contrasts = np.zeros((len(players), len(self.players)))
+        for row, name in enumerate(players):
+            contrasts[row, self._position(name)] = 1.0
+        for members, level in self._levels():
+            contrasts -= contrasts[:, members].sum(axis=1)[:, None] * level
+        products = np.array([self._curvature.times(contrast) for contrast in contrasts])
+        covariance = products.reshape(contrasts.shape) @ contrasts.T
+        return (covariance + covariance.T) / 2.0 * self.scale.points_per_log_odds**2
+
+    def win_probability(self, player: str, opponent: str) -> float:
+        """Return P(`player` wins a game against `opponent` | both ratings are right).
+
+        Raises
+        ------
+        InputError
+            if a player is not among the rated, or the two cannot be compared because no
+            chain of opponents connects them.
+        """
+        first, second = self._comparable(player, opponent)
+        difference = float(self.rating[first] - self.rating[second])
+        return float(self.scale.win_probability(difference))
+
+    @cached_property
+    def _curvature(self) -> Curvature:
+        precision = self.prior_sd**-2
+        if isinstance(self._played, PairCounts):
+            return curvature(self._played, self._skill, precision)
+        advantage = self.scale.log_odds(self.break_advantage or 0.0)
+        return self._played.curvature(self._skill, advantage, precision, self._break_precision)
+
+    def _levels(self) -> list[tuple[NDArray[np.bool_], Floats]]:
+        """Return for each anchored component its players, and their share in its level."""
+        at = np.array([self._position(name) for name, _ in self.named], dtype=np.int64)
+        levels = []
+        for number in np.unique(self.component[at]):
+            own = at[self.component[at] == number]
+            level = np.zeros(len(self.players))
+            level[own] = 1.0 / len(own)
+            levels.append((self.component == number, level))
+        return levels
+
+    def _comparable(self, player: str, opponent: str) -> tuple[int, int]:
+        first, second = self._position(player), self._position(opponent)
+        if self.component[first] != self.component[second]:
+            raise InputError(
+                f"{player!r} and {opponent!r} are not connected through opponents; add results "
+                "that connect them"
+            )
+        return first, second
+
+    def _position(self, player: str) -> int:
+        if player not in self.players:
+            raise InputError(
+                f"player {player!r} is not among the rated; give a name of the results"
+            )
+        return self.players.index(player)

@@ -1,0 +1,150 @@
+"""How wide the prior should be: the width that predicts the next matches best.
+
+The season is cut into stretches of whole days. Each stretch but the first is predicted
+from the ratings of all days before it, by each width; the width whose predictions gave
+what happened the highest likelihood is chosen. Nothing is predicted from itself.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.errors import InputError
+from evenbreak.ratings.fit import PRIOR_SD, fit
+from evenbreak.ratings.mixed_posterior import evidence_of
+from evenbreak.ratings.results import Results
+
+__all__ = ["WIDTHS", "PriorChoice", "best_prior"]
+
+WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
+"""The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
+
+STRETCHES = 30
+
+
+class PriorChoice(NamedTuple):
+    """The width of the prior that predicts best.
+
+    Attributes
+    ----------
+    prior_sd
+        that width, in natural log-odds.
+    tried
+        all widths, in rising order.
+    log_loss
+        for each of them the mean of -ln P(what happened | the days before): per game where
+        scores are known, per match where only the winner is.
+    predicted
+        how many games and such matches were predicted.
+    """
+
+    prior_sd: float
+    tried: tuple[float, ...]
+    log_loss: tuple[float, ...]
+    predicted: int
+
+
+def best_prior(
+    results: Results,
+    *,
+    widths: Sequence[float] = WIDTHS,
+    half_life: float | None = None,
+    break_advantage: float | str | None = None,
+    scale: Any = "npl",
+) -> PriorChoice:
+    """Return the width of the prior whose ratings predict later matches best.
+
+    Predictions take the ratings as they stand, without their uncertainty. Players who
+    have not played yet are predicted at the middle, so the matches of newcomers count too.
+
+    Parameters
+    ----------
+    results
+        matches that all have a date, on two days at least; forfeits and 0-0 may lack one.
+    widths
+        the standard deviations to try, in natural log-odds.
+    half_life, break_advantage, scale
+        as for `fit`; the scale matters to a break advantage in points alone.
+
+    Raises
+    ------
+    InputError
+        if a date is missing, all matches are of one day, or a width is not in 0.001 to 100.
+
+    Notes
+    -----
+    Prequential validation: Dawid (1984), "The prequential approach".
+
+    >>> season = Results.from_names(
+    ...     ["A"] * 4, ["B"] * 4, [7] * 4, [4] * 4, date=["2026-01-0" + day for day in "1234"]
+    ... )
+    >>> choice = best_prior(season, widths=[0.1, 0.5])
+    >>> choice.prior_sd, choice.predicted
+    (0.5, 33)
+    """
+    if not len(widths):
+        raise InputError("widths is empty; give at least one standard deviation")
+    played, date = _played(results)
+    losses = np.zeros(len(widths))
+    predicted = 0
+    options: dict[str, Any] = {
+        "half_life": half_life,
+        "break_advantage": break_advantage,
+        "scale": scale,
+    }
+    for first, last in _stretches(date):
+        before = played.select(date < first)
+        coming = played.select((date >= first) & (date <= last))
+        scored, won_only = coming.played().results, coming.won_only()
+        weights = np.ones(len(scored)), np.ones(len(won_only))
+        evidence = evidence_of(scored, won_only, weights, breaks=break_advantage is not None)
+        predicted += round(evidence.amount)
+        for k, width in enumerate(widths):
+            ratings = fit(before, prior_sd=width, **options)
+            skill = ratings.scale.log_odds(ratings.rating - ratings.anchor)
+            advantage = ratings.scale.log_odds(ratings.break_advantage or 0.0)
+            losses[k] -= evidence.log_likelihood(skill, advantage)
+    order = np.argsort(widths)
+    return PriorChoice(
+        float(widths[int(np.argmin(losses))]),
+        tuple(float(widths[k]) for k in order),
+        tuple(float(losses[k]) / predicted for k in order),
+        predicted,
+    )
+
+
+def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
+    """Return the matches that tell something and their dates, or refuse those without."""
+    counted = (results.score_a > 0) | (results.score_b > 0)
+    if results.unscored is not None:
+        counted |= results.unscored
+    if results.forfeit is not None:
+        counted &= ~results.forfeit
+    played = results.select(counted)
+    undated = len(played) if played.date is None else int(np.isnat(played.date).sum())
+    if undated:
+        raise InputError(
+            f"{undated:,} of {len(played):,} matches have no date, and a prior is chosen by what "
+            "it predicts of later days; add the dates, or give prior_sd"
+        )
+    if len(played) == 0 or played.date is None or played.date.min() == played.date.max():
+        raise InputError(
+            "a prior is chosen by what it predicts of later days, and there are no two days with "
+            "matches; give prior_sd"
+        )
+    return played, played.date
+
+
+def _stretches(date: NDArray[np.datetime64]) -> list[tuple[np.datetime64, np.datetime64]]:
+    """Return the first and last day of each stretch but the first, of about as many matches."""
+    days, matches = np.unique(date, return_counts=True)
+    done = np.cumsum(matches) - matches
+    number = done // max(math.ceil(len(date) / STRETCHES), 1)
+    first = np.flatnonzero(np.diff(number, prepend=-1))
+    last = np.append(first[1:], len(days)) - 1
+    return [(days[a], days[b]) for a, b in zip(first[1:], last[1:], strict=True)]
