@@ -9,6 +9,8 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
+        "crossings": ["Crossing", "Crossings", "crossings", "even_probability"],
+        "formats": ["MatchFormat", "match_format"],
         "length": ["MatchLength", "match_length"],
         "scores": ["FinalScores", "final_scores", "hill_hill_probability"],
         "shutout": ["shutout_probability"],

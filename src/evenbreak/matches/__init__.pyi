@@ -1,3 +1,9 @@
+from evenbreak.matches.crossings import Crossing as Crossing
+from evenbreak.matches.crossings import Crossings as Crossings
+from evenbreak.matches.crossings import crossings as crossings
+from evenbreak.matches.crossings import even_probability as even_probability
+from evenbreak.matches.formats import MatchFormat as MatchFormat
+from evenbreak.matches.formats import match_format as match_format
 from evenbreak.matches.length import MatchLength as MatchLength
 from evenbreak.matches.length import match_length as match_length
 from evenbreak.matches.scalar import Odds as Odds

@@ -1,0 +1,261 @@
+"""Where a match is even, and where two matches are worth the same to a player.
+
+Along p, where the break does not matter, both questions ask for the zeros of a polynomial
+with whole coefficients: they are counted exactly, and none is missed. Where it matters, the
+log-odds of the two matches are compared on a fine grid and every change of sign is refined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.special import expit
+
+from evenbreak.checks import number_probability, one_of
+from evenbreak.errors import InputError
+from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
+from evenbreak.games.rack import Rack
+from evenbreak.matches.form_roots import form_roots, sign_at
+from evenbreak.matches.formats import MatchFormat, match_format
+from evenbreak.matches.win import win_probability
+from evenbreak.matches.win_forms import Form, degree_of, product, win_forms
+
+__all__ = ["Crossing", "Crossings", "crossings", "even_probability"]
+
+_HIGHEST_DEGREE = 500
+"""Of a polynomial that is solved exactly; it would take seconds beyond."""
+_GRID = np.linspace(-14.0, 14.0, 2801)
+"""The log-odds of p1 on the grid: a hundredth apart, 0.0025 in the middle of p1."""
+_NOISE = 1e-10
+"""A difference of log-odds that may be rounding."""
+
+
+class Crossing(NamedTuple):
+    """Where a match is even, or two are worth the same.
+
+    Parameters
+    ----------
+    p1
+        P(player 1 wins a rack | player 1 breaks); P(player 1 wins a rack) where the break
+        does not matter.
+    p2
+        P(player 2 wins a rack | player 2 breaks); None where the break does not matter.
+    p_win_1
+        P(player 1 wins the match) there.
+    """
+
+    p1: float
+    p2: float | None
+    p_win_1: float
+
+
+class Crossings(NamedTuple):
+    """All places where two matches are worth the same, and which is better between them.
+
+    Parameters
+    ----------
+    points
+        the places, by rising p1.
+    better
+        which match player 1 should rather play, 1 or 2, below the first place, between
+        each two, and above the last; 0 for matches that are worth the same everywhere.
+    exact
+        whether the places were counted exactly: none is missed. If not, two that are
+        nearer to each other than a hundredth in the log-odds of p1 may be missed, and so
+        may a touch without crossing.
+    """
+
+    points: tuple[Crossing, ...]
+    better: tuple[int, ...]
+    exact: bool
+
+
+def even_probability(
+    played: MatchFormat | str,
+    *,
+    p2: float | None = None,
+    break_odds: float | None = None,
+    breaks: BreakFormat | str | None = None,
+    first_breaker: int = 1,
+) -> tuple[Crossing, ...]:
+    """Return every game probability at which a match is even: none, one or several.
+
+    Parameters
+    ----------
+    played
+        the match, or a text such as "9:5" (see `match_format`).
+    p2
+        P(player 2 wins a rack | player 2 breaks it), which stays while p1 varies.
+    break_odds
+        instead: the break's advantage stays, as the number of times that player 1's odds
+        of a rack are better when player 1 breaks it than when player 2 does:
+        p1/(1 - p1) × p2/(1 - p2). Without either the break does not matter, and p1 is
+        P(player 1 wins a rack).
+    breaks
+        who breaks, where the break matters and the format does not say it.
+    first_breaker
+        who breaks the first rack, 1 or 2.
+
+    Returns
+    -------
+    tuple of Crossing
+        by rising p1. Where the break does not matter there is exactly one.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have, both `p2` and `break_odds` are
+        given, or the break matters and nobody says who breaks.
+
+    Notes
+    -----
+    Source: problem P5.7, by which 4:2 is even at .686; how sure the answer is, is said at
+    `Crossings.exact`.
+
+    >>> [round(point.p1, 7) for point in even_probability("4:2")]
+    [0.6861898]
+    >>> even_probability("5:1", p2=0.9, breaks="alternate")
+    ()
+    """
+    line = _Line.of(p2, break_odds, breaks, first_breaker)
+    match = _read(played)
+    if line.rack_of is Rack and degree_of(match) <= _HIGHEST_DEGREE:
+        one, two = win_forms(match)
+        roots = form_roots([x - y for x, y in zip(one, two, strict=True)]) or []
+    else:
+        roots = _changes_of_sign(partial(line.log_odds, match)) or []
+    return tuple(line.point(match, p1) for p1 in roots)
+
+
+def crossings(
+    format_1: MatchFormat | str,
+    format_2: MatchFormat | str,
+    *,
+    p2: float | None = None,
+    break_odds: float | None = None,
+    breaks: BreakFormat | str | None = None,
+    first_breaker: int = 1,
+) -> Crossings:
+    """Return every game probability at which two matches are worth the same to player 1.
+
+    Parameters
+    ----------
+    format_1, format_2
+        the matches, or texts such as "2:1" (see `match_format`).
+    p2, break_odds, breaks, first_breaker
+        as for `even_probability`.
+
+    Raises
+    ------
+    InputError
+        as `even_probability` does.
+
+    Notes
+    -----
+    Source: problem P5.7, whose curves 2:1 and 4:2 cross at p = .6404 (.641 is printed).
+
+    >>> found = crossings("2:1", "4:2")
+    >>> [round(p, 6) for p in found.points[0] if p is not None], found.better, found.exact
+    ([0.640388, 0.410097], (1, 2), True)
+    >>> crossings("5:5, winner breaks", "5:5, loser breaks", p2=0.7).better
+    (0,)
+    """
+    line = _Line.of(p2, break_odds, breaks, first_breaker)
+    one, two = _read(format_1), _read(format_2)
+    exact = line.rack_of is Rack and degree_of(one) + degree_of(two) <= _HIGHEST_DEGREE
+    if exact:
+        form = _difference(one, two)
+        roots = form_roots(form)
+        difference: Callable[[Any], Any] = partial(sign_at, form)
+    else:
+        difference = partial(line.difference, one, two)
+        roots = _changes_of_sign(difference)
+    if roots is None:
+        return Crossings((), (0,), exact)
+    ends = [0.0, *roots, 1.0]
+    middles = [0.5 * (low + high) for low, high in pairwise(ends)]
+    better = tuple(1 if difference(p1) > 0 else 2 for p1 in middles)
+    return Crossings(tuple(line.point(one, p1) for p1 in roots), better, exact)
+
+
+def _read(played: MatchFormat | str) -> MatchFormat:
+    return played if isinstance(played, MatchFormat) else match_format(played)
+
+
+def _difference(one: MatchFormat, two: MatchFormat) -> Form:
+    """Return a form with the sign of W of the first match less W of the second."""
+    (win_1, lose_1), (win_2, lose_2) = win_forms(one), win_forms(two)
+    pairs = zip(product(win_1, lose_2), product(win_2, lose_1), strict=True)
+    return [x - y for x, y in pairs]
+
+
+class _Line(NamedTuple):
+    """The players that are compared: one for each p1."""
+
+    rack_of: Callable[[Any], Rack]
+    breaks: BreakFormat | None
+    first_breaker: int
+
+    @classmethod
+    def of(
+        cls,
+        p2: float | None,
+        break_odds: float | None,
+        breaks: BreakFormat | str | None,
+        first_breaker: int,
+    ) -> _Line:
+        one_of(first_breaker, "first_breaker", (1, 2))
+        if p2 is not None and break_odds is not None:
+            raise InputError("p2 and break_odds cannot both stay as they are; leave one out")
+        if isinstance(breaks, str):
+            if breaks not in BREAK_FORMATS:
+                known = ", ".join(BREAK_FORMATS)
+                raise InputError(f"breaks is {breaks!r}; give one of {known}")
+            breaks = BREAK_FORMATS[breaks]
+        if p2 is not None:
+            fixed = number_probability(p2, "p2")
+            return cls(lambda p1: Rack(p1, fixed), breaks, first_breaker)
+        if break_odds is None:
+            return cls(Rack, None, first_breaker)
+        odds = float(break_odds)
+        if not 0.0 < odds < np.inf:
+            raise InputError(f"break_odds is {break_odds!r}; give a number above 0")
+        return cls(
+            lambda p1: Rack(p1, odds * (1.0 - p1) / (odds * (1.0 - p1) + p1)),
+            breaks,
+            first_breaker,
+        )
+
+    def log_odds(self, played: MatchFormat, p1: Any) -> Any:
+        """Return the log-odds of the match, right in both tails; NaN where a chance is 0."""
+        match = played.match(self.rack_of(p1), breaks=self.breaks, first_breaker=self.first_breaker)
+        wins = [np.asarray(win_probability(match, player=player)) for player in (1, 2)]
+        one, two = (np.log(win, out=np.full(win.shape, np.nan), where=win > 0.0) for win in wins)
+        return one - two
+
+    def difference(self, one: MatchFormat, two: MatchFormat, p1: Any) -> Any:
+        return self.log_odds(one, p1) - self.log_odds(two, p1)
+
+    def point(self, played: MatchFormat, p1: float) -> Crossing:
+        rack = self.rack_of(p1)
+        match = played.match(rack, breaks=self.breaks, first_breaker=self.first_breaker)
+        return Crossing(p1, rack.p2, win_probability(match))
+
+
+def _changes_of_sign(function: Callable[[Any], Any]) -> list[float] | None:
+    """Return where a function of p1 changes its sign; None if it is nowhere but noise."""
+    grid = expit(_GRID)
+    values = function(grid)
+    known = np.abs(values) > _NOISE  # false for NaN too
+    if not known.any():
+        return None
+    places, signs = grid[known], values[known] > 0.0
+    return [
+        float(brentq(function, places[i], places[i + 1], xtol=1e-14, rtol=1e-14))
+        for i in np.flatnonzero(signs[1:] != signs[:-1])
+    ]

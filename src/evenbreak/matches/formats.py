@@ -1,0 +1,178 @@
+"""How people write down what is played: 9:5, 3:1 of 3:3, ahead 5:3, 7:7 win by 2."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.games.ahead import Ahead
+from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
+from evenbreak.games.match import Match
+from evenbreak.games.race import Race
+from evenbreak.games.rack import Rack
+
+__all__ = ["MatchFormat", "match_format"]
+
+_LONGEST = 1000
+_WAYS = "9:5, '7:7 win by 2', 'ahead 5:3' or '3:1 of 3:3', perhaps with ', winner breaks' after it"
+_BREAKS = {
+    "winner": "winner",
+    "loser": "loser",
+    "alternate": "alternate",
+    "a": "player 1",
+    "b": "player 2",
+}
+_ONE = re.compile(r"(race |ahead )?(\d{1,9}):(\d{1,9})(?:,? win[- ]by (\d{1,9}))?", re.ASCII)
+_TAIL = re.compile(rf",? ({'|'.join(_BREAKS)}) breaks$")
+
+
+@dataclass(frozen=True)
+class MatchFormat:
+    """What is played, whoever plays it.
+
+    Parameters
+    ----------
+    m, n
+        what player 1 and player 2 need: games, or sets where there is a `set_`.
+    ahead
+        whether they need to lead by m and n, in place of reaching them.
+    win_by
+        the race goes on until one leads by so many (see `evenbreak.games.Race`).
+    set_
+        what is played for one point of the score; None: a rack.
+    breaks
+        who breaks, a name in `evenbreak.games.BREAK_FORMATS`; None: not said here.
+
+    Raises
+    ------
+    InputError
+        if a number is not whole or below 1, `breaks` is no such name, or `win_by` stands in
+        an n-ahead match.
+
+    >>> played = MatchFormat(3, 1, set_=MatchFormat(3, 3))
+    >>> str(played), played.match(Rack(2 / 3)).rack.m
+    ('3:1 of 3:3', 3)
+    """
+
+    m: int
+    n: int
+    ahead: bool = False
+    win_by: int = 1
+    set_: MatchFormat | None = None
+    breaks: str | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("m", "n", "win_by"):
+            object.__setattr__(self, name, whole(getattr(self, name), name, at_least=1))
+        if self.ahead and self.win_by > 1:
+            raise InputError(f"win_by is {self.win_by} in an n-ahead match; leave it out")
+        if self.breaks is not None and self.breaks not in BREAK_FORMATS:
+            known = ", ".join(BREAK_FORMATS)
+            raise InputError(f"breaks is {self.breaks!r}; give one of {known}")
+
+    def match(
+        self, rack: Rack, *, breaks: BreakFormat | None = None, first_breaker: int = 1
+    ) -> Match:
+        """Return the match that two players with the chances of `rack` play.
+
+        Parameters
+        ----------
+        rack
+            the chances, numbers or arrays.
+        breaks
+            who breaks next, where the format itself does not say it. Across sets the break
+            goes on as within them.
+        first_breaker
+            who breaks the first rack, 1 or 2.
+
+        Raises
+        ------
+        InputError
+            if the break matters and nobody says who breaks.
+        """
+        if self.breaks is not None:
+            breaks = BREAK_FORMATS[self.breaks]
+        inside: Rack | Match = rack
+        if self.set_ is not None:
+            inside = self.set_.match(rack, breaks=breaks, first_breaker=first_breaker)
+            breaks = None
+        if self.ahead:
+            return Ahead(self.m, self.n, inside, breaks=breaks, first_breaker=first_breaker)
+        return Race(
+            self.m,
+            self.n,
+            inside,
+            breaks=breaks,
+            first_breaker=first_breaker,
+            win_by=self.win_by,
+        )
+
+    @property
+    def scores(self) -> int:
+        """About how many scores the match can have: what its kernels take time for."""
+        reach = max(self.m, self.win_by) * max(self.n, self.win_by)
+        own = self.m + self.n if self.ahead else reach
+        return own * (self.set_.scores if self.set_ else 1)
+
+    def __str__(self) -> str:
+        text = f"{'ahead ' if self.ahead else ''}{self.m}:{self.n}"
+        if self.win_by > 1:
+            text += f" win by {self.win_by}"
+        if self.set_ is not None:
+            text += f" of {self.set_}"
+        if self.breaks is None:
+            return text
+        shown = {name: word for word, name in _BREAKS.items()}[self.breaks]
+        return f"{text}, {shown.upper() if len(shown) == 1 else shown} breaks"
+
+
+def match_format(text: str) -> MatchFormat:
+    """Return the format that a text names.
+
+    Parameters
+    ----------
+    text
+        `9:5` (player 1, whom the text calls A, needs 9 games, player 2, B, needs 5),
+        `7:7 win by 2`, `ahead 5:3`, or one of them `of` another, which then is the set:
+        `3:1 of 3:3`. After it may stand who breaks: `, winner breaks`, or loser,
+        alternate, A or B. Each number is from 1 to 1000.
+
+    Raises
+    ------
+    InputError
+        if the text is not of that form; it says what to write.
+
+    Notes
+    -----
+    Source: problems P5.7 and P5.8, from which the notation is taken.
+
+    >>> match_format("3:1 of 3:3").scores
+    27
+    >>> str(match_format("ahead 5:3, A breaks"))
+    'ahead 5:3, A breaks'
+    >>> match_format("nine games")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: 'nine games' is no match format; write 9:5, '7:7 win by 2', ...
+    """
+    words = " ".join(str(text).lower().split())
+    breaks = None
+    if tail := _TAIL.search(words):
+        words, breaks = words[: tail.start()], _BREAKS[tail[1]]
+    parts = [_ONE.fullmatch(part) for part in words.split(" of ")]
+    found: MatchFormat | None = None
+    for part in reversed(parts):
+        if part is None:
+            raise InputError(f"{text!r} is no match format; write {_WAYS}")
+        kind, *numbers = part.groups(default="")
+        m, n, win_by = (int(number or 1) for number in numbers)
+        if not 1 <= min(m, n, win_by) <= max(m, n, win_by) <= _LONGEST:
+            raise InputError(f"{text!r} has a number that is not from 1 to {_LONGEST}; mend it")
+        if kind == "ahead " and win_by > 1:
+            raise InputError(f"{text!r}: 'ahead' does not go with 'win by'; leave one out")
+        innermost = found is None
+        found = MatchFormat(m, n, kind == "ahead ", win_by, found, breaks if innermost else None)
+    assert found is not None  # noqa: S101  a split has one part at least
+    return found

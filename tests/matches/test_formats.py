@@ -1,0 +1,104 @@
+import contextlib
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from evenbreak import InputError
+from evenbreak.games import Ahead, Race, Rack, alternate_breaks, winner_breaks
+from evenbreak.matches import MatchFormat, match_format, win_probability
+
+NUMBERS = st.integers(1, 1000)
+BREAKS = st.sampled_from([None, "winner", "loser", "alternate", "player 1", "player 2"])
+
+
+@st.composite
+def formats(draw, sets=True):
+    ahead = draw(st.booleans())
+    return MatchFormat(
+        draw(NUMBERS),
+        draw(NUMBERS),
+        ahead,
+        1 if ahead else draw(st.integers(1, 5)),
+        draw(st.none() | formats(sets=False)) if sets else None,
+    )
+
+
+@given(formats())
+def test_what_is_printed_reads_back(played):
+    assert match_format(str(played)) == played
+
+
+@given(NUMBERS, NUMBERS, BREAKS)
+def test_break_formats_read_back(m, n, breaks):
+    assert match_format(str(MatchFormat(m, n, breaks=breaks))).breaks == breaks
+
+
+@pytest.mark.parametrize(
+    ("text", "match"),
+    [
+        ("9:5", Race(9, 5, Rack(0.6))),
+        (" RACE  9:5 ", Race(9, 5, Rack(0.6))),
+        ("7:7 win by 2", Race(7, 7, Rack(0.6), win_by=2)),
+        ("7:7, win-by 2", Race(7, 7, Rack(0.6), win_by=2)),
+        ("Ahead 5:3", Ahead(5, 3, Rack(0.6))),
+        ("3:1 of 3:3", Race(3, 1, Race(3, 3, Rack(0.6)))),
+        ("ahead 2:2 of 5:4 win by 2", Ahead(2, 2, Race(5, 4, Rack(0.6), win_by=2))),
+        ("2:2 of 2:2 of 2:1", Race(2, 2, Race(2, 2, Race(2, 1, Rack(0.6))))),
+    ],
+)
+def test_what_the_texts_mean(text, match):
+    assert match_format(text).match(Rack(0.6)) == match
+
+
+def test_a_format_that_says_who_breaks_is_heard_first():
+    rack = Rack(0.7, 0.6)
+    said = match_format("2:1 of 3:3, winner breaks").match(rack, breaks=alternate_breaks)
+    assert said == Race(2, 1, Race(3, 3, rack, breaks=winner_breaks))
+    assert match_format("3:3").match(rack, breaks=alternate_breaks).breaks is alternate_breaks
+    with pytest.raises(InputError, match="breaks is missing"):
+        match_format("3:3").match(rack)
+
+
+@pytest.mark.parametrize(
+    ("text", "p", "wins"),
+    [("9:5", 2 / 3, 0.552), ("3:3", 2 / 3, 0.790), ("3:1 of 3:3", 2 / 3, 0.493)],
+)
+def test_negotiation_of_p5_8(text, p, wins):
+    assert win_probability(match_format(text).match(Rack(p))) == pytest.approx(wins, abs=5e-4)
+
+
+@pytest.mark.parametrize(
+    ("text", "remedy"),
+    [
+        ("", "is no match format; write 9:5"),
+        ("9", "is no match format"),
+        ("9:5 of", "is no match format"),
+        ("of 9:5", "is no match format"),
+        ("9:5 winner", "is no match format"),
+        ("9-5", "is no match format"),
+        ("٩:5", "is no match format"),
+        ("0:5", "not from 1 to 1000"),
+        ("9:1001", "not from 1 to 1000"),
+        ("9:5 win by 0", "not from 1 to 1000"),
+        ("ahead 5:3 win by 2", "leave one out"),
+    ],
+)
+def test_wrong_texts_say_what_to_write(text, remedy):
+    with pytest.raises(InputError, match=remedy):
+        match_format(text)
+
+
+@given(st.text(alphabet="0123456789:, ofwinbyahedrcs", max_size=30))
+def test_no_text_makes_another_error(text):
+    with contextlib.suppress(InputError):
+        match_format(text)
+
+
+def test_wrong_parameters():
+    with pytest.raises(InputError, match="m is 0"):
+        MatchFormat(0, 3)
+    with pytest.raises(InputError, match="breaks is 'mine'"):
+        MatchFormat(3, 3, breaks="mine")
+    with pytest.raises(InputError, match="n-ahead"):
+        MatchFormat(3, 3, True, 2)
