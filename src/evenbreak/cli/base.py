@@ -17,6 +17,7 @@ COMMANDS = {
     "report": "Make the fair-race sheet of a league from its results file.",
     "odds": "Answer what the chances of a match are, and how long it lasts.",
     "fair": "Find the race that is nearest to an even chance.",
+    "chart": "List and show handicap charts, audit one, or design one.",
     "oneball": "Answer who wins the one-ball game, and which shot is best.",
     "breaks": "Weigh break formats and stakes for two players, in the long run.",
     "runs": "Answer how long runs are, and what several innings bring.",

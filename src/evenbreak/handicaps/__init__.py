@@ -10,10 +10,12 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
+        "audit": ["AuditRow", "ChartAudit", "ChartFit", "audit", "even_doublings"],
         "chart": ["CHARTS", "Chart", "chart"],
-        "chart_rows": ["ChartRow"],
+        "chart_rows": ["ChartDraft", "ChartRow"],
         "fair": ["FairRace", "fair_races"],
         "ladder": ["LadderLaw", "RatingLadder", "autocorrelated_ladder", "natural_ladder"],
+        "level_audit": ["LevelAudit", "LevelCell", "audit_levels"],
         "level_chart": ["LEVEL_CHARTS", "LevelChart", "level_chart"],
     },
 )

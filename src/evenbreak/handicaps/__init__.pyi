@@ -1,6 +1,12 @@
+from evenbreak.handicaps.audit import AuditRow as AuditRow
+from evenbreak.handicaps.audit import ChartAudit as ChartAudit
+from evenbreak.handicaps.audit import ChartFit as ChartFit
+from evenbreak.handicaps.audit import audit as audit
+from evenbreak.handicaps.audit import even_doublings as even_doublings
 from evenbreak.handicaps.chart import CHARTS as CHARTS
 from evenbreak.handicaps.chart import Chart as Chart
 from evenbreak.handicaps.chart import chart as chart
+from evenbreak.handicaps.chart_rows import ChartDraft as ChartDraft
 from evenbreak.handicaps.chart_rows import ChartRow as ChartRow
 from evenbreak.handicaps.fair import FairRace as FairRace
 from evenbreak.handicaps.fair import fair_races as fair_races
@@ -8,6 +14,9 @@ from evenbreak.handicaps.ladder import LadderLaw as LadderLaw
 from evenbreak.handicaps.ladder import RatingLadder as RatingLadder
 from evenbreak.handicaps.ladder import autocorrelated_ladder as autocorrelated_ladder
 from evenbreak.handicaps.ladder import natural_ladder as natural_ladder
+from evenbreak.handicaps.level_audit import LevelAudit as LevelAudit
+from evenbreak.handicaps.level_audit import LevelCell as LevelCell
+from evenbreak.handicaps.level_audit import audit_levels as audit_levels
 from evenbreak.handicaps.level_chart import LEVEL_CHARTS as LEVEL_CHARTS
 from evenbreak.handicaps.level_chart import LevelChart as LevelChart
 from evenbreak.handicaps.level_chart import level_chart as level_chart

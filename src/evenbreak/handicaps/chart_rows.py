@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-__all__ = ["ChartRow", "row_faults"]
+__all__ = ["ChartDraft", "ChartRow", "row_faults"]
 
 
 class ChartRow(NamedTuple):
@@ -25,6 +25,21 @@ class ChartRow(NamedTuple):
     difference_to: int | None
     stronger_needs: int
     weaker_needs: int
+
+
+class ChartDraft(NamedTuple):
+    """The rows of a chart as they stand, perhaps with gaps and overlaps, for `audit` to find.
+
+    Parameters
+    ----------
+    name
+        what the chart is called.
+    rows
+        rows of whole numbers, in any order, none of which ends before it begins.
+    """
+
+    name: str
+    rows: tuple[ChartRow, ...]
 
 
 def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
