@@ -162,7 +162,7 @@ def test_a_name_with_a_comma_may_be_named_alone(run, tmp_path):
 
 
 def test_excel_gets_its_marks(run, tmp_path):
-    assert run("report", str(DEMO), "--out", str(tmp_path), "--excel").exit_code == 0
+    assert run("report", str(DEMO), "--out", str(tmp_path), "--excel-csv").exit_code == 0
     for name, body in content(tmp_path).items():
         if name == "sheet.pdf":
             assert body.startswith(b"%PDF")

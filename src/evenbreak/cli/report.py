@@ -4,11 +4,17 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING
 
 import click
 
 from evenbreak.cli.options import refuse, refuse_both, which_races
 from evenbreak.errors import DataError
+
+if TYPE_CHECKING:
+    from evenbreak.ratings.fit import Ratings
+    from evenbreak.reports.matchups import RaceLimits
+    from evenbreak.reports.read_results import ResultsFile
 
 __all__ = ["report"]
 
@@ -20,6 +26,7 @@ Examples:
   evenbreak report season.csv --out sheet
   evenbreak report season.csv --out sheet --scale fargo --race-to 9
   evenbreak report season.csv --out sheet --games 7..13 --players "Ann Lee,Bo Diaz"
+  evenbreak report season.csv --out sheet --top 24 --html --excel
 """
 
 
@@ -54,7 +61,11 @@ Examples:
     help=f"Pair the N players with the most games.  [default: {TOP}, without --players]",
 )
 @click.option(
-    "--excel", is_flag=True, help="Write the CSV files as Excel likes them: BOM and CRLF."
+    "--html", is_flag=True, help="Also write sheet.html, one file for phones, screens and printers."
+)
+@click.option("--excel", is_flag=True, help="Also write sheet.xlsx, a workbook of all tables.")
+@click.option(
+    "--excel-csv", is_flag=True, help="Write the CSV files as Excel likes them: BOM and CRLF."
 )
 def report(
     results: str,
@@ -64,7 +75,9 @@ def report(
     race_to: int | None,
     players: tuple[str, ...],
     top: int | None,
+    html: bool,
     excel: bool,
+    excel_csv: bool,
 ) -> None:
     """Make the fair-race sheet of a league from its results file.
 
@@ -72,22 +85,22 @@ def report(
     score_b and, if you like, date, race_a, race_b, winner, first_break, break_format,
     racks, event and forfeit; - reads standard input. The sheet says how strong each
     player is and which race is nearest to even for each pair; races to 7, unless --games
-    or --race-to says otherwise. It is printed, and sheet.pdf has it for paper.
+    or --race-to says otherwise. It is printed, and sheet.pdf has it for paper; --html makes
+    a page of it to hand out, --excel a workbook.
     """
     refuse_both(games, race_to)
     if players and top is not None:
         refuse("--players and --top exclude each other; leave one out")
     if not out.strip():
         refuse("--out is empty; name a folder, or . for this one")
+    if excel:
+        from evenbreak.reports.workbook import check_workbook
+
+        check_workbook()
     from evenbreak.ratings.fit import fit
     from evenbreak.ratings.scale import scale_of
-    from evenbreak.reports.frames import file_name, ratings_frame, summary_frame
-    from evenbreak.reports.matchups import RaceLimits, find_players, matchups_frame, most_active
-    from evenbreak.reports.paper import pdf_bytes
+    from evenbreak.reports.matchups import RaceLimits, find_players, most_active
     from evenbreak.reports.read_results import read_results
-    from evenbreak.reports.sheet import sheet_text
-    from evenbreak.reports.sheet_pages import sheet_pages
-    from evenbreak.reports.to_csv import to_csv
     from evenbreak.reports.write_files import write_files
 
     scale = scale_of(scale_name)
@@ -107,21 +120,53 @@ def report(
     if len(chosen) < 2:
         refuse("--players names one player; name two or more")
     _say(f"Pairing {len(chosen):,} of them")
+    files, text = _sheets(
+        file, ratings, limits, chosen, html=html, excel=excel, excel_csv=excel_csv
+    )
+    write_files(out, files)
+    _say(f"Wrote {', '.join(files)} to {out}")
+    # Names may have letters that the terminal's encoding lacks.
+    click.echo(text.encode(sys.stdout.encoding or "utf-8", "replace"), nl=False)
+
+
+def _sheets(
+    file: ResultsFile,
+    ratings: Ratings,
+    limits: RaceLimits,
+    chosen: Sequence[int],
+    *,
+    html: bool,
+    excel: bool,
+    excel_csv: bool,
+) -> tuple[dict[str, bytes], str]:
+    """Return the content of each file by its name, and the sheet as text."""
+    from evenbreak.reports.frames import file_name, ratings_frame, summary_frame
+    from evenbreak.reports.matchups import matchups_frame
+    from evenbreak.reports.paper import pdf_bytes
+    from evenbreak.reports.sheet import sheet_text
+    from evenbreak.reports.sheet_pages import sheet_pages
+    from evenbreak.reports.to_csv import to_csv
+
     rated = ratings_frame(ratings)
     paired = matchups_frame(ratings, chosen, limits)
     told = summary_frame(file, ratings, paired, limits)
     pages = sheet_pages(file, ratings, limits, rated, paired)
     files = {
-        "ratings.csv": to_csv(rated, excel=excel),
-        "matchups.csv": to_csv(paired, excel=excel),
-        "summary.csv": to_csv(told, excel=excel),
+        "ratings.csv": to_csv(rated, excel=excel_csv),
+        "matchups.csv": to_csv(paired, excel=excel_csv),
+        "summary.csv": to_csv(told, excel=excel_csv),
         "sheet.pdf": pdf_bytes(pages, f"Fair races from {file_name(file)}"),
     }
-    write_files(out, files)
-    _say(f"Wrote {', '.join(files)} to {out}")
-    text = sheet_text(file, ratings, limits, rated, paired)
-    # Names may have letters that the terminal's encoding lacks.
-    click.echo(text.encode(sys.stdout.encoding or "utf-8", "replace"), nl=False)
+    if html:
+        from evenbreak.reports.html_sheet import sheet_html
+
+        files["sheet.html"] = sheet_html(file, ratings, limits, rated, paired)
+    if excel:
+        from evenbreak.reports.workbook import report_tables, workbook_bytes
+
+        tables = report_tables(file, ratings, limits, rated, paired, told)
+        files["sheet.xlsx"] = workbook_bytes(tables)
+    return files, sheet_text(file, ratings, limits, rated, paired)
 
 
 def _say(message: str) -> None:

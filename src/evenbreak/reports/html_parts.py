@@ -1,0 +1,285 @@
+"""What the sheet for a screen shows, worked out before any HTML is written."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from evenbreak.matches.win import race_win_probability
+from evenbreak.ratings.fit import Ratings
+from evenbreak.ratings.scale import Scale
+from evenbreak.reports.matchups import RaceLimits
+from evenbreak.reports.sheet_words import NO_RACE, decimals_of, races_by_name
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+__all__ = [
+    "Band",
+    "Block",
+    "PlayerLine",
+    "RaceCard",
+    "SurePair",
+    "Tick",
+    "bar_ticks",
+    "chart_bands",
+    "player_lines",
+    "race_blocks",
+    "race_cards",
+    "sure_pairs",
+]
+
+MOST_BANDS = 40
+"""A chart with more lines is no chart to read."""
+
+_ROOM, _FIGURE, _EDGE = 144.0, 1.5, 2.2
+"""Millimetres: for the columns of a printed table, for a figure in it, and around a race."""
+
+
+class PlayerLine(NamedTuple):
+    """A line of the ratings; `low`, `middle` and `high` are per cent of the axis of the bars."""
+
+    place: int
+    name: str
+    rating: str
+    error: str
+    games: int
+    won: int
+    lost: int
+    group: int | None
+    low: float
+    middle: float
+    high: float
+
+
+class Tick(NamedTuple):
+    """A mark on the axis of the bars, at per cent of its length."""
+
+    at: float
+    label: str
+
+
+class Block(NamedTuple):
+    """Columns of the table of races, and each player's races in them; None against oneself."""
+
+    across: Sequence[PlayerLine]
+    rows: Sequence[tuple[PlayerLine, Sequence[str | None]]]
+
+
+class RaceCard(NamedTuple):
+    """One player's opponents, each with the race and the player's chance of winning it."""
+
+    player: PlayerLine
+    races: Sequence[tuple[PlayerLine, str, str]]
+
+
+class Band(NamedTuple):
+    """A span of rating differences with one race, up to just below `after`.
+
+    `p_first` and `p_after` are the stronger player's chances at its two ends.
+    """
+
+    first: float
+    after: float
+    stronger: int
+    weaker: int
+    p_first: float
+    p_after: float
+
+
+class SurePair(NamedTuple):
+    """A pair's rating difference, and P(A wins the race) there and two errors either way."""
+
+    player_a: str
+    player_b: str
+    race: str
+    difference: float
+    error: float
+    p_win: float
+    low: float
+    high: float
+
+
+def player_lines(rated: pd.DataFrame, scale: Scale) -> list[PlayerLine]:
+    """Return the lines of the ratings, in the order of `rated`; the index says the place."""
+    decimals = decimals_of(scale)
+    low, high = _reach(rated)
+    grouped = len(set(rated["component"][rated["games"] > 0])) > 1
+    rows: Any = rated.itertuples(index=True)
+
+    def along(points: float) -> float:
+        return round(100 * (points - low) / (high - low), 2)
+
+    return [
+        PlayerLine(
+            row.Index + 1,
+            row.player,
+            f"{row.rating:.{decimals}f}",
+            f"{row.standard_error:.{decimals}f}",
+            row.games,
+            row.won,
+            row.lost,
+            row.component if grouped else None,
+            along(row.rating - 2 * row.standard_error),
+            along(row.rating),
+            along(row.rating + 2 * row.standard_error),
+        )
+        for row in rows
+    ]
+
+
+def _reach(rated: pd.DataFrame) -> tuple[float, float]:
+    """Return the ends of the axis of the bars, in points."""
+    low = float((rated["rating"] - 2 * rated["standard_error"]).min())
+    high = float((rated["rating"] + 2 * rated["standard_error"]).max())
+    edge = 0.04 * (high - low)
+    return low - edge, high + edge
+
+
+def bar_ticks(rated: pd.DataFrame) -> list[Tick]:
+    """Return the marks on the axis of the bars."""
+    from matplotlib.ticker import MaxNLocator
+
+    low, high = _reach(rated)
+    found = MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    ticks = [(100 * (float(tick) - low) / (high - low), float(tick)) for tick in found]
+    # A label nearer to an end would hang over it.
+    return [Tick(round(at, 2), f"{tick:g}") for at, tick in ticks if 4 < at < 96]
+
+
+def race_blocks(lines: Sequence[PlayerLine], paired: pd.DataFrame) -> list[Block]:
+    """Return the table of races, in blocks of as many columns as fit on a printed page."""
+    races = races_by_name(paired)
+    widest = max((len(race) for race in races.values()), default=3)
+    # A colon is half as wide as a figure.
+    fitting = int(_ROOM / (_FIGURE * (widest - 0.5) + _EDGE))
+    size = math.ceil(len(lines) / math.ceil(len(lines) / fitting))
+    blocks = []
+    for first in range(0, len(lines), size):
+        across = lines[first : first + size]
+        rows = [
+            (line, [_race(races, line, other) if line != other else None for other in across])
+            for line in lines
+        ]
+        blocks.append(Block(across, rows))
+    return blocks
+
+
+def _race(races: dict[tuple[str, str], str], player: PlayerLine, other: PlayerLine) -> str:
+    return races.get((player.name, other.name), NO_RACE)
+
+
+def race_cards(lines: Sequence[PlayerLine], paired: pd.DataFrame) -> list[RaceCard]:
+    """Return each player's races, for a page that is too narrow for the table of them."""
+    races = races_by_name(paired)
+    chances: dict[tuple[str, str], str] = {}
+    rows: Any = paired.dropna(subset=["race_a"]).itertuples(index=False)
+    for pair in rows:
+        chances[pair.player_a, pair.player_b] = f"{pair.p_win_a:.2f}"
+        chances[pair.player_b, pair.player_a] = f"{1.0 - pair.p_win_a:.2f}"
+    return [
+        RaceCard(
+            line,
+            [
+                (other, _race(races, line, other), chances.get((line.name, other.name), ""))
+                for other in lines
+                if other != line
+            ],
+        )
+        for line in lines
+    ]
+
+
+def chart_bands(limits: RaceLimits, scale: Scale, furthest: float) -> list[Band]:
+    """Return the chart of races by rating difference that the fairest races come to.
+
+    Parameters
+    ----------
+    limits
+        which races may be offered. Where they may differ in length, the race nearest to
+        even jumps to and fro between lengths as ratings part, and no chart is made.
+    scale
+        what a rating difference means.
+    furthest
+        the difference, in points, up to which the chart goes.
+
+    Returns
+    -------
+    list of Band
+        differences are whole multiples of the last decimal that ratings are told with;
+        empty where there is no chart, or one of more than 40 lines.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> for band in chart_bands(RaceLimits(race_to=7), SCALES["npl"], 20.0):
+    ...     print(band.first, band.stronger, band.weaker, round(band.p_first, 3))
+    0.0 7 7 0.5
+    3.5 7 6 0.443
+    11.2 7 5 0.435
+    """
+    if limits.games is not None and limits.games[0] != limits.games[1]:
+        return []
+    decimals = decimals_of(scale)
+    unit = 10.0**-decimals
+    last = max(1, math.ceil(furthest / unit))
+
+    def race(step: int) -> tuple[int, int]:
+        fairest = limits.fairest(scale.win_probability(step * unit))
+        return fairest.race_1, fairest.race_2
+
+    def chance(step: int, needs: tuple[int, int]) -> float:
+        return float(race_win_probability(scale.win_probability(step * unit), *needs))
+
+    bands: list[Band] = []
+    first, needs = 0, race(0)
+    while first < last:
+        after = _first_other(race, first, last, needs)
+        bands.append(
+            Band(
+                round(first * unit, decimals),
+                round(after * unit, decimals),
+                *needs,
+                chance(first, needs),
+                chance(after, needs),
+            )
+        )
+        if len(bands) > MOST_BANDS:
+            return []
+        first, needs = after, race(after)
+    return bands
+
+
+def _first_other(race: Any, first: int, last: int, needs: tuple[int, int]) -> int:
+    """Return the first step after `first` with another race, or `last`: a race comes once."""
+    low, high = first, last
+    while high - low > 1:
+        middle = (low + high) // 2
+        if race(middle) == needs:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def sure_pairs(ratings: Ratings, paired: pd.DataFrame) -> list[SurePair]:
+    """Return the pairs with a race, the best known first.
+
+    The standard error of a difference is that of two independent ratings. Ratings of one
+    league go up and down together, so that it is that large at most.
+    """
+    place = {name: k for k, name in enumerate(ratings.players)}
+    found = []
+    rows: Any = paired.dropna(subset=["race_a"]).itertuples(index=False)
+    for pair in rows:
+        a, b = place[pair.player_a], place[pair.player_b]
+        difference = float(ratings.rating[a] - ratings.rating[b])
+        error = math.hypot(ratings.standard_error[a], ratings.standard_error[b])
+        low, p_win, high = (
+            float(race_win_probability(ratings.scale.win_probability(d), pair.race_a, pair.race_b))
+            for d in (difference - 2 * error, difference, difference + 2 * error)
+        )
+        race = f"{pair.race_a}:{pair.race_b}"
+        found.append(
+            SurePair(pair.player_a, pair.player_b, race, difference, error, p_win, low, high)
+        )
+    return sorted(found, key=lambda pair: round(pair.error / ratings.scale.points_per_doubling, 9))

@@ -1,0 +1,146 @@
+"""What the sheet for a screen says beyond the others: how sure it is, and what it leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from evenbreak.ratings.fit import Ratings
+from evenbreak.reports.frames import count_groups, file_name
+from evenbreak.reports.html_parts import SurePair
+from evenbreak.reports.read_results import ResultsFile
+from evenbreak.reports.sheet_words import count_of, decimals_of
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+__all__ = ["LeftOut", "about_model", "how_sure", "left_out_and_why", "three_pairs"]
+
+
+class LeftOut(NamedTuple):
+    """What was left out, and why."""
+
+    what: str
+    why: str
+
+
+def how_sure(ratings: Ratings, pairs: Sequence[SurePair]) -> Iterator[str]:
+    """Yield what the standard errors mean for a rating and for a race."""
+    decimals = decimals_of(ratings.scale)
+    yield (
+        "A bar reaches two standard errors to either side of a rating. If the model below holds, "
+        "a player's true strength is within the bar about 19 times in 20."
+    )
+    if pairs:
+        middle = pairs[(len(pairs) - 1) // 2]
+        yield (
+            "For half of the pairs the difference of the two ratings is known to within "
+            f"{2 * middle.error:.{decimals}f} points (two standard errors) or better. So the "
+            "chance of winning a race that is fair by the ratings may be another than they say:"
+        )
+
+
+def three_pairs(pairs: Sequence[SurePair]) -> list[tuple[str, SurePair]]:
+    """Return the best known, the middling and the least known pair, each once."""
+    if not pairs:
+        return []
+    named = {0: "best known", (len(pairs) - 1) // 2: "middling", len(pairs) - 1: "least known"}
+    return [(name, pairs[k]) for k, name in sorted(named.items())]
+
+
+def about_model(ratings: Ratings) -> str:
+    """Return the model in a sentence or two, with the parameters that it was used with."""
+    scale = ratings.scale
+    prior = float(scale.points(ratings.prior_sd))
+    return (
+        "Bradley\N{EN DASH}Terry on games: a player who is rated d points higher wins a game with "
+        f"the chance 1/(1 + 2^(\N{MINUS SIGN}d/{scale.points_per_doubling:.6g})), every game "
+        "independent of the others, early and late matches of the file alike, whoever breaks. "
+        f"Before any result a player is rated {ratings.anchor:g} ± {prior:.4g} (normal prior, one "
+        "standard deviation)."
+    )
+
+
+def left_out_and_why(
+    file: ResultsFile,
+    ratings: Ratings,
+    rated: pd.DataFrame,
+    paired: pd.DataFrame,
+    shown: tuple[int, int],
+) -> Iterator[LeftOut]:
+    """Yield what the numbers do not include, and what a person should look at.
+
+    Parameters
+    ----------
+    file, ratings
+        what the sheet is made of.
+    rated, paired
+        as `ratings_frame` and `matchups_frame` make them.
+    shown
+        how many players the list of ratings and the table of races show.
+    """
+    if ratings.forfeits:
+        yield LeftOut(
+            count_of(ratings.forfeits, "forfeited match", "forfeited matches"),
+            "nobody played, so it says nothing of strength",
+        )
+    if ratings.empty:
+        yield LeftOut(
+            count_of(ratings.empty, "match at 0-0", "matches at 0-0"), "no game was entered"
+        )
+    idle = [name for name, games in zip(rated["player"], rated["games"], strict=True) if not games]
+    if idle:
+        yield LeftOut(
+            f"{count_of(len(idle), 'player', 'players')} without a game: {_some(idle)}",
+            "rated in the middle for want of knowledge",
+        )
+    groups = count_groups(ratings)
+    if groups > 1:
+        yield LeftOut(
+            f"comparisons between {groups:,} groups of players",
+            "no chain of opponents links them; ratings compare only within a group",
+        )
+    apart = int(paired["race_a"].isna().sum())
+    if apart:
+        yield LeftOut(
+            count_of(apart, "pair without a race", "pairs without a race"),
+            "no chain of opponents links the two players",
+        )
+    yield from _not_shown(rated, paired, shown)
+    for warning in file.warnings:
+        # Where the file lay on somebody's disk is nobody else's business.
+        told = warning.removeprefix(f"{file.source}:").lstrip()
+        yield LeftOut(f"a warning on {file_name(file)}", told)
+
+
+def _not_shown(
+    rated: pd.DataFrame, paired: pd.DataFrame, shown: tuple[int, int]
+) -> Iterator[LeftOut]:
+    in_list, in_table = shown
+    players = len(np.unique([*paired["player_a"], *paired["player_b"]]))
+    if in_list < len(rated):
+        yield LeftOut(
+            f"{len(rated) - in_list:,} of {len(rated):,} rated players",
+            f"the list ends with the {in_list:,} strongest; ratings.csv has all",
+        )
+    if in_table < players:
+        yield LeftOut(
+            f"the races of {players - in_table:,} of {players:,} paired players",
+            f"the table holds the {in_table:,} strongest; matchups.csv has all",
+        )
+    if players < len(rated):
+        yield LeftOut(
+            f"the races of {len(rated) - players:,} rated players",
+            "they were not chosen to be paired",
+        )
+
+
+def _some(names: Sequence[str]) -> str:
+    """Return a few names of many."""
+    # Isolated, so that a name from right to left leaves the sentence as it is.
+    told = ", ".join(
+        f"\N{FIRST STRONG ISOLATE}{name}\N{POP DIRECTIONAL ISOLATE}" for name in names[:5]
+    )
+    return told if len(names) <= 5 else f"{told} and {len(names) - 5:,} more"
