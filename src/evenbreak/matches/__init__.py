@@ -12,6 +12,7 @@ __getattr__, __dir__, __all__ = attach(
         "crossings": ["Crossing", "Crossings", "crossings", "even_probability"],
         "formats": ["MatchFormat", "match_format"],
         "length": ["MatchLength", "match_length"],
+        "live": ["LiveOdds", "Standing", "live_odds"],
         "scores": ["FinalScores", "final_scores", "hill_hill_probability"],
         "shutout": ["shutout_probability"],
         "straight_pool": [

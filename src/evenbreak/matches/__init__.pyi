@@ -6,6 +6,9 @@ from evenbreak.matches.formats import MatchFormat as MatchFormat
 from evenbreak.matches.formats import match_format as match_format
 from evenbreak.matches.length import MatchLength as MatchLength
 from evenbreak.matches.length import match_length as match_length
+from evenbreak.matches.live import LiveOdds as LiveOdds
+from evenbreak.matches.live import Standing as Standing
+from evenbreak.matches.live import live_odds as live_odds
 from evenbreak.matches.scalar import Odds as Odds
 from evenbreak.matches.scalar import RaceLaw as RaceLaw
 from evenbreak.matches.scalar import match_odds as match_odds
