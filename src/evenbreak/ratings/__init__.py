@@ -12,6 +12,7 @@ __getattr__, __dir__, __all__ = attach(
     {
         "scale": ["SCALES", "Scale", "scale_of"],
         "results": ["Played", "Results"],
+        "roster": ["Roster"],
         "consistency": ["Problem", "find_problems"],
         "fit": ["Ratings", "fit"],
         "prior": ["PriorChoice", "best_prior"],

@@ -8,6 +8,7 @@ from evenbreak.ratings.race_likelihood import RaceSlopes as RaceSlopes
 from evenbreak.ratings.race_likelihood import race_slopes as race_slopes
 from evenbreak.ratings.results import Played as Played
 from evenbreak.ratings.results import Results as Results
+from evenbreak.ratings.roster import Roster as Roster
 from evenbreak.ratings.scale import SCALES as SCALES
 from evenbreak.ratings.scale import Scale as Scale
 from evenbreak.ratings.scale import scale_of as scale_of

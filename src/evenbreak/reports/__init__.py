@@ -26,6 +26,7 @@ __getattr__, __dir__, __all__ = attach(
         "read_chart": ["chart_frame", "find_chart", "read_chart"],
         "read_drill_log": ["DrillLogFile", "read_drill_log"],
         "read_results": ["ResultsFile", "read_results"],
+        "read_roster": ["RosterFile", "read_roster"],
         "read_table": ["Table", "read_table"],
         "reproduce": ["reproduction"],
         "sheet": ["sheet_text"],

@@ -24,6 +24,8 @@ from evenbreak.reports.read_drill_log import DrillLogFile as DrillLogFile
 from evenbreak.reports.read_drill_log import read_drill_log as read_drill_log
 from evenbreak.reports.read_results import ResultsFile as ResultsFile
 from evenbreak.reports.read_results import read_results as read_results
+from evenbreak.reports.read_roster import RosterFile as RosterFile
+from evenbreak.reports.read_roster import read_roster as read_roster
 from evenbreak.reports.read_table import Table as Table
 from evenbreak.reports.read_table import read_table as read_table
 from evenbreak.reports.reproduce import reproduction as reproduction

@@ -124,14 +124,21 @@ def whole_numbers(
     )
 
 
-def numbers(table: Table, name: str, *, remedy: str) -> Values:
+def numbers(table: Table, name: str, *, remedy: str, may_be_empty: bool = False) -> Values:
     """Read a column of finite numbers; cells that are none are NaN.
 
     A comma is read as the decimal point, as spreadsheets in many languages write it, and
     never groups thousands.
     """
     return read_cells(
-        table, name, _number, wanted="a number", remedy=remedy, dtype=np.float64, empty=math.nan
+        table,
+        name,
+        _number,
+        wanted="a number",
+        remedy=remedy,
+        dtype=np.float64,
+        empty=math.nan,
+        may_be_empty=may_be_empty,
     )
 
 

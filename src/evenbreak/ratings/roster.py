@@ -1,0 +1,152 @@
+"""A roster: who is rated how, and how far each rating can be trusted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from evenbreak.errors import InputError
+
+__all__ = ["NOT_STATED", "Roster"]
+
+NOT_STATED = -1
+"""The games of a player of whom the list does not say how many he has played."""
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Roster:
+    """The players of a league with their ratings, as read-only columns in the list's order.
+
+    Parameters
+    ----------
+    players
+        the names, each once.
+    rating
+        points, one for each player; NaN for a new player who has none yet.
+    standard_error
+        how far a rating may be off, in points (one standard deviation); NaN where that is
+        not stated. None: stated for nobody.
+    games
+        the games that each rating rests on, 0 for a new player; `NOT_STATED` where the list
+        does not say. None: stated for nobody.
+    component
+        players linked by a chain of opponents share a number from 1 on, and only their
+        ratings can be compared; 0 where that is not stated. None: stated for nobody.
+
+    Raises
+    ------
+    InputError
+        if a name stands there twice, the columns differ in length, a rating is infinite, or
+        an error is negative or infinite.
+
+    >>> club = Roster(["Ann", "Bo"], [92.0, np.nan], games=[140, 0])
+    >>> len(club), club.position("Bo"), club.standard_error
+    (2, 1, array([nan, nan]))
+    """
+
+    players: tuple[str, ...]
+    rating: NDArray[np.float64]
+    standard_error: NDArray[np.float64]
+    games: NDArray[np.int64]
+    component: NDArray[np.int64]
+
+    def __init__(
+        self,
+        players: Iterable[str],
+        rating: ArrayLike,
+        standard_error: ArrayLike | None = None,
+        games: ArrayLike | None = None,
+        *,
+        component: ArrayLike | None = None,
+    ) -> None:
+        names = tuple(players)
+        if len(set(names)) < len(names):
+            raise InputError("players holds a name twice; give each name once")
+        object.__setattr__(self, "players", names)
+        many = len(names)
+        for name, given, kind, unstated in (
+            ("rating", rating, np.float64, math.nan),
+            ("standard_error", standard_error, np.float64, math.nan),
+            ("games", games, np.int64, NOT_STATED),
+            ("component", component, np.int64, 0),
+        ):
+            values = np.full(many, unstated) if given is None else given
+            object.__setattr__(self, name, _column(values, name, kind, many))
+        if np.isinf(self.rating).any():
+            raise InputError("rating holds infinity; give numbers, NaN for a new player")
+        if (self.standard_error < 0).any() or np.isinf(self.standard_error).any():
+            raise InputError("standard_error is negative or infinite somewhere; give 0 or more")
+
+    def __len__(self) -> int:
+        return len(self.players)
+
+    def position(self, player: str) -> int:
+        """Return where a player stands in the list, from 0.
+
+        Raises
+        ------
+        InputError
+            if the roster has no such player.
+        """
+        try:
+            return self._places[player]
+        except KeyError:
+            raise InputError(
+                f"player {player!r} is not in the roster; write the name as the roster does"
+            ) from None
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {name: place for place, name in enumerate(self.players)}
+
+    def with_starters(self, rating: float, standard_error: float) -> Roster:
+        """Return the roster with new players filled in by what is known before they play.
+
+        Parameters
+        ----------
+        rating
+            points of a player who has no rating yet.
+        standard_error
+            the prior's standard deviation in points: the error of every player who has no
+            rating or no game yet and whose error is not stated.
+
+        Raises
+        ------
+        InputError
+            if the rating is not finite, or the error is not a finite number from 0 on.
+
+        >>> club = Roster(["Ann", "Bo"], [92.0, np.nan], [9.5, np.nan], [140, 0])
+        >>> started = club.with_starters(80.0, 30.0)
+        >>> started.rating, started.standard_error
+        (array([92., 80.]), array([ 9.5, 30. ]))
+        """
+        if not math.isfinite(rating):
+            raise InputError(f"rating is {rating!r}; give a finite number of points")
+        if not 0.0 <= standard_error < math.inf:
+            raise InputError(f"standard_error is {standard_error!r}; give 0 or more points")
+        unrated = np.isnan(self.rating)
+        new = (unrated | (self.games == 0)) & np.isnan(self.standard_error)
+        return Roster(
+            self.players,
+            np.where(unrated, rating, self.rating),
+            np.where(new, standard_error, self.standard_error),
+            self.games,
+            component=self.component,
+        )
+
+
+def _column(values: Any, name: str, kind: Any, many: int) -> NDArray[Any]:
+    # A copy, so that a later change of the caller's array changes nothing here.
+    column = np.array(values, dtype=kind)
+    if column.shape != (many,):
+        raise InputError(
+            f"{name} has the shape {column.shape}; give one value for each of {many} players"
+        )
+    column.flags.writeable = False
+    return column

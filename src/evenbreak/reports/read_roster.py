@@ -1,0 +1,150 @@
+"""From a list of rated players to `Roster`, with everything that is wrong in it told at once."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.ratings.roster import NOT_STATED, Roster
+from evenbreak.reports.cells import numbers, whole_numbers
+from evenbreak.reports.problems import quoted
+from evenbreak.reports.read_table import Table, read_table
+from evenbreak.reports.results_columns import clean_name
+from evenbreak.reports.similar_names import similar_names
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["OPTIONAL", "REQUIRED", "RosterFile", "read_roster"]
+
+REQUIRED = {
+    "player": ("name", "player name", "full name"),
+    "rating": ("points", "skill level", "level", "handicap", "fargo rating", "elo"),
+}
+"""The columns that a roster must have, with their other names."""
+
+OPTIONAL = {
+    "standard_error": ("se", "sd", "error", "plus or minus", "uncertainty"),
+    "games": ("games played", "racks", "robustness"),
+    "component": ("group",),
+}
+"""The columns that a roster may have, with their other names."""
+
+LARGEST = 1e6
+"""The largest rating or error that is taken for one, in points."""
+
+WARNED = 20
+"""How many groups of similar names are told; the rest are counted."""
+
+
+@dataclass(frozen=True, eq=False)
+class RosterFile:
+    """What a list of rated players says.
+
+    Parameters
+    ----------
+    roster
+        its players, in the order of the file.
+    lines
+        the line of each player.
+    source
+        what the file is called in messages.
+    warnings
+        what a person should look at although the file can be used, a line each.
+    sha256
+        fingerprint of the bytes that were read.
+    """
+
+    roster: Roster
+    lines: NDArray[np.int64]
+    source: str
+    warnings: tuple[str, ...]
+    sha256: str
+
+
+def read_roster(path: str | Path) -> RosterFile:
+    r"""Read a list of rated players from a CSV file; '-' is standard input.
+
+    A player without a rating is new; he may have played no games. An empty standard_error
+    is not stated, and so are empty games.
+
+    Raises
+    ------
+    DataError
+        with all that is wrong in the file: missing columns, no rows, cells that are no
+        numbers, a name that stands there twice.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "roster.csv"
+    ...     _ = path.write_text("Name;Rating;SE;Games\nAnn;92,5;9;140\nBo;;;0\n")
+    ...     club = read_roster(path).roster
+    >>> club.players, club.rating, club.games
+    (('Ann', 'Bo'), array([92.5,  nan]), array([140,   0]))
+    """
+    table = read_table(path, REQUIRED, OPTIONAL)
+    if not len(table) and not len(table.problems):
+        table.problems.add(None, "has no players below its header; write one line for each")
+    names = _names(table)
+    remedy = "write points such as 85, or leave it empty for a new player"
+    rating = _points(table, "rating", remedy, least=-LARGEST)
+    remedy = "write points such as 9.5, or leave it empty"
+    error = _points(table, "standard_error", remedy, least=0.0)
+    games, good_games = whole_numbers(table, "games", may_be_empty=True)
+    stated = np.array([bool(text) for text in table.cells("games")], dtype=bool)
+    games = np.where(stated & good_games, games, NOT_STATED)
+    component = whole_numbers(table, "component", at_least=1, may_be_empty=True).values
+    unrated = np.array([not text for text in table.cells("rating")], dtype=bool)
+    table.problems.add_rows(
+        table.lines,
+        np.flatnonzero(unrated & (games > 0)) if "rating" in table else np.zeros(0, np.int64),
+        lambda row: f"rating is empty after {games[row]} games; write it, or 0 games if new",
+    )
+    table.problems.raise_any()
+    roster = Roster(names, rating, error, games, component=component)
+    warnings = (*table.warnings, *_alike(names, table.source))
+    sha256 = hashlib.sha256(table.content).hexdigest()
+    return RosterFile(roster, table.lines, table.source, warnings, sha256)
+
+
+def _names(table: Table) -> list[str]:
+    """Return the names, noting those that are empty or stand in the file already."""
+    names = [clean_name(text) for text in table.cells("player")]
+    first: dict[str, int] = {}
+    for name, line in zip(names, table.lines.tolist(), strict=True):
+        if not name:
+            if "player" in table:
+                table.problems.add(line, "player is empty; write a name")
+        elif first.setdefault(name, line) != line:
+            table.problems.add(
+                line,
+                f"player {quoted(name)} stands in line {first[name]} already; delete one of the "
+                "two, or tell two players of one name apart, such as by a number",
+            )
+    return names
+
+
+def _points(table: Table, name: str, remedy: str, *, least: float) -> NDArray[np.float64]:
+    """Read a column of points from `least` to `LARGEST`, NaN where a cell is empty."""
+    points: NDArray[np.float64] = numbers(table, name, remedy=remedy, may_be_empty=True).values
+    table.problems.add_rows(
+        table.lines,
+        np.flatnonzero((points < least) | (points > LARGEST)),
+        lambda row: f"{name} {points[row]:g} is not from {least:,.0f} to {LARGEST:,.0f}; {remedy}",
+    )
+    return points
+
+
+def _alike(names: list[str], source: str) -> list[str]:
+    groups = similar_names(names)
+    told = [
+        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one "
+        "player; if so, keep one of them"
+        for group in groups[:WARNED]
+    ]
+    more = len(groups) - WARNED
+    return [*told, f"{source}: and {more:,} more groups of similar names"] if more > 0 else told

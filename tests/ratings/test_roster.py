@@ -1,0 +1,64 @@
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.ratings.roster import NOT_STATED, Roster
+
+
+def test_what_is_not_stated():
+    roster = Roster(["Ann", "Bo"], [92, 71.5])
+    assert np.isnan(roster.standard_error).all()
+    assert roster.games.tolist() == [NOT_STATED, NOT_STATED]
+    assert roster.component.tolist() == [0, 0]
+
+
+def test_columns_are_copies_that_cannot_be_changed():
+    points = np.array([92.0, 71.5])
+    roster = Roster(["Ann", "Bo"], points)
+    points[0] = 0.0
+    assert roster.rating[0] == 92.0
+    with pytest.raises(ValueError, match="read-only"):
+        roster.rating[0] = 1.0
+
+
+def test_only_new_players_get_what_starters_get():
+    roster = Roster(
+        ["new", "seeded", "sure", "stated", "silent"],
+        [np.nan, 95.0, 90.0, np.nan, 70.0],
+        [np.nan, np.nan, np.nan, 12.0, np.nan],
+        [0, 0, 300, 0, NOT_STATED],
+    )
+    started = roster.with_starters(80.0, 30.0)
+    assert started.rating.tolist() == [80.0, 95.0, 90.0, 80.0, 70.0]
+    assert started.standard_error[[0, 1, 3]].tolist() == [30.0, 30.0, 12.0]
+    assert np.isnan(started.standard_error[[2, 4]]).all()
+
+
+def test_position():
+    roster = Roster(["Ann", "Bo"], [92.0, 71.5])
+    assert [roster.position(name) for name in roster.players] == [0, 1]
+    with pytest.raises(InputError, match="player 'Cy' is not in the roster"):
+        roster.position("Cy")
+
+
+@pytest.mark.parametrize(
+    ("columns", "remedy"),
+    [
+        ((["Ann", "Ann"], [1, 2]), "each name once"),
+        ((["Ann"], [1, 2]), "one value for each of 1 players"),
+        ((["Ann"], [np.inf]), "NaN for a new player"),
+        ((["Ann"], [1.0], [-1.0]), "give 0 or more"),
+        ((["Ann"], [1.0], [np.inf]), "give 0 or more"),
+    ],
+)
+def test_refused(columns, remedy):
+    with pytest.raises(InputError, match=remedy):
+        Roster(*columns)
+
+
+def test_starters_are_numbers():
+    roster = Roster(["Ann"], [np.nan])
+    with pytest.raises(InputError, match="finite number of points"):
+        roster.with_starters(np.nan, 30.0)
+    with pytest.raises(InputError, match="0 or more points"):
+        roster.with_starters(80.0, -1.0)

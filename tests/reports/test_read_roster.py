@@ -1,0 +1,115 @@
+from contextlib import suppress
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from evenbreak.errors import DataError
+from evenbreak.ratings.roster import NOT_STATED
+from evenbreak.reports.read_roster import read_roster
+
+
+@pytest.fixture(scope="session")
+def read(tmp_path_factory):
+    path = tmp_path_factory.mktemp("roster") / "roster.csv"
+
+    def read_text(text):
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return read_roster(path)
+
+    return read_text
+
+
+def problems_of(read, text):
+    with pytest.raises(DataError) as caught:
+        read(text)
+    return [problem.partition("roster.csv")[2] for problem in caught.value.problems]
+
+
+def test_all_columns(read):
+    file = read("player,rating,standard_error,games,component\nAnn,92.5,9,140,1\n\nBo,,,0,2\n")
+    roster = file.roster
+    assert roster.players == ("Ann", "Bo")
+    assert roster.rating[0] == 92.5
+    assert np.isnan(roster.rating[1])
+    assert roster.standard_error[0] == 9.0
+    assert np.isnan(roster.standard_error[1])
+    assert roster.games.tolist() == [140, 0]
+    assert roster.component.tolist() == [1, 2]
+    assert file.lines.tolist() == [2, 4]
+    assert file.warnings == ()
+
+
+def test_two_columns_suffice(read):
+    roster = read("Name;Skill level\nAnn;5\nBo;4\n").roster
+    assert roster.rating.tolist() == [5.0, 4.0]
+    assert roster.games.tolist() == [NOT_STATED, NOT_STATED]
+
+
+def test_two_players_with_one_name_are_refused_with_their_lines(read):
+    text = "player,rating\nAnn Lee,92\nBo,71\n Ann  Lee ,85\nBo,70\n"
+    assert problems_of(read, text) == [
+        ":4: player 'Ann Lee' stands in line 2 already; delete one of the two, or tell two "
+        "players of one name apart, such as by a number",
+        ":5: player 'Bo' stands in line 3 already; delete one of the two, or tell two players "
+        "of one name apart, such as by a number",
+    ]
+
+
+def test_all_problems_at_once(read):
+    text = (
+        "player,rating,standard_error,games\n"
+        ",80,,\nAnn,six hundred,-1,1\nBo,1e9,x,-2\nCy,,,12\nDi,80,2000000,0\n"
+    )
+    told = problems_of(read, text)
+    assert [line.split(":")[1] for line in told] == ["2", "3", "3", "4", "4", "4", "5", "6"]
+    assert told[-2] == ":5: rating is empty after 12 games; write it, or 0 games if new"
+
+
+@pytest.mark.parametrize(
+    "name", ["Lee, Ann", 'Ann "Ace" Lee', "Ann\nLee", "שרה כהן", "🎱 Zoë", "=cmd()", "+1", "a;b"]
+)
+def test_names_of_all_kinds(read, name):
+    quoted = name.replace('"', '""')
+    file = read(f'player,rating\n"{quoted}",80\n')
+    assert file.roster.players == (" ".join(name.split()),)
+
+
+def test_similar_names_are_a_warning(read):
+    (warning,) = read("player,rating\nBo Petersen,80\nBo Peterson,71\n").warnings
+    assert "'Bo Petersen' and 'Bo Peterson' may be one player" in warning
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("player,rating\n", "has no players below its header"),
+        ("player\nAnn\n", "there is no column 'rating'"),
+        ("rating\n80\n81\n", "there is no column 'player'"),
+    ],
+)
+def test_nothing_to_read(read, text, problem):
+    (told,) = problems_of(read, text)
+    assert problem in told
+
+
+CELLS = st.sampled_from(["Ann", "Bo", "80", "", "9.5", "-3", "0", '"', "x", "1e400", "NaN"])
+ROWS = st.lists(st.lists(CELLS | st.text(max_size=4), min_size=3, max_size=5), max_size=6)
+
+
+@given(ROWS)
+def test_any_cells_are_read_or_refused(read, rows):
+    text = "player,rating,standard_error,games\n" + "\n".join(",".join(row) for row in rows)
+    try:
+        roster = read(text.encode("utf-8", "replace")).roster
+    except DataError:
+        return
+    assert len(set(roster.players)) == len(roster) > 0
+    assert not np.isinf(roster.rating).any()
+
+
+@given(st.binary(max_size=200))
+def test_any_bytes_are_read_or_refused(read, content):
+    with suppress(DataError):
+        read(b"player,rating\n" + content)
