@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from evenbreak.ratings.results import Results
 
-__all__ = ["Problem", "find_problems"]
+__all__ = ["Problem", "find_problems", "who_won"]
 
 Mask = NDArray[np.bool_]
 _Finding = tuple[Mask, str, Callable[[int], str]]
@@ -139,8 +139,16 @@ def _beyond(results: Results, column: str, row: int) -> str:
     )
 
 
-def _who_won(results: Results) -> NDArray[np.int8]:
-    """Return 1 or 2 where the scores and races say who won, else 0."""
+def who_won(results: Results) -> NDArray[np.int8]:
+    """Return 1 or 2 where the scores and races say who won, else 0.
+
+    Without a race it is who won more games; of forfeits and 0-0 nobody won.
+
+    >>> season = Results.from_names(["Ann"] * 2, ["Bo"] * 2, [4, 4], [3, 3], race_a=[5, 0],
+    ...                             race_b=[3, 0])
+    >>> who_won(season)
+    array([2, 1], dtype=int8)
+    """
     race_a, race_b = _stated_races(results)
     reached_a, reached_b = results.score_a >= race_a, results.score_b >= race_b
     raced = (race_a > 0) & (race_b > 0)
@@ -155,7 +163,7 @@ def _winners(results: Results) -> Iterator[_Finding]:
     """Find stated winners who did not reach the race, or have no more games without one."""
     if results.winner is None:
         return
-    stated, won = results.winner, _who_won(results)
+    stated, won = results.winner, who_won(results)
     race_a, race_b = _stated_races(results)
 
     def message(row: int) -> str:
@@ -213,7 +221,7 @@ def _racks(results: Results) -> Iterator[_Finding]:
         ),
     )
     race_a, race_b = _stated_races(results)
-    won = np.where((race_a > 0) & (race_b > 0), _who_won(results), 0)
+    won = np.where((race_a > 0) & (race_b > 0), who_won(results), 0)
     yield (
         stated & ~other & adds_up & (won > 0) & (won != last),
         "racks",
