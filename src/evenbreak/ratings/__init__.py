@@ -17,6 +17,7 @@ __getattr__, __dir__, __all__ = attach(
         "fit": ["Ratings", "fit"],
         "prior": ["PriorChoice", "best_prior"],
         "race_likelihood": ["RaceSlopes", "race_slopes"],
+        "validate": ["Validation", "validate"],
         "walk_forward": ["Forecasts", "walk_forward"],
     },
 )

@@ -12,5 +12,7 @@ from evenbreak.ratings.roster import Roster as Roster
 from evenbreak.ratings.scale import SCALES as SCALES
 from evenbreak.ratings.scale import Scale as Scale
 from evenbreak.ratings.scale import scale_of as scale_of
+from evenbreak.ratings.validate import Validation as Validation
+from evenbreak.ratings.validate import validate as validate
 from evenbreak.ratings.walk_forward import Forecasts as Forecasts
 from evenbreak.ratings.walk_forward import walk_forward as walk_forward

@@ -1,8 +1,9 @@
 """The posterior of a league that grows day by day: refitted from where it stood before.
 
 The model is that of `evenbreak.ratings.posterior`. From one day to the next little
-changes, so a Newton step or two from yesterday's mode finds today's; each Newton system
-is solved by a dense Cholesky factorisation, or in a large league by conjugate gradients.
+changes, so a few Newton steps from yesterday's mode find today's. Newton systems, and the
+variances of today's differences, are solved by conjugate gradients: no slower than a
+factorisation here, and no threads that wait for each other.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
-from scipy.linalg import cho_factor, cho_solve
 from scipy.special import expit
 
 from evenbreak.errors import AccuracyError
@@ -24,10 +24,9 @@ __all__ = ["GrowingLeague"]
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-MOST_DENSE = 1_000
-"""Players up to which a Newton system is solved by a dense factorisation."""
+GRADIENT = 1e-6
+"""What the gradient comes down to, in games, times τ where that is below 1."""
 
-_GRADIENT = 1e-8
 _MOST_STEPS = 200
 _ROUNDING = 1e-14
 
@@ -84,7 +83,7 @@ class GrowingLeague:
     def _find_mode(self) -> None:
         # H >= τI, so a gradient g leaves the skills within |g|/τ of the mode.
         tolerance = max(
-            _GRADIENT * min(1.0, self._precision), _ROUNDING * float(self._ends(self._games).max())
+            GRADIENT * min(1.0, self._precision), _ROUNDING * float(self._ends(self._games).max())
         )
         for _ in range(_MOST_STEPS):
             p_low = expit(self.skill[self._low] - self.skill[self._high])
@@ -114,13 +113,6 @@ class GrowingLeague:
         """Return what solves Hx = b, H the Laplacian of `weight` plus τI."""
         players = len(self.skill)
         diagonal = self._ends(weight) + self._precision
-        if players <= MOST_DENSE:
-            matrix = np.zeros((players, players))
-            # Both triangles: the factorisation then needs no copy in another order.
-            matrix[self._low, self._high] = matrix[self._high, self._low] = -weight
-            np.fill_diagonal(matrix, diagonal)
-            factor = cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
-            return lambda right: np.asarray(cho_solve(factor, right, check_finite=False))
         seen = weight > 0.0
         low, high = self._low[seen], self._high[seen]
         upper = sparse.csr_array((-weight[seen], (low, high)), shape=(players, players))
@@ -136,9 +128,11 @@ def _conjugate_gradients(matrix: Any, diagonal: Floats, right: Floats) -> Floats
     solution = np.zeros_like(residual)
     direction = residual.copy()
     square = (residual**2).sum(0)
-    # Variances and Newton steps are quadratic in what the solution is off by.
+    # A variance is off by the square of what its solution is off by.
     enough = 1e-12 * square
-    while (square > enough).any():
+    for _ in range(2 * len(diagonal) + 100):
+        if (square <= enough).all():
+            break
         image = scale * (matrix @ (scale * direction))
         curvature = (direction * image).sum(0)
         length = np.divide(square, curvature, out=np.zeros_like(square), where=curvature > 0)

@@ -1,0 +1,223 @@
+"""How good predictions were: losses with bootstrap intervals, calibration and its slope.
+
+A prediction is p, the chance of a side to win a game (or a match), for `games` games of
+which it won `won`. In a race the games are not independent of their number, but w - p n
+still has mean zero and w log p + (n - w) log(1 - p) is still the log-likelihood: a race
+stops at a time that does not look ahead.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import expit, ndtri, xlog1py, xlogy
+
+__all__ = [
+    "CONFIDENCE",
+    "CalibrationBin",
+    "Estimate",
+    "bootstrap_ratio",
+    "brier",
+    "calibration",
+    "log_loss",
+    "logistic_coefficient",
+]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+CONFIDENCE = 0.95
+"""How sure all intervals are to cover."""
+
+REPLICAS = 2_000
+"""Samples of a bootstrap."""
+
+_Z = float(ndtri(0.5 + CONFIDENCE / 2))
+
+
+class Estimate(NamedTuple):
+    """A figure with its 95 % interval.
+
+    Parameters
+    ----------
+    value
+        the figure.
+    low, high
+        the ends of the interval.
+    """
+
+    value: float
+    low: float
+    high: float
+
+
+class CalibrationBin(NamedTuple):
+    """Predictions of about the same chance for the favourite, and how often he won.
+
+    Parameters
+    ----------
+    p_from, p_to
+        the span of the favourite's chances, its upper end included in the last bin only.
+    matches, games
+        how many matches, and the games in them (or matches again, where matches are
+        predicted).
+    predicted
+        the mean chance, games counting alike.
+    seen
+        the part of them that the favourite won.
+    low, high
+        its 95 % interval (Wilson's, for as many independent games as they are worth).
+    """
+
+    p_from: float
+    p_to: float
+    matches: int
+    games: int
+    predicted: float
+    seen: float
+    low: float
+    high: float
+
+
+def log_loss(p: Floats, won: Floats, games: Floats) -> Floats:
+    """Return the log-loss of each match, in nats, summed over its games.
+
+    >>> log_loss(np.array([0.5]), np.array([2.0]), np.array([3.0])).round(3)
+    array([2.079])
+    """
+    return np.asarray(-xlogy(won, p) - xlog1py(games - won, -p))
+
+
+def brier(p: Floats, won: Floats, games: Floats) -> Floats:
+    """Return the squared error of each match, summed over its games.
+
+    >>> brier(np.array([0.5]), np.array([2.0]), np.array([3.0]))
+    array([0.75])
+    """
+    return won * (1.0 - p) ** 2 + (games - won) * p**2
+
+
+def bootstrap_ratio(
+    above: Floats, below: Floats, cluster: Ints, rng: np.random.Generator
+) -> Estimate:
+    """Return sum(above) / sum(below) with its percentile interval, clusters drawn anew.
+
+    Parameters
+    ----------
+    above, below
+        what each match adds.
+    cluster
+        the number of each match's cluster, from 0 on: those of one are drawn together.
+    rng
+        draws them.
+    """
+    many = int(cluster.max()) + 1
+    sums = np.column_stack([np.bincount(cluster, part, many) for part in (above, below)])
+    drawn = rng.multinomial(many, np.full(many, 1.0 / many), size=REPLICAS) @ sums
+    drawn = drawn[drawn[:, 1] > 0.0]
+    ratio = drawn[:, 0] / drawn[:, 1]
+    low, high = np.quantile(ratio, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])
+    return Estimate(float(above.sum() / below.sum()), float(low), float(high))
+
+
+def logistic_coefficient(
+    x: Floats, won: Floats, games: Floats, cluster: Ints, *, offset: Floats | float = 0.0
+) -> Estimate | None:
+    """Return b where P(win) = 1 / (1 + exp(-(offset + b x))) fits best, with its interval.
+
+    With x the predicted log-odds, b is the calibration slope: 1 is right, below it the
+    predictions were too sure of themselves. With x = 1 or -1, b is an advantage in log-odds.
+
+    Parameters
+    ----------
+    x, won, games, offset
+        a row a match (or a game).
+    cluster
+        rows of one cluster may depend on each other: the standard error is the sandwich's.
+
+    Returns
+    -------
+    Estimate or None
+        None where the rows do not determine b: x is 0 throughout, or a side won all.
+
+    Notes
+    -----
+    Cox (1958), "Two further applications of a model for binary regression"; Liang & Zeger
+    (1986) for the standard error.
+    """
+    b = 0.0
+    for _ in range(100):
+        p = expit(offset + b * x)
+        slope = float((x * (won - games * p)).sum())
+        curvature = float((games * p * (1.0 - p) * x * x).sum())
+        if curvature < 1e-9:
+            return None
+        # A long step may leap over the maximum; a short one only takes longer.
+        step = max(-1.0, min(1.0, slope / curvature))
+        b += step
+        if abs(step) < 1e-12 * max(1.0, abs(b)):
+            break
+    else:
+        return None
+    p = expit(offset + b * x)
+    scores = np.bincount(cluster, x * (won - games * p))
+    many = int(np.count_nonzero(np.bincount(cluster)))
+    if many < 2:
+        return None
+    error = math.sqrt(float((scores**2).sum()) * many / (many - 1)) / curvature
+    return Estimate(b, b - _Z * error, b + _Z * error)
+
+
+def calibration(
+    p: Floats, won: Floats, games: Floats, *, bins: int = 10, worth: float = 1.0
+) -> list[CalibrationBin]:
+    """Return how often favourites won, by their predicted chance from 0.5 to 1.
+
+    Matches in which neither is the favourite, p = 0.5 exactly, say nothing and are left out.
+
+    Parameters
+    ----------
+    p, won, games
+        the predictions, a row a match.
+    bins
+        how many spans of equal width.
+    worth
+        independent games that a game is worth: below 1 where the games of a match vary
+        together.
+
+    >>> rows = calibration(np.array([0.62, 0.39]), np.array([7.0, 3.0]), np.array([12.0, 10.0]))
+    >>> [(r.p_from, r.games, round(r.predicted, 3), round(r.seen, 3)) for r in rows]
+    [(0.6, 22, 0.615, 0.636)]
+    """
+    a_leads = p > 0.5
+    chance = np.where(a_leads, p, 1.0 - p)
+    wins = np.where(a_leads, won, games - won)
+    edges = np.linspace(0.5, 1.0, bins + 1)
+    place = np.minimum(np.searchsorted(edges, chance, side="right") - 1, bins - 1)
+    found = []
+    for k in range(bins):
+        rows = (place == k) & (p != 0.5) & (games > 0)
+        n = float(games[rows].sum())
+        if n == 0.0:
+            continue
+        seen = float(wins[rows].sum()) / n
+        low, high = wilson(seen, n * worth)
+        predicted = float((chance[rows] * games[rows]).sum()) / n
+        first, last = round(float(edges[k]), 6), round(float(edges[k + 1]), 6)
+        matches = int(rows.sum())
+        found.append(CalibrationBin(first, last, matches, round(n), predicted, seen, low, high))
+    return found
+
+
+def wilson(share: float, n: float) -> tuple[float, float]:
+    """Return Wilson's 95 % interval for a chance of which `share` of n tries came true.
+
+    >>> [round(end, 3) for end in wilson(0.5, 10)]
+    [0.237, 0.763]
+    """
+    middle = (share + _Z**2 / (2.0 * n)) / (1.0 + _Z**2 / n)
+    half = _Z * math.sqrt(share * (1.0 - share) / n + _Z**2 / (4.0 * n * n)) / (1.0 + _Z**2 / n)
+    return max(0.0, middle - half), min(1.0, middle + half)
