@@ -2,7 +2,8 @@
 
 `fair` finds the races that come nearest to a chance that was asked for, `chart` looks races
 up by rating difference, `level_chart` by skill levels, `ladder` says how far ratings wander
-that each match moves by a point.
+that each match moves by a point; a system of `systems` moves a list's ratings, `moves` by how
+much after a night.
 """
 
 from evenbreak._lazy import attach
@@ -17,5 +18,7 @@ __getattr__, __dir__, __all__ = attach(
         "ladder": ["LadderLaw", "RatingLadder", "autocorrelated_ladder", "natural_ladder"],
         "level_audit": ["LevelAudit", "LevelCell", "audit_levels"],
         "level_chart": ["LEVEL_CHARTS", "LevelChart", "level_chart"],
+        "moves": ["MatchMove", "Moves", "apply_results", "night_problems"],
+        "systems": ["SYSTEMS", "System", "system_of"],
     },
 )

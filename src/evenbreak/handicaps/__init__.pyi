@@ -20,3 +20,10 @@ from evenbreak.handicaps.level_audit import audit_levels as audit_levels
 from evenbreak.handicaps.level_chart import LEVEL_CHARTS as LEVEL_CHARTS
 from evenbreak.handicaps.level_chart import LevelChart as LevelChart
 from evenbreak.handicaps.level_chart import level_chart as level_chart
+from evenbreak.handicaps.moves import MatchMove as MatchMove
+from evenbreak.handicaps.moves import Moves as Moves
+from evenbreak.handicaps.moves import apply_results as apply_results
+from evenbreak.handicaps.moves import night_problems as night_problems
+from evenbreak.handicaps.systems import SYSTEMS as SYSTEMS
+from evenbreak.handicaps.systems import System as System
+from evenbreak.handicaps.systems import system_of as system_of
