@@ -132,3 +132,59 @@ def test_no_two_columns_share_a_name():
 
 def test_clean_names():
     assert clean_name("\u00a0Zoe\u0308 \t Kestleman\n") == "Zoë Kestleman"
+
+
+def test_empty_scores_are_taken_from_the_racks(read_row):
+    results = read_row(score_a="", score_b="", racks="abba")
+    assert (results.score_a.tolist(), results.score_b.tolist()) == ([2], [2])
+    assert results.unscored is None
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read(content):
+        path = tmp_path / "r.csv"
+        path.write_text(content, encoding="utf-8")
+        return read_results(path).results
+
+    return read
+
+
+def test_scores_are_not_needed_where_race_and_winner_are_there(read):
+    results = read("player_a,player_b,race_a,race_b,winner\nAnn,Bo,7,5,Bo\nBo,Cy,3,3,a\n")
+    assert results.unscored.tolist() == [True, True]
+    assert results.winner.tolist() == [2, 1]
+    assert len(results.won_only()) == 2
+    assert results.played()[1:] == (0, 0)
+
+
+def test_racks_alone_are_enough(read):
+    results = read("player_a,player_b,racks\nAnn,Bo,aab\n")
+    assert (results.score_a.tolist(), results.score_b.tolist()) == ([2], [1])
+
+
+def test_some_matches_may_be_known_by_their_winner_alone(read):
+    results = read(
+        "player_a,player_b,score_a,score_b,race_a,race_b,winner,forfeit\n"
+        "Ann,Bo,7,3,7,5,,\n"
+        "Bo,Cy,,,7,5,b,\n"
+        "Bo,Cy,,,7,5,b,yes\n"
+        "Bo,Cy,0,0,7,5,b,\n"
+    )
+    assert results.unscored.tolist() == [False, True, False, False]
+    assert results.played()[1:] == (1, 1)
+
+
+@pytest.mark.parametrize(
+    "row",
+    ["Ann,Bo,,,7,5,", "Ann,Bo,,,7,,a", "Ann,Bo,,,,,a", "Ann,Bo,7,,7,5,a", "Ann,Bo,,5,7,5,b"],
+)
+def test_an_empty_score_that_nothing_stands_in_for_is_told(read, row):
+    with pytest.raises(DataError, match=r":2: score_[ab] is empty; .*race_a, race_b and winner"):
+        read(f"player_a,player_b,score_a,score_b,race_a,race_b,winner\n{row}\n")
+
+
+def test_a_missing_score_column_is_told_where_nothing_stands_in_for_it(read):
+    with pytest.raises(DataError, match="there is no column 'score_a'") as caught:
+        read("player_a,player_b,race_a,race_b\nAnn,Bo,7,5\n")
+    assert len(caught.value.problems) == 2

@@ -76,7 +76,7 @@ def race_slopes(difference: ArrayLike, m: ArrayLike, n: ArrayLike) -> RaceSlopes
     density = m * log_expit(d) + n * log_expit(-d) - betaln(m, n)
     far = win < _FAR
     with np.errstate(divide="ignore"):
-        log_win = np.log(win)
+        log_win = np.where(win < 0.5, np.log(win), np.log1p(-betainc(n, m, q)))
     if far.any():
         log_win = np.where(far, density + _log_tail(m, n, np.where(far, p, 0.0)), log_win)
     slope: Any = np.exp(density - log_win)

@@ -200,5 +200,5 @@ class Results:
         """Return the matches of which only the race and the winner are known, without forfeits."""
         if self.unscored is None:
             return self.select(np.zeros(0, dtype=np.int64))
-        given_away = False if self.forfeit is None else self.forfeit
-        return self.select(self.unscored & ~given_away)
+        known = self.unscored if self.forfeit is None else self.unscored & ~self.forfeit
+        return self.select(known)

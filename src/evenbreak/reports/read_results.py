@@ -11,7 +11,13 @@ import numpy as np
 from evenbreak.ratings.results import Results
 from evenbreak.reports.problems import quoted
 from evenbreak.reports.read_table import Table, read_table
-from evenbreak.reports.results_columns import OPTIONAL, REQUIRED, ResultsColumns
+from evenbreak.reports.results_columns import (
+    INSTEAD,
+    OPTIONAL,
+    REQUIRED,
+    ResultsColumns,
+    lacks_columns,
+)
 from evenbreak.reports.similar_names import similar_names
 
 __all__ = ["ResultsFile", "read_results"]
@@ -51,7 +57,8 @@ def read_results(path: str | Path) -> ResultsFile:
     Encoding, separator and header are read as `evenbreak.reports.read_table` says; the
     columns are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double
     blanks inside, and are put into Unicode's form NFC. `winner` and `first_break` are
-    a, b or the name of one of the two. A forfeit may leave its scores empty.
+    a, b or the name of one of the two. A forfeit may leave its scores empty; so may a
+    match whose racks are given, or of which only the race and the winner are known.
 
     Raises
     ------
@@ -66,11 +73,11 @@ def read_results(path: str | Path) -> ResultsFile:
     >>> season.results.players, season.results.score_b
     (('Ann', 'Bo'), array([7]))
     """
-    table = read_table(path, REQUIRED, OPTIONAL)
+    table = read_table(path, REQUIRED, OPTIONAL, INSTEAD)
     if not len(table) and not len(table.problems):
         table.problems.add(None, "has no matches below its header; write one line for each")
     columns = ResultsColumns(table)
-    if any(name not in table for name in REQUIRED):
+    if lacks_columns(table):
         table.problems.raise_any()
     results = columns.checked()
     table.problems.raise_any()

@@ -12,7 +12,7 @@ import io
 import re
 from array import array
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, compress, count
 from operator import itemgetter
@@ -102,6 +102,7 @@ def read_table(
     path: str | Path,
     required: Mapping[str, Sequence[str]],
     optional: Mapping[str, Sequence[str]] | None = None,
+    instead: Mapping[str, Sequence[Collection[str]]] | None = None,
 ) -> Table:
     r"""Read a CSV file as columns of text.
 
@@ -117,6 +118,8 @@ def read_table(
         the file; '-' is standard input.
     required, optional
         for each column its other names.
+    instead
+        for a required column the sets of columns of which one may take its place.
 
     Returns
     -------
@@ -155,7 +158,11 @@ def read_table(
     header_line, header = lines[0], rows[0]
     chunks = chain([(lines[1:], rows[1:])], chunks)
     places, unused = _places(header, header_line, names, problems)
-    missing = [name for name in required if name not in places]
+    others_do = {
+        name: any(places.keys() >= set(group) for group in groups)
+        for name, groups in (instead or {}).items()
+    }
+    missing = [name for name in required if name not in places and not others_do.get(name)]
     for name in missing:
         others = " or ".join(map(quoted, required[name][:3]))
         problems.add(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections import defaultdict
+from functools import partial
 from itertools import count
 from typing import Any
 
@@ -16,7 +17,7 @@ from evenbreak.reports.cells import Values, dates, read_cells, whole_numbers
 from evenbreak.reports.problems import quoted
 from evenbreak.reports.read_table import Table
 
-__all__ = ["OPTIONAL", "REQUIRED", "ResultsColumns", "clean_name"]
+__all__ = ["INSTEAD", "OPTIONAL", "REQUIRED", "ResultsColumns", "clean_name", "lacks_columns"]
 
 NAMES = ("player_a", "player_b")
 
@@ -40,6 +41,9 @@ OPTIONAL = {
     "forfeit": ("walkover", "forfeited", "no show", "w/o"),
 }
 """The columns that a results file may have, with their other names."""
+
+INSTEAD = dict.fromkeys(("score_a", "score_b"), (("race_a", "race_b", "winner"), ("racks",)))
+"""What may be there in place of a score: who won which race, or who won each rack."""
 
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 _FORFEIT = {
@@ -74,7 +78,6 @@ class ResultsColumns:
             self._keep("forfeit", self._words("forfeit", _FORFEIT, "yes or no", False))
         for name in ("score_a", "score_b"):
             self._keep(name, whole_numbers(self.table, name, at_least=0, may_be_empty=True))
-            self._refuse_empty_score(name)
         for name in ("race_a", "race_b"):
             if name in self.table:
                 remedy = "write 1, 2, 3, ..., or leave both races empty"
@@ -92,6 +95,7 @@ class ResultsColumns:
                 distinct, codes = self.table.texts(name)
                 meaning = _racks if name == "racks" else _plain
                 self.values[name] = np.array([*map(meaning, distinct)], dtype=object)[codes]
+        self._settle_empty_scores()
 
     def checked(self) -> Results:
         """Return the rows that could be read, their contradictions noted as problems."""
@@ -163,20 +167,28 @@ class ResultsColumns:
         del words[""], words["breaks"]
         return self._words("break_format", words, "winner, loser, alternate, a or b", 0)
 
-    def _refuse_empty_score(self, name: str) -> None:
-        if name not in self.table:
-            return
+    def _settle_empty_scores(self) -> None:
+        """Take empty scores from the racks, or as unknown where race and winner are stated."""
+        given_away = self.values.get("forfeit", np.zeros(len(self.table), dtype=bool))
+        empty = {name: self._is_empty(name) & ~given_away for name in ("score_a", "score_b")}
+        both = empty["score_a"] & empty["score_b"]
+        by_rack = both & ~self._is_empty("racks")
+        racks = self.table.texts("racks")
+        for name, letter in (("score_a", "a"), ("score_b", "b")):
+            count = np.array([_racks(text).count(letter) for text in racks.distinct])
+            self.values[name] = np.where(by_rack, count[racks.codes], self.values[name])
+        unscored = both & ~by_rack
+        for name in ("race_a", "race_b", "winner"):
+            unscored &= self.values.get(name, np.zeros(len(self.table))) > 0
+        if unscored.any():
+            self.values["unscored"] = unscored
+        for name, cells in empty.items():
+            if not _missing(self.table, name):  # else the missing column has been told
+                self._refuse(cells & ~by_rack & ~unscored, partial(_empty_score, name))
+
+    def _is_empty(self, name: str) -> NDArray[np.bool_]:
         distinct, codes = self.table.texts(name)
-        empty = np.array([not text for text in distinct], dtype=bool)[codes]
-        if "forfeit" in self.values:
-            empty &= ~self.values["forfeit"]
-        self._refuse(
-            empty,
-            lambda _: (
-                f"{name} is empty; write the games won, or mark a forfeit, or leave out a "
-                "match that was not played"
-            ),
-        )
+        return np.array([not text for text in distinct], dtype=bool)[codes]
 
     def _sides(self, name: str) -> Values:
         """Read a column that names one of the two players, as a, b or by name."""
@@ -212,6 +224,23 @@ class ResultsColumns:
     def _refuse(self, bad: NDArray[np.bool_], message: Any) -> None:
         self.table.problems.add_rows(self.table.lines, np.flatnonzero(bad), message)
         self.good &= ~bad
+
+
+def lacks_columns(table: Table) -> bool:
+    """Return whether a column is missing without which nothing can be made of a table."""
+    return any(_missing(table, name) for name in REQUIRED)
+
+
+def _missing(table: Table, name: str) -> bool:
+    others_do = any(all(other in table for other in group) for group in INSTEAD.get(name, ()))
+    return name not in table and not others_do
+
+
+def _empty_score(name: str, _: int) -> str:
+    return (
+        f"{name} is empty; write the games won, or race_a, race_b and winner if no more is known, "
+        "or mark a forfeit, or leave out a match that was not played"
+    )
 
 
 def clean_name(text: str) -> str:

@@ -1,0 +1,137 @@
+"""Anchors, and the uncertainty of differences, against the whole inverse."""
+
+import math
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.ratings import Results, fit
+from evenbreak.ratings import covariance as covariance_module
+
+NAMES = tuple("ABCDEFGH")
+
+
+def league(rng, matches=40, players=8):
+    a = rng.integers(0, players, matches)
+    b = (a + rng.integers(1, players, matches)) % players
+    names = NAMES if players == 8 else tuple(f"p{k:04d}" for k in range(players))
+    form = rng.integers(4, 6, matches)  # a or b breaks throughout
+    won, lost = rng.integers(0, 8, matches), rng.integers(0, 8, matches)
+    return Results(names, a, b, won, lost, break_format=form)
+
+
+def whole_covariance(results, ratings, breaks):
+    """Return the inverse of the dense Hessian, game by game, in squared points."""
+    n = len(results.players)
+    log_odds = math.log(2) / ratings.scale.points_per_doubling
+    skill, advantage = ratings.rating * log_odds, (ratings.break_advantage or 0) * log_odds
+    hessian = np.diag([ratings.prior_sd**-2] * n + [math.log(2) ** -2])
+    for a, b, won, lost, form in zip(
+        results.player_a,
+        results.player_b,
+        results.score_a,
+        results.score_b,
+        results.break_format,
+        strict=True,
+    ):
+        row = np.zeros(n + 1)
+        row[[a, b, n]] = 1, -1, (1 if form == 4 else -1) if breaks else 0
+        p = 1 / (1 + math.exp(-(row @ np.append(skill, advantage))))
+        hessian += (won + lost) * p * (1 - p) * np.outer(row, row)
+    return np.linalg.inv(hessian) / log_odds**2
+
+
+@pytest.mark.parametrize("breaks", [None, "fit"])
+def test_covariances_are_those_of_the_whole_inverse(breaks):
+    results = league(np.random.default_rng(1))
+    ratings = fit(results, break_advantage=breaks)
+    whole = whole_covariance(results, ratings, breaks)
+    np.testing.assert_allclose(ratings.standard_error, np.sqrt(np.diagonal(whole)[:8]), rtol=1e-9)
+    np.testing.assert_allclose(ratings.covariance(NAMES), whole[:8, :8], rtol=1e-9)
+    for i, j in ((0, 1), (3, 7), (5, 5)):
+        expected = math.sqrt(max(whole[i, i] + whole[j, j] - 2 * whole[i, j], 0))
+        got = ratings.difference_error(NAMES[i], NAMES[j])
+        assert got == pytest.approx(expected, rel=1e-9, abs=1e-6)
+    if breaks:
+        assert ratings.break_error == pytest.approx(math.sqrt(whole[8, 8]), rel=1e-9)
+
+
+@pytest.mark.parametrize("breaks", [None, "fit"])
+def test_large_leagues_are_iterated_for(monkeypatch, breaks):
+    results = league(np.random.default_rng(2), 400, 60)
+    exact = fit(results, break_advantage=breaks)
+    errors = [exact.difference_error("p0000", f"p{k:04d}") for k in range(1, 60)]
+    monkeypatch.setattr(covariance_module, "_DENSE_UP_TO", 10)
+    iterated = fit(results, break_advantage=breaks)
+    again = [iterated.difference_error("p0000", f"p{k:04d}") for k in range(1, 60)]
+    np.testing.assert_allclose(again, errors, rtol=1e-8)
+    if breaks:
+        assert iterated.break_error == pytest.approx(exact.break_error, rel=1e-8)
+
+
+def test_a_difference_is_surer_than_two_ratings_alone():
+    ratings = fit(league(np.random.default_rng(3), 60))
+    error = ratings.difference_error("A", "B")
+    assert error < math.hypot(*ratings.standard_error[:2])
+
+
+def test_a_named_player_stands_where_he_is_put():
+    results = league(np.random.default_rng(4))
+    plain, named = fit(results), fit(results, anchor={"C": 95})
+    assert named.rating[2] == pytest.approx(95, abs=1e-12)
+    np.testing.assert_allclose(
+        named.rating - named.rating[2], plain.rating - plain.rating[2], atol=1e-10
+    )
+    assert named.standard_error[2] == pytest.approx(0, abs=1e-5)
+    for k in (0, 5):
+        expected = plain.difference_error(NAMES[k], "C")
+        assert named.standard_error[k] == pytest.approx(expected, rel=1e-9)
+        assert named.difference_error(NAMES[k], "C") == pytest.approx(expected, rel=1e-9)
+
+
+def test_several_named_players_have_their_ratings_on_average():
+    results = league(np.random.default_rng(5))
+    anchors = {"A": 60.0, "D": 120.0, "E": 90.0}
+    ratings = fit(results, anchor=anchors)
+    at = [0, 3, 4]
+    assert ratings.rating[at].mean() == pytest.approx(90)
+    assert ratings.named == tuple(anchors.items())
+    whole = ratings.covariance(NAMES)
+    np.testing.assert_allclose(np.sqrt(np.diagonal(whole)), ratings.standard_error, rtol=1e-7)
+    # The mean of the three is certain, so that their covariances with anybody cancel.
+    np.testing.assert_allclose(whole[at].sum(axis=0), 0, atol=1e-8)
+
+
+def test_a_component_without_a_named_player_stays_at_the_centre():
+    results = Results.from_names(["A", "C"], ["B", "D"], [7, 7], [2, 3])
+    plain, named = fit(results), fit(results, anchor={"A": 200})
+    assert named.rating[0] == pytest.approx(200)
+    assert (named.rating[2:] == plain.rating[2:]).all()
+    assert (named.standard_error[2:] == plain.standard_error[2:]).all()
+
+
+@pytest.mark.parametrize(
+    ("anchor", "words"),
+    [
+        ({"X": 80}, "'X' is not among the players"),
+        ({"A": math.nan}, "anchor of 'A' is nan"),
+        ({"A": "high"}, "anchor of 'A' is 'high'"),
+        ("high", "anchor is 'high'"),
+    ],
+)
+def test_wrong_anchors_are_refused(anchor, words):
+    with pytest.raises(InputError, match=words):
+        fit(league(np.random.default_rng(6)), anchor=anchor)
+
+
+def test_players_who_never_met_have_no_difference():
+    ratings = fit(Results.from_names(["A", "C"], ["B", "D"], [7, 7], [2, 3]))
+    with pytest.raises(InputError, match="not connected"):
+        ratings.difference_error("A", "C")
+
+
+@pytest.mark.parametrize("value", ["yes", math.nan, math.inf])
+def test_a_break_advantage_is_points_or_fit(value):
+    with pytest.raises(InputError, match="break_advantage"):
+        fit(league(np.random.default_rng(7)), break_advantage=value)

@@ -1,0 +1,106 @@
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.ratings import Results, best_prior, fit
+from evenbreak.ratings.prior import WIDTHS
+from evenbreak.reports.read_results import read_results
+
+SEASON = Path(__file__).parents[3] / "shared" / "data" / "snooker_2016_17_results.csv"
+
+
+def season(spread, rng, players=30, days=40, a_day=12):
+    skill = rng.normal(0, spread, players)
+    matches = days * a_day
+    a = rng.integers(0, players, matches)
+    b = (a + rng.integers(1, players, matches)) % players
+    won = rng.binomial(9, 1 / (1 + np.exp(skill[b] - skill[a])))
+    date = np.datetime64("2026-01-01") + np.repeat(np.arange(days), a_day)
+    names = tuple(f"p{k:02d}" for k in range(players))
+    return Results(names, a, b, won, 9 - won, date=date)
+
+
+@pytest.mark.parametrize("spread", [0.2, 0.7, 2.0])
+def test_the_width_is_near_the_one_that_skills_were_drawn_with(spread):
+    choice = best_prior(season(spread, np.random.default_rng(1)))
+    assert spread / 2 < choice.prior_sd < spread * 2
+    assert choice.log_loss[choice.tried.index(choice.prior_sd)] == min(choice.log_loss)
+
+
+def test_the_loss_is_that_of_predicting_day_by_day():
+    results = season(0.7, np.random.default_rng(2), players=5, days=3, a_day=4)
+    choice = best_prior(results, widths=[0.5])
+    total = 0.0
+    for day in range(1, 3):
+        before = fit(results.select(np.arange(4 * day)), prior_sd=0.5, scale="fargo")
+        for k in range(4 * day, 4 * day + 4):
+            a, b = results.player_a[k], results.player_b[k]
+            d = (before.rating[a] - before.rating[b]) * math.log(2) / 100
+            total += results.score_a[k] * math.log1p(math.exp(-d))
+            total += results.score_b[k] * math.log1p(math.exp(d))
+    assert choice.predicted == 72
+    assert choice.log_loss == pytest.approx([total / 72])
+
+
+def test_who_wins_races_is_predicted_too():
+    none = [0] * 6
+    results = Results.from_names(
+        ["A"] * 6,
+        ["B"] * 6,
+        none,
+        none,
+        race_a=[3] * 6,
+        race_b=[2] * 6,
+        winner=[1] * 6,
+        unscored=[True] * 6,
+        date=[f"2026-01-0{k}" for k in range(1, 7)],
+    )
+    choice = best_prior(results)
+    assert choice.predicted == 5
+    assert choice.prior_sd == max(WIDTHS)  # who always wins is best rated as high as may be
+    assert list(choice.tried) == sorted(WIDTHS)
+
+
+def test_decay_enters_the_choice():
+    results = season(0.7, np.random.default_rng(3), days=12)
+    with_age, without = best_prior(results, half_life=5), best_prior(results)
+    assert with_age.log_loss != without.log_loss
+
+
+@pytest.mark.parametrize(
+    ("dates", "words"),
+    [
+        (None, "2 of 2 matches have no date"),
+        (["2026-01-01", "NaT"], "1 of 2 matches have no date"),
+        (["2026-01-01"] * 2, "no two days"),
+    ],
+)
+def test_days_are_needed(dates, words):
+    results = Results.from_names(["A", "A"], ["B", "B"], [7, 7], [5, 5], date=dates)
+    with pytest.raises(InputError, match=words):
+        best_prior(results)
+
+
+def test_forfeits_need_no_day():
+    results = Results.from_names(
+        ["A"] * 3,
+        ["B"] * 3,
+        [7, 7, 0],
+        [5, 5, 0],
+        date=["2026-01-01", "2026-01-02", "NaT"],
+        forfeit=[False, False, True],
+    )
+    assert best_prior(results).predicted == 12
+
+
+@pytest.mark.skipif(not SEASON.exists(), reason="the season's results are not beside this checkout")
+def test_a_real_season():
+    choice = best_prior(read_results(SEASON).results)
+    assert choice.prior_sd == pytest.approx(math.log(2) / 2)
+    loss = dict(zip(choice.tried, choice.log_loss, strict=True))
+    # A prior that says next to nothing predicts worse than no ratings at all (ln 2).
+    assert min(loss.values()) == pytest.approx(0.67798, abs=1e-5)
+    assert min(loss.values()) < math.log(2) < max(loss.values())
