@@ -20,5 +20,6 @@ __getattr__, __dir__, __all__ = attach(
         "level_chart": ["LEVEL_CHARTS", "LevelChart", "level_chart"],
         "moves": ["MatchMove", "Moves", "apply_results", "night_problems"],
         "systems": ["SYSTEMS", "System", "system_of"],
+        "uncertain": ["fairest_races", "length_given_ratings", "win_given_ratings"],
     },
 )

@@ -27,3 +27,6 @@ from evenbreak.handicaps.moves import night_problems as night_problems
 from evenbreak.handicaps.systems import SYSTEMS as SYSTEMS
 from evenbreak.handicaps.systems import System as System
 from evenbreak.handicaps.systems import system_of as system_of
+from evenbreak.handicaps.uncertain import fairest_races as fairest_races
+from evenbreak.handicaps.uncertain import length_given_ratings as length_given_ratings
+from evenbreak.handicaps.uncertain import win_given_ratings as win_given_ratings
