@@ -1,3 +1,4 @@
+import time
 from dataclasses import FrozenInstanceError
 from fractions import Fraction
 from math import comb
@@ -117,3 +118,44 @@ def test_rows_that_make_no_chart_are_refused(rows, message):
 def test_an_unknown_chart_lists_the_known(name):
     with pytest.raises(InputError, match="give one of fargo_r6_hot, npl_8, npl_10"):
         chart(name)
+
+
+@pytest.mark.parametrize("name", CHARTS)
+def test_many_races_at_once_are_those_one_by_one(name):
+    differences = np.arange(-250, 251).reshape(3, 167)
+    m, n = chart(name).races(differences)
+    assert m.shape == n.shape == (3, 167)
+    assert list(zip(m.ravel().tolist(), n.ravel().tolist(), strict=True)) == [
+        chart(name).race(difference) for difference in range(-250, 251)
+    ]
+
+
+def test_a_million_lookups_take_no_time():
+    differences = np.random.default_rng(1).integers(-200, 201, size=1_000_000)
+    before = time.perf_counter()
+    m, n = chart("npl_20").races(differences)
+    assert time.perf_counter() - before < 1.0
+    assert (m[differences > 2] > n[differences > 2]).all()
+
+
+@pytest.mark.parametrize("differences", [7, 7.0, np.int8(7), [7], np.array([7], dtype=np.uint8)])
+def test_whole_differences_of_any_type_and_shape(differences):
+    m, n = chart("npl_8").races(differences)
+    assert m.shape == n.shape == np.shape(differences)
+    assert (m == 4).all()
+    assert (n == 3).all()
+
+
+def test_the_greatest_differences_that_numpy_holds():
+    ends = np.array([np.iinfo(np.int64).min, np.iinfo(np.int64).max])
+    m, n = chart("npl_8").races(ends)
+    assert (m.tolist(), n.tolist()) == ([2, 6], [6, 2])
+    assert [a.tolist() for a in chart("npl_8").races([])] == [[], []]
+
+
+@pytest.mark.parametrize(
+    "differences", [[0, 5.5], [np.nan], [np.inf], 5.5, "7", ["7"], None, [True], [[1], [1, 2]]]
+)
+def test_no_whole_points_in_an_array_are_refused_with_the_remedy(differences):
+    with pytest.raises(InputError, match=r"give whole points \(round the ratings"):
+        chart("npl_8").races(differences)

@@ -158,8 +158,8 @@ def audit(chart: Chart | ChartDraft, *, scale: Any = None) -> ChartAudit:
     best = _best_fit(even, cuts)
     if scale is None and best is None:
         raise InputError(
-            f"scale is None, and the cuts of chart {chart.name!r} do not tell one; give npl, "
-            "fargo, elo, or the points that double the odds"
+            f"scale is missing, and chart {chart.name!r} does not tell one; give npl, fargo, "
+            "elo, or the points that double the odds"
         )
     used = scale_of(best.points_per_doubling if best and scale is None else scale)
     return ChartAudit(

@@ -152,8 +152,11 @@ def _whole_points(difference: Any) -> int:
 
 
 def _array_of_points(differences: ArrayLike) -> NDArray[np.float64]:
-    array = np.asarray(differences)
-    points = array.astype(float) if array.dtype.kind in "iuf" else np.array(np.nan)
+    try:
+        array = np.asarray(differences)
+        points = array.astype(float) if array.dtype.kind in "iuf" else np.array(np.nan)
+    except ValueError:  # rows of different lengths
+        points = np.array(np.nan)
     wrong = ~(np.isfinite(points) & (points == np.floor(points)))
     if wrong.any():
         held = f"hold {points[wrong].flat[0]:g}" if points.ndim else f"are {differences!r}"

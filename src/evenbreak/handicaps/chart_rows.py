@@ -88,6 +88,6 @@ def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
     if last.difference_to is not None:
         yield (
             len(rows) - 1,
-            f"the last row ends at {last.difference_to}; leave its end empty (None), for all "
-            "differences above",
+            f"the last row ends at {last.difference_to}; leave its end empty (None): it is for all "
+            "differences above too",
         )

@@ -123,9 +123,13 @@ class LevelChart:
             ) from None
 
     def _places(self, levels: ArrayLike, name: str) -> NDArray[np.int64]:
-        array = np.asarray(levels)
         known = np.array(self.levels)
-        if array.dtype.kind not in "iuf":
+        try:
+            array = np.asarray(levels)
+            numbers = array.dtype.kind in "iuf"
+        except ValueError:  # rows of different lengths
+            numbers = False
+        if not numbers:
             raise InputError(f"{name} is {levels!r}; {self._remedy}")
         place = np.minimum(np.searchsorted(known, array), len(known) - 1)
         wrong = known[place] != array

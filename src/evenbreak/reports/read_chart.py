@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from evenbreak.errors import DataError
 from evenbreak.handicaps.chart import CHARTS, Chart, chart
-from evenbreak.handicaps.chart_rows import ChartRow, row_faults
+from evenbreak.handicaps.chart_rows import ChartDraft, ChartRow, row_faults
 from evenbreak.handicaps.level_chart import LEVEL_CHARTS, LevelChart, level_chart
 from evenbreak.reports.cells import whole_numbers
 from evenbreak.reports.problems import Problems, quoted
@@ -40,8 +41,8 @@ DIFFERENCES = {
 LEVELS = {
     "level": ("skill level", "own level", "level a"),
     "opponent_level": ("opponent", "opponent skill level", "level b"),
-    "needs": ("games", "own games", "race a"),
-    "opponent_needs": ("opponent games", "race b"),
+    "needs": ("games", "own games"),
+    "opponent_needs": ("opponent games",),
 }
 """The columns of a chart of skill levels, with their other names; the last may be missing."""
 
@@ -55,21 +56,15 @@ class ChartFile:
 
     Parameters
     ----------
-    name
-        what the chart is called: the file's name without its ending.
-    rows
-        the rows of a chart of rating differences as they stand, none in one of skill levels.
-    levels
-        the chart of skill levels, if the file holds one.
+    found
+        the rows of a chart of rating differences as they stand, or a chart of skill levels.
     problems
-        what keeps the rows from being a chart: gaps and overlaps among them.
+        what keeps those rows from being a chart: gaps and overlaps among them.
     warnings
         what a person should look at although the file can be used, a line each.
     """
 
-    name: str
-    rows: tuple[ChartRow, ...]
-    levels: LevelChart | None
+    found: ChartDraft | LevelChart
     problems: tuple[str, ...]
     warnings: tuple[str, ...]
 
@@ -78,7 +73,7 @@ class ChartFile:
         """The chart; a DataError with all problems where there is none."""
         if self.problems:
             raise DataError(self.problems)
-        return self.levels or Chart(self.name, self.rows)
+        return self.found if isinstance(self.found, LevelChart) else Chart(*self.found)
 
 
 def read_chart_file(path: str | Path) -> ChartFile:
@@ -88,35 +83,47 @@ def read_chart_file(path: str | Path) -> ChartFile:
     ------
     DataError
         where the file says nothing that could be audited: missing columns, cells that are no
-        whole numbers; skill levels that make no chart.
+        whole numbers, rows that end before they begin; skill levels that make no chart.
     """
     table = read_table(path, {}, {**DIFFERENCES, **LEVELS})
     name = "chart" if str(path) == "-" else Path(path).stem
     by_level = sum(column in table for column in LEVELS) > sum(
         column in table for column in DIFFERENCES
     )
-    needed = dict(list(LEVELS.items())[:3]) if by_level else DIFFERENCES
-    whole = len(table.problems) == 0
-    missing = [column for column in needed if column not in table]
-    for column in missing:
-        also = " or ".join(map(quoted, needed[column]))
-        table.problems.add(
-            1, f"there is no column {column!r}; add it (it may also be called {also})"
-        )
-    if whole and not missing and not len(table):
-        table.problems.add(None, "holds no rows of a chart; write one a line below the header")
+    _check_columns(table, dict(list(LEVELS.items())[:3]) if by_level else DIFFERENCES)
     if by_level:
-        levels = _levels(table, name)
-        return ChartFile(name, (), levels, (), table.warnings)
+        return ChartFile(_levels(table, name), (), table.warnings)
     rows = _rows(table)
     table.problems.raise_any()
     faults = Problems(table.source)
     for place, fault in row_faults(rows):
         faults.add(int(table.lines[place]), fault)
-    return ChartFile(name, rows, None, _told(faults), table.warnings)
+    if any(row.difference_to is not None and row.difference_to < row[0] for row in rows):
+        faults.raise_any()
+    return ChartFile(ChartDraft(name, rows), _told(faults), table.warnings)
+
+
+def _check_columns(table: Table, needed: Mapping[str, Sequence[str]]) -> None:
+    """Note the columns that are missing, or that there are no rows."""
+    missing = [column for column in needed if column not in table]
+    if not table.columns:
+        table.problems.add(
+            None,
+            "has no column of a chart; name the columns "
+            f"{', '.join(DIFFERENCES)}, or {', '.join(LEVELS)}",
+        )
+        table.problems.raise_any()
+    for column in missing:
+        also = " or ".join(map(quoted, needed[column]))
+        table.problems.add(
+            None, f"there is no column {column!r}; add it (it may also be called {also})"
+        )
+    if not len(table.problems) and not len(table):
+        table.problems.add(None, "holds no rows of a chart; write one a line below the header")
 
 
 def _told(problems: Problems) -> tuple[str, ...]:
+    """Return the problems, a line each."""
     try:
         problems.raise_any()
     except DataError as error:
@@ -251,9 +258,9 @@ def find_chart_file(name_or_path: str | Path) -> ChartFile:
     """Return the chart of the package that has this name, or else what this file says of one."""
     key = re.sub(r"[-\s]+", "_", str(name_or_path).strip().lower())
     if key in CHARTS:
-        return ChartFile(key, tuple(chart(key).rows), None, (), ())
+        return ChartFile(ChartDraft(key, tuple(chart(key).rows)), (), ())
     if key in LEVEL_CHARTS:
-        return ChartFile(key, (), level_chart(key), (), ())
+        return ChartFile(level_chart(key), (), ())
     try:
         return read_chart_file(name_or_path)
     except DataError as error:
