@@ -2,6 +2,9 @@ from evenbreak.matches.crossings import Crossing as Crossing
 from evenbreak.matches.crossings import Crossings as Crossings
 from evenbreak.matches.crossings import crossings as crossings
 from evenbreak.matches.crossings import even_probability as even_probability
+from evenbreak.matches.evening import Evening as Evening
+from evenbreak.matches.evening import Length as Length
+from evenbreak.matches.evening import evening as evening
 from evenbreak.matches.formats import MatchFormat as MatchFormat
 from evenbreak.matches.formats import match_format as match_format
 from evenbreak.matches.length import MatchLength as MatchLength

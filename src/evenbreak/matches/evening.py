@@ -1,0 +1,241 @@
+"""When an evening of matches ends: several tables, a list of matches, chance lengths.
+
+Whenever a table is free, the first match of the list of which neither player is at another
+table begins there. Lengths are independent of each other.
+
+With one table the end is the sum of all lengths, a convolution. With several, and nobody on
+the list twice, the state after each match is when each table gets free, in the order of
+those times: the law of the end is exact while these states are few. Otherwise the evening is
+played out many times by pseudo-random numbers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.matches.quantiles import quantile_of
+
+__all__ = ["Evening", "Length", "evening"]
+
+Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+_MOST_MOVES = 1_000_000  # states times lengths of one exact step
+_WORK = 200_000_000  # matches times matches times runs that are played out
+_FEWEST_RUNS, _MOST_RUNS = 1_000, 50_000
+_MOST_MATCHES = 1_000
+_LONGEST = 100_000  # games of a match
+
+
+class Length(NamedTuple):
+    """The law of one match's length: P(it takes games[k] games) = probability[k]."""
+
+    games: ArrayLike
+    probability: ArrayLike
+
+
+@dataclass(frozen=True)
+class Evening:
+    """When the last match ends, in games: the time that one game takes is the unit.
+
+    Parameters
+    ----------
+    mean, sd
+        mean and standard deviation of the end.
+    p90
+        the smallest time by which all is over with chance .9.
+    runs
+        how many evenings were played out; 0 where the answer is exact.
+    mean_error, p90_error
+        the standard errors of `mean` and `p90` from playing out; 0 where exact.
+    """
+
+    mean: float
+    sd: float
+    p90: int
+    runs: int
+    mean_error: float
+    p90_error: float
+
+    @property
+    def exact(self) -> bool:
+        """Whether the answer is exact, without pseudo-random numbers."""
+        return self.runs == 0
+
+
+def evening(
+    lengths: Sequence[Length],
+    *,
+    tables: int = 1,
+    players: Sequence[tuple[Hashable, Hashable]] | None = None,
+    rng: np.random.Generator | None = None,
+    runs: int | None = None,
+) -> Evening:
+    """Return when an evening of matches ends.
+
+    Parameters
+    ----------
+    lengths
+        the law of each match's length in games, in the order of the list.
+    tables
+        how many tables there are.
+    players
+        the two players of each match, so that nobody plays twice at once; None: no player is
+        on the list twice.
+    rng
+        where pseudo-random numbers come from, if there is need of them; None: a generator
+        with the seed 0.
+    runs
+        how often the evening is played out; None: exact where that is quick, otherwise
+        50,000 times, fewer for more than some sixty matches.
+
+    Raises
+    ------
+    InputError
+        if there is no match, a length is no law, `tables` is not a whole number above 0,
+        `players` has not just one pair of two different players for each match, or more than
+        a thousand matches would have to be played out.
+
+    >>> coin = Length([1, 2], [0.5, 0.5])
+    >>> evening([coin] * 4).p90, evening([coin] * 4).mean, evening([coin] * 4, tables=2).mean
+    (7, 6.0, 3.375)
+    """
+    laws = [_law(length, f"length {k}") for k, length in enumerate(lengths, 1)]
+    if not laws:
+        raise InputError("lengths is empty; give one for each match")
+    tables = min(whole(tables, "tables", at_least=1), len(laws))
+    pairs = _numbered(players, len(laws))
+    if runs is None:
+        end = None
+        if tables == 1:
+            end = _one_table(laws)
+        elif len(np.unique(pairs)) == pairs.size:
+            end = _several_tables(laws, tables)
+        if end is not None:
+            return _exact(end)
+    return _played_out(laws, tables, pairs, rng or np.random.default_rng(0), runs)
+
+
+def _law(length: Length, name: str) -> Floats:
+    """Return P(the match takes k games) for k = 0, 1, ..."""
+    games, probability = (np.asarray(part) for part in length)
+    right = games.ndim == 1 and games.shape == probability.shape and games.size > 0
+    if not right or games.dtype.kind not in "iu" or probability.dtype.kind not in "iuf":
+        raise InputError(f"{name} is no law; give games, whole numbers, and a chance for each")
+    if games.min() < 0 or games.max() > _LONGEST:
+        raise InputError(f"{name} has games outside 0 to {_LONGEST:,}; give numbers of games")
+    if not (probability >= 0).all() or abs(probability.sum() - 1.0) > 1e-6:
+        raise InputError(f"{name} has chances that do not sum to 1; give probabilities")
+    law = np.bincount(games, probability)
+    total: Floats = law / law.sum()
+    return total
+
+
+def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int) -> Ints:
+    """Return the players of each match as numbers, shape (matches, 2)."""
+    if players is None:
+        return np.arange(2 * matches).reshape(matches, 2)
+    if len(players) != matches:
+        raise InputError(
+            f"players has {len(players)} pairs for {matches} matches; give one for each"
+        )
+    number: dict[Hashable, int] = {}
+    for one, other in players:
+        if one == other:
+            raise InputError(f"players has {one!r} against himself; give two players")
+    return np.array(
+        [[number.setdefault(player, len(number)) for player in pair] for pair in players]
+    )
+
+
+def _one_table(laws: list[Floats]) -> Floats:
+    end = np.ones(1)
+    for law in laws:
+        end = np.convolve(end, law)
+    return end
+
+
+def _several_tables(laws: list[Floats], tables: int) -> Floats | None:
+    """Return the law of the end where no player plays twice; None if that takes too many states.
+
+    A state is when each table gets free, in ascending order; the next match begins at the
+    first of these times.
+    """
+    base = sum(len(law) for law in laws)
+    if tables * math.log2(base) > 62:
+        return None
+    place = base ** np.arange(tables - 1, -1, -1)
+    states = np.zeros((1, tables), dtype=np.int64)
+    chances: Floats = np.ones(1)
+    for law in laws:
+        games = np.flatnonzero(law)
+        if len(states) * len(games) > _MOST_MOVES:
+            return None
+        after = np.repeat(states, len(games), axis=0)
+        after[:, 0] += np.tile(games, len(states))
+        after.sort(axis=1)
+        key, first, back = np.unique(after @ place, return_index=True, return_inverse=True)
+        arriving: Floats = np.outer(chances, law[games]).ravel()
+        chances = np.bincount(back, arriving, len(key)).astype(float)
+        states = after[first]
+    end: Floats = np.bincount(states[:, -1], chances).astype(float)
+    return end
+
+
+def _exact(end: Floats) -> Evening:
+    times = np.arange(len(end))
+    mean = float(times @ end)
+    sd = math.sqrt(float((times - mean) ** 2 @ end))
+    p90 = quantile_of(end.tolist(), 0.9)
+    return Evening(mean, sd, int(p90 or 0), 0, 0.0, 0.0)
+
+
+def _played_out(
+    laws: list[Floats], tables: int, pairs: Ints, rng: np.random.Generator, runs: int | None
+) -> Evening:
+    matches = len(laws)
+    if matches > _MOST_MATCHES:
+        raise InputError(f"lengths has {matches:,} matches; give {_MOST_MATCHES:,} at most")
+    if runs is None:
+        runs = min(_MOST_RUNS, max(_FEWEST_RUNS, _WORK // matches**2))
+    runs = whole(runs, "runs", at_least=2)
+    lengths = np.empty((runs, matches), dtype=np.int64)
+    for k, law in enumerate(laws):
+        lengths[:, k] = np.searchsorted(np.cumsum(law)[:-1], rng.random(runs), side="right")
+    end = np.sort(_ends(lengths, tables, pairs))
+    sd = float(end.std(ddof=1))
+    # The order statistics a standard deviation of the rank to either side of the quantile.
+    rank, spread = 0.9 * runs, math.sqrt(0.09 * runs)
+    low, mid, high = (
+        int(end[min(runs - 1, max(0, math.ceil(rank + k * spread) - 1))]) for k in (-1, 0, 1)
+    )
+    return Evening(float(end.mean()), sd, mid, runs, sd / math.sqrt(runs), (high - low) / 2.0)
+
+
+def _ends(lengths: Ints, tables: int, pairs: Ints) -> Ints:
+    """Return when each evening ends, given the length of each match in it."""
+    runs, matches = lengths.shape
+    row = np.arange(runs)
+    table_free = np.zeros((runs, tables), dtype=np.int64)
+    ready = np.zeros((runs, matches), dtype=np.int64)  # when both players of a match are free
+    never = np.iinfo(np.int64).max // 2
+    shared = (pairs[:, None, :, None] == pairs[None, :, None, :]).any(axis=(2, 3))
+    for _ in range(matches):
+        table = table_free.argmin(axis=1)
+        free = table_free[row, table]
+        # Of the matches that can begin first, the first of the list.
+        match = np.maximum(ready, free[:, None]).argmin(axis=1)
+        done = np.maximum(ready[row, match], free) + lengths[row, match]
+        table_free[row, table] = done
+        np.maximum(ready, np.where(shared[match], done[:, None], 0), out=ready)
+        ready[row, match] = never
+    ends: Ints = table_free.max(axis=1)
+    return ends
