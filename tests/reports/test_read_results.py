@@ -148,6 +148,47 @@ def test_of_many_similar_names_twenty_groups_are_listed(read):
     assert warnings[-1].endswith("and 6 more groups of similar names")
 
 
+@pytest.fixture
+def aliases(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("name,means\nBobby,Bob Smith\nJo,Joan\nNobody,Joan\n", encoding="utf-8")
+    return path
+
+
+def test_aliases_mend_names_wherever_they_stand(tmp_path, aliases):
+    path = tmp_path / "r.csv"
+    path.write_text(
+        f"{HEADER},winner,first_break\n2024-09-03,Bobby,Joan,7,5,bobby,Jo\n"
+        "2024-09-04, Jo ,Bob  Smith,7,5,Joan,Bobby\n"
+    )
+    file = read_results(path, aliases=aliases)
+    assert file.results.players == ("Bob Smith", "Joan")
+    assert list(file.results.player_a) == [0, 1]
+    assert (list(file.results.winner), list(file.results.first_break)) == ([1, 1], [2, 2])
+    assert list(file.lines) == [2, 3]
+    assert file.similar_names == ()
+    assert file.warnings[-1] == (
+        f"{path}: read as {aliases} says: 'Bobby' as 'Bob Smith', 'Jo' as 'Joan'"
+    )
+
+
+def test_two_names_of_one_player_do_not_play_each_other(tmp_path, aliases):
+    path = tmp_path / "r.csv"
+    path.write_text(f"{HEADER}\n2024-09-03,Bobby,Bob Smith,7,5\n")
+    with pytest.raises(DataError, match=r"r\.csv:2: 'Bob Smith' plays against"):
+        read_results(path, aliases=aliases)
+
+
+def test_what_is_wrong_with_the_aliases_is_told(tmp_path):
+    with pytest.raises(DataError, match="there is no such file"):
+        read_results(tmp_path / "r.csv", aliases=tmp_path / "none.csv")
+
+
+def test_names_that_were_kept_from_being_formulas_are_read_as_they_were(read):
+    file = read(f"{HEADER}\n2024-09-03,'=cmd(),\"'t Hooft\",7,5\n2024-09-04,=cmd(),Bo,7,5\n")
+    assert file.results.players == ("'t Hooft", "=cmd()", "Bo")
+
+
 @given(st.binary(max_size=300))
 def test_any_bytes_are_read_or_refused(tmp_path_factory, content):
     path = tmp_path_factory.getbasetemp() / "any_results.csv"

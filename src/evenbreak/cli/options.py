@@ -24,6 +24,7 @@ __all__ = [
     "refuse_both",
     "score",
     "span",
+    "wants_aliases",
     "wants_json",
     "which_races",
 ]
@@ -116,6 +117,14 @@ def chance(ctx: click.Context, param: click.Parameter, value: str | None) -> flo
 def refuse(message: str) -> NoReturn:
     """End the command as wrongly used; the message says how to mend it."""
     raise click.UsageError(message, ctx=click.get_current_context(silent=True))
+
+
+wants_aliases = click.option(
+    "--aliases",
+    metavar="ALIASES.csv",
+    help="Which names mean whom: a file with the columns name and means.",
+)
+"""The option --aliases of every command that reads results."""
 
 
 wants_json = click.option(

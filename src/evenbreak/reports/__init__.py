@@ -22,6 +22,7 @@ __getattr__, __dir__, __all__ = attach(
             "p5_6_tables",
             "published_numbers",
         ],
+        "read_aliases": ["AliasesFile", "read_aliases"],
         "read_arcs": ["ArcsFile", "read_arcs"],
         "read_chart": ["chart_frame", "find_chart", "read_chart"],
         "read_drill_log": ["DrillLogFile", "read_drill_log"],

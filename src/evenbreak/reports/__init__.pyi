@@ -15,6 +15,8 @@ from evenbreak.reports.published import errata as errata
 from evenbreak.reports.published import further_numbers as further_numbers
 from evenbreak.reports.published import p5_6_tables as p5_6_tables
 from evenbreak.reports.published import published_numbers as published_numbers
+from evenbreak.reports.read_aliases import AliasesFile as AliasesFile
+from evenbreak.reports.read_aliases import read_aliases as read_aliases
 from evenbreak.reports.read_arcs import ArcsFile as ArcsFile
 from evenbreak.reports.read_arcs import read_arcs as read_arcs
 from evenbreak.reports.read_chart import chart_frame as chart_frame

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from evenbreak.ratings.results import Results
 from evenbreak.reports.problems import quoted
+from evenbreak.reports.read_aliases import AliasesFile, read_aliases
 from evenbreak.reports.read_table import Table, read_table
 from evenbreak.reports.results_columns import (
     INSTEAD,
@@ -19,6 +21,9 @@ from evenbreak.reports.results_columns import (
     lacks_columns,
 )
 from evenbreak.reports.similar_names import similar_names
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 __all__ = ["ResultsFile", "read_results"]
 
@@ -42,6 +47,8 @@ class ResultsFile:
         groups of names that may mean one player.
     sha256
         fingerprint of the bytes that were read.
+    lines
+        the line in which each match begins; empty where the matches came from no file.
     """
 
     results: Results
@@ -49,9 +56,10 @@ class ResultsFile:
     warnings: tuple[str, ...]
     similar_names: tuple[tuple[str, ...], ...]
     sha256: str
+    lines: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
 
-def read_results(path: str | Path) -> ResultsFile:
+def read_results(path: str | Path, *, aliases: str | Path | None = None) -> ResultsFile:
     r"""Read match results from a CSV file; '-' is standard input.
 
     Encoding, separator and header are read as `evenbreak.reports.read_table` says; the
@@ -60,10 +68,18 @@ def read_results(path: str | Path) -> ResultsFile:
     a, b or the name of one of the two. A forfeit may leave its scores empty; so may a
     match whose racks are given, or of which only the race and the winner are known.
 
+    Parameters
+    ----------
+    path
+        the file.
+    aliases
+        a file that says which names mean whom (see `evenbreak.reports.read_aliases`).
+
     Raises
     ------
     DataError
-        with every problem of the file, a line each, if there is any.
+        with every problem of the file, a line each, if there is any; before that with
+        those of the file of aliases.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -73,23 +89,35 @@ def read_results(path: str | Path) -> ResultsFile:
     >>> season.results.players, season.results.score_b
     (('Ann', 'Bo'), array([7]))
     """
+    told = None if aliases is None else read_aliases(aliases)
     table = read_table(path, REQUIRED, OPTIONAL, INSTEAD)
     if not len(table) and not len(table.problems):
         table.problems.add(None, "has no matches below its header; write one line for each")
-    columns = ResultsColumns(table)
+    columns = ResultsColumns(table, None if told is None else told.means)
     if lacks_columns(table):
         table.problems.raise_any()
     results = columns.checked()
     table.problems.raise_any()
     groups = tuple(similar_names(results.players, _met(results)))
     warnings = [
+        *(() if told is None else told.warnings),
         *table.warnings,
         *_repeated_rows(table),
         *columns.merged_names(),
+        *_read_as(columns.aliases_met(), table.source, told),
         *_warnings(groups, table.source),
     ]
     sha256 = hashlib.sha256(table.content).hexdigest()
-    return ResultsFile(results, table.source, tuple(warnings), groups, sha256)
+    return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines)
+
+
+def _read_as(names: list[str], source: str, aliases: AliasesFile | None) -> list[str]:
+    """Return a warning that tells which names a file of aliases has changed."""
+    if aliases is None or not names:
+        return []
+    changed = [f"{quoted(name)} as {quoted(aliases.means[name])}" for name in names[:WARNED]]
+    more = [f"and {len(names) - WARNED:,} more"] if len(names) > WARNED else []
+    return [f"{source}: read as {aliases.source} says: {', '.join([*changed, *more])}"]
 
 
 def _repeated_rows(table: Table) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections import defaultdict
+from collections.abc import Mapping
 from functools import partial
 from itertools import count
 from typing import Any
@@ -16,6 +17,7 @@ from evenbreak.ratings.results import FORMATS, Results
 from evenbreak.reports.cells import Values, dates, read_cells, whole_numbers
 from evenbreak.reports.problems import quoted
 from evenbreak.reports.read_table import Table
+from evenbreak.reports.to_csv import FORMULA_STARTS
 
 __all__ = ["INSTEAD", "OPTIONAL", "REQUIRED", "ResultsColumns", "clean_name", "lacks_columns"]
 
@@ -52,6 +54,10 @@ _FORFEIT = {
 }
 
 
+DEFUSED = tuple(f"'{start}" for start in FORMULA_STARTS)
+"""How a name begins that was kept from being a formula."""
+
+
 class ResultsColumns:
     """The columns of a table on their way to becoming `Results`.
 
@@ -61,10 +67,13 @@ class ResultsColumns:
     ----------
     table
         what `evenbreak.reports.read_table` made of the file.
+    means
+        from a name that is written to the one that is meant.
     """
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: Table, means: Mapping[str, str] | None = None) -> None:
         self.table = table
+        self.means = means or {}
         self.numbers: defaultdict[str, int] = defaultdict(count().__next__)
         self.values: dict[str, NDArray[Any]] = {}
         self.good = np.ones(len(table), dtype=bool)
@@ -129,6 +138,16 @@ class ResultsColumns:
             if clean_name(text) not in ("", text) and clean_name(text) in written
         ]
 
+    def aliases_met(self) -> list[str]:
+        """Return the names in the file that mean another one, sorted."""
+        written = {text for column in NAMES for text in self.table.texts(column).distinct}
+        return sorted({clean_name(text) for text in written} & self.means.keys())
+
+    def _meant(self, text: str) -> str:
+        """Return the name of the player whom a cell means."""
+        clean = clean_name(text)
+        return self.means.get(clean, clean)
+
     def _keep(self, name: str, column: Values) -> None:
         self.values[name] = column.values
         self.good &= column.good
@@ -137,7 +156,7 @@ class ResultsColumns:
         def meaning(text: str) -> int | None:
             clean = clean_name(text)
             controls = any(unicodedata.category(letter) == "Cc" for letter in clean)
-            return None if controls else self.numbers[clean]
+            return None if controls else self.numbers[self._meant(text)]
 
         return read_cells(
             self.table,
@@ -193,11 +212,13 @@ class ResultsColumns:
     def _sides(self, name: str) -> Values:
         """Read a column that names one of the two players, as a, b or by name."""
         distinct, codes = self.table.texts(name)
-        folded = {player.casefold(): code for player, code in reversed(self.numbers.items())}
-        cleaned = [clean_name(text) for text in distinct]
-        exact = [self.numbers.get(text, -1) for text in cleaned]
+        folded = {
+            alias.casefold(): self.numbers.get(self._meant(alias), -1) for alias in self.means
+        }
+        folded |= {player.casefold(): code for player, code in reversed(self.numbers.items())}
+        exact = [self.numbers.get(self._meant(text), -1) for text in distinct]
         sides = [_SIDES.get(_letters(text), 0) for text in distinct]
-        loose = [folded.get(text.casefold(), -1) for text in cleaned]
+        loose = [folded.get(clean_name(text).casefold(), -1) for text in distinct]
         a, b = self.values["player_a"], self.values["player_b"]
 
         def side(named: list[int]) -> NDArray[np.int8]:
@@ -246,10 +267,14 @@ def _empty_score(name: str, _: int) -> str:
 def clean_name(text: str) -> str:
     r"""Return a name without blanks around and double blanks inside, in Unicode's form NFC.
 
-    >>> clean_name(" Zoe\u0308  Kestleman ")
-    'Zoë Kestleman'
+    The apostrophe that `evenbreak.reports.to_csv` puts before what a spreadsheet would run
+    as a formula is no part of the name.
+
+    >>> clean_name(" Zoe\u0308  Kestleman "), clean_name("'=cmd()")
+    ('Zoë Kestleman', '=cmd()')
     """
-    return " ".join(_plain(text).split())
+    clean = " ".join(_plain(text).split())
+    return clean[1:] if clean.startswith(DEFUSED) else clean
 
 
 def _plain(text: str) -> str:

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["text_cell", "to_csv"]
+__all__ = ["FORMULA_STARTS", "text_cell", "to_csv"]
 
 DECIMALS = 6
 FORMULA_STARTS = ("=", "+", "-", "@")
+"""What text begins with that a spreadsheet may run as a formula."""
 
 
 def to_csv(frame: pd.DataFrame, *, excel: bool = False) -> bytes:
