@@ -171,6 +171,47 @@ def test_excel_gets_its_marks(run, tmp_path):
         assert body.count(b"\r\n") == body.count(b"\n") > 10
 
 
+def test_a_page_and_a_workbook_are_made_when_asked_for(run, tmp_path):
+    pytest.importorskip("xlsxwriter", reason="writes workbooks")
+    words = ("report", "-", "--html", "--excel")
+    result = run(*words, "--out", str(tmp_path / "one"), stdin=SMALL)
+    assert result.exit_code == 0
+    assert "sheet.pdf, sheet.html, sheet.xlsx to " in result.stderr
+    made = content(tmp_path / "one")
+    assert sorted(made) == sorted([*FILES, "sheet.html", "sheet.xlsx"])
+    assert made["sheet.html"].startswith(b"<!doctype html>")
+    assert made["sheet.xlsx"].startswith(b"PK")
+    assert made["ratings.csv"].startswith(b"player,")
+    assert run(*words, "--out", str(tmp_path / "two"), stdin=SMALL).exit_code == 0
+    assert content(tmp_path / "two") == made
+
+
+def test_page_and_workbook_do_not_depend_on_the_order_of_hashes(tmp_path):
+    pytest.importorskip("xlsxwriter", reason="writes workbooks")
+    made = []
+    for seed in ("1", "2"):
+        words = ("report", str(DEMO), "--out", str(tmp_path / seed), "--html", "--excel")
+        subprocess.run(
+            [sys.executable, "-m", "evenbreak", *words],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
+        )
+        made.append(content(tmp_path / seed))
+    assert made[0] == made[1]
+
+
+def test_without_xlsxwriter_a_workbook_is_refused_before_any_work(run, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xlsxwriter", None)
+    result = run("report", "-", "--out", str(tmp_path / "sheet"), "--excel", stdin=SMALL)
+    assert result.exit_code == 2
+    assert result.stderr == (
+        "Error: a workbook needs XlsxWriter, which is not installed; install it with: "
+        "pip install XlsxWriter, or ask for CSV files\n"
+    )
+    assert not (tmp_path / "sheet").exists()
+
+
 def test_warnings_go_to_stderr(run, tmp_path):
     season = SMALL + "2024-09-24,ann,Bo,7,5\n"
     result = run("report", "-", "--out", str(tmp_path), stdin=season.replace("date", "when"))

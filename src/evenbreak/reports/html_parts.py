@@ -230,6 +230,9 @@ def chart_bands(limits: RaceLimits, scale: Scale, furthest: float) -> list[Band]
     def chance(step: int, needs: tuple[int, int]) -> float:
         return float(race_win_probability(scale.win_probability(step * unit), *needs))
 
+    # From one band to the next the stronger gives one game more, or the weaker gets one.
+    if race(0)[1] - race(last)[1] >= MOST_BANDS:
+        return []
     bands: list[Band] = []
     first, needs = 0, race(0)
     while first < last:
@@ -243,8 +246,6 @@ def chart_bands(limits: RaceLimits, scale: Scale, furthest: float) -> list[Band]
                 chance(after, needs),
             )
         )
-        if len(bands) > MOST_BANDS:
-            return []
         first, needs = after, race(after)
     return bands
 
@@ -264,16 +265,19 @@ def _first_other(race: Any, first: int, last: int, needs: tuple[int, int]) -> in
 def sure_pairs(ratings: Ratings, paired: pd.DataFrame) -> list[SurePair]:
     """Return the pairs with a race, the best known first.
 
-    The standard error of a difference is that of two independent ratings. Ratings of one
-    league go up and down together, so that it is that large at most.
+    The errors of two ratings of one league are in part the same and cancel: the standard
+    error of a difference is less than theirs make one believe.
     """
-    place = {name: k for k, name in enumerate(ratings.players)}
+    names = sorted({*paired["player_a"], *paired["player_b"]})
+    covariance = ratings.covariance(names)
+    row = {name: k for k, name in enumerate(names)}
+    rating = dict(zip(ratings.players, ratings.rating.tolist(), strict=True))
     found = []
     rows: Any = paired.dropna(subset=["race_a"]).itertuples(index=False)
     for pair in rows:
-        a, b = place[pair.player_a], place[pair.player_b]
-        difference = float(ratings.rating[a] - ratings.rating[b])
-        error = math.hypot(ratings.standard_error[a], ratings.standard_error[b])
+        a, b = row[pair.player_a], row[pair.player_b]
+        difference = rating[pair.player_a] - rating[pair.player_b]
+        error = math.sqrt(covariance[a, a] + covariance[b, b] - 2 * covariance[a, b])
         low, p_win, high = (
             float(race_win_probability(ratings.scale.win_probability(d), pair.race_a, pair.race_b))
             for d in (difference - 2 * error, difference, difference + 2 * error)
@@ -282,4 +286,5 @@ def sure_pairs(ratings: Ratings, paired: pd.DataFrame) -> list[SurePair]:
         found.append(
             SurePair(pair.player_a, pair.player_b, race, difference, error, p_win, low, high)
         )
+    # Rounded, so that the last bits do not decide.
     return sorted(found, key=lambda pair: round(pair.error / ratings.scale.points_per_doubling, 9))

@@ -51,7 +51,7 @@ def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale
     chances = [p for band in bands for p in (band.p_first, band.p_after)]
     chances += [pair.p_win for pair in pairs]
     away = max(0.2, *(abs(p - 0.5) for p in chances)) + 0.02
-    furthest = max([band.after for band in bands] + [pair.difference for pair in pairs])
+    furthest = max([band.after for band in bands] + [pair.difference for pair in pairs]) or 1.0
 
     def x(points: float) -> float:
         return round(_LEFT + (_RIGHT - _LEFT) * points / furthest, 2)

@@ -35,9 +35,11 @@ def how_sure(ratings: Ratings, pairs: Sequence[SurePair]) -> Iterator[str]:
     )
     if pairs:
         middle = pairs[(len(pairs) - 1) // 2]
+        whose = "For half of the pairs the" if len(pairs) > 1 else "The"
+        better = " or better" if len(pairs) > 1 else ""
         yield (
-            "For half of the pairs the difference of the two ratings is known to within "
-            f"{2 * middle.error:.{decimals}f} points (two standard errors) or better. So the "
+            f"{whose} difference of the two ratings is known to within "
+            f"{2 * middle.error:.{decimals}f} points (two standard errors){better}. So the "
             "chance of winning a race that is fair by the ratings may be another than they say:"
         )
 
@@ -54,10 +56,16 @@ def about_model(ratings: Ratings) -> str:
     """Return the model in a sentence or two, with the parameters that it was used with."""
     scale = ratings.scale
     prior = float(scale.points(ratings.prior_sd))
+    ages = "early and late matches of the file alike"
+    if ratings.half_life is not None:
+        ages = f"a match that is {ratings.half_life:g} days old counting half"
+    breaks = "whoever breaks"
+    if ratings.break_advantage is not None:
+        breaks = f"who breaks playing {ratings.break_advantage:.3g} points better"
     return (
         "Bradley\N{EN DASH}Terry on games: a player who is rated d points higher wins a game with "
         f"the chance 1/(1 + 2^(\N{MINUS SIGN}d/{scale.points_per_doubling:.6g})), every game "
-        "independent of the others, early and late matches of the file alike, whoever breaks. "
+        f"independent of the others, {ages}, {breaks}. "
         f"Before any result a player is rated {ratings.anchor:g} ± {prior:.4g} (normal prior, one "
         "standard deviation)."
     )
@@ -96,22 +104,22 @@ def left_out_and_why(
             f"{count_of(len(idle), 'player', 'players')} without a game: {_some(idle)}",
             "rated in the middle for want of knowledge",
         )
-    groups = count_groups(ratings)
-    if groups > 1:
-        yield LeftOut(
-            f"comparisons between {groups:,} groups of players",
-            "no chain of opponents links them; ratings compare only within a group",
-        )
     apart = int(paired["race_a"].isna().sum())
     if apart:
         yield LeftOut(
-            count_of(apart, "pair without a race", "pairs without a race"),
+            f"the races of {count_of(apart, 'pair', 'pairs')}",
             "no chain of opponents links the two players",
+        )
+    elif (groups := count_groups(ratings)) > 1:
+        yield LeftOut(
+            f"comparisons between {groups:,} groups of players",
+            "no chain of opponents links them; ratings compare only within a group",
         )
     yield from _not_shown(rated, paired, shown)
     for warning in file.warnings:
         # Where the file lay on somebody's disk is nobody else's business.
         told = warning.removeprefix(f"{file.source}:").lstrip()
+        told = f"line {told}" if told[:1].isdecimal() and ":" in told else told
         yield LeftOut(f"a warning on {file_name(file)}", told)
 
 

@@ -6,7 +6,6 @@ Needs XlsxWriter, which the extra `excel` brings along.
 from __future__ import annotations
 
 import datetime as dt
-import importlib.util
 import io
 import math
 from collections.abc import Mapping, Sequence
@@ -43,11 +42,18 @@ def check_workbook() -> None:
     InputError
         if XlsxWriter is not installed.
     """
-    if importlib.util.find_spec("xlsxwriter") is None:
+    _xlsxwriter()
+
+
+def _xlsxwriter() -> Any:
+    try:
+        import xlsxwriter  # type: ignore[import-untyped]
+    except ModuleNotFoundError as error:
         raise InputError(
             "a workbook needs XlsxWriter, which is not installed; install it with: "
             "pip install XlsxWriter, or ask for CSV files"
-        )
+        ) from error
+    return xlsxwriter
 
 
 def workbook_bytes(tables: Mapping[str, pd.DataFrame]) -> bytes:
@@ -72,7 +78,7 @@ def workbook_bytes(tables: Mapping[str, pd.DataFrame]) -> bytes:
     >>> workbook_bytes({"Ratings": pd.DataFrame({"player": ["Ann"], "rating": [80.0]})})[:2]
     b'PK'
     """
-    check_workbook()
+    xlsxwriter = _xlsxwriter()
     for name, table in tables.items():
         rows, columns = len(table) + 1, len(table.columns)
         if rows > MOST_ROWS or columns > MOST_COLUMNS:
@@ -80,8 +86,6 @@ def workbook_bytes(tables: Mapping[str, pd.DataFrame]) -> bytes:
                 f"sheet {name!r} would have {rows:,} rows and {columns:,} columns; a workbook "
                 f"holds {MOST_ROWS:,} and {MOST_COLUMNS:,}, so pair fewer players"
             )
-    import xlsxwriter  # type: ignore[import-untyped]
-
     out = io.BytesIO()
     # Cells are written with methods that guess nothing: no formula, link or date is made.
     with xlsxwriter.Workbook(out, {"in_memory": True}) as book:
