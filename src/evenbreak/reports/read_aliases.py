@@ -63,7 +63,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
     means: dict[str, str] = {}
     line_of: dict[str, int] = {}
     for name, meant, line in pairs:
-        if not name or not meant or name == meant:
+        if not name or not meant:
             continue
         if means.setdefault(name, meant) != meant:
             table.problems.add(
@@ -73,7 +73,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
             )
         line_of.setdefault(name, line)
     for name, meant in means.items():
-        if meant in means:
+        if name != meant and means.get(meant, meant) != meant:
             table.problems.add(
                 line_of[name],
                 f"{quoted(name)} means {quoted(meant)}, which means {quoted(means[meant])} in line "
@@ -81,6 +81,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
                 "each other",
             )
     table.problems.raise_any()
+    means = {name: meant for name, meant in means.items() if name != meant}
     return AliasesFile(means, table.source, table.warnings)
 
 
