@@ -15,9 +15,13 @@ __all__ = ["COMMANDS", "Program", "program"]
 
 COMMANDS = {
     "report": "Make the fair-race sheet of a league from its results file.",
+    "rate": "Rate players from their results, and say how sure each rating is.",
     "odds": "Answer what the chances of a match are, and how long it lasts.",
+    "live": "Tell the odds of a match under way, and what the next rack is worth.",
+    "compare": "Compare match formats: who gains by which, and where they cross.",
     "fair": "Find the race that is nearest to an even chance.",
     "chart": "List and show handicap charts, audit one, or design one.",
+    "validate": "Tell how far the ratings of a league can be trusted.",
     "oneball": "Answer who wins the one-ball game, and which shot is best.",
     "breaks": "Weigh break formats and stakes for two players, in the long run.",
     "runs": "Answer how long runs are, and what several innings bring.",

@@ -8,7 +8,7 @@ log-odds of the two matches are compared on a fine grid and every change of sign
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from functools import lru_cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -19,18 +19,19 @@ from scipy.special import expit
 from evenbreak.checks import number_probability, one_of
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
+from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack
 from evenbreak.matches.form_roots import form_roots, sign_at
 from evenbreak.matches.formats import MatchFormat, match_format
 from evenbreak.matches.win import win_probability
 from evenbreak.matches.win_forms import Form, degree_of, product, win_forms
 
-__all__ = ["Crossing", "Crossings", "crossings", "even_probability"]
+__all__ = ["Crossing", "Crossings", "crossings", "even_probability", "rack_along"]
 
 _HIGHEST_DEGREE = 500
 """Of a polynomial that is solved exactly; it would take seconds beyond."""
-_GRID = np.linspace(-14.0, 14.0, 2801)
-"""The log-odds of p1 on the grid: a hundredth apart, 0.0025 in the middle of p1."""
+_P1 = expit(np.linspace(-14.0, 14.0, 2801))
+"""The grid: a hundredth apart in the log-odds of p1, 0.0025 in the middle of p1."""
 _NOISE = 1e-10
 """A difference of log-odds that may be rounding."""
 
@@ -124,7 +125,7 @@ def even_probability(
     """
     line = _Line.of(p2, break_odds, breaks, first_breaker)
     match = _read(played)
-    if line.rack_of is Rack and degree_of(match) <= _HIGHEST_DEGREE:
+    if not line.break_matters and degree_of(match) <= _HIGHEST_DEGREE:
         one, two = win_forms(match)
         roots = form_roots([x - y for x, y in zip(one, two, strict=True)]) or []
     else:
@@ -167,7 +168,7 @@ def crossings(
     """
     line = _Line.of(p2, break_odds, breaks, first_breaker)
     one, two = _read(format_1), _read(format_2)
-    exact = line.rack_of is Rack and degree_of(one) + degree_of(two) <= _HIGHEST_DEGREE
+    exact = not line.break_matters and degree_of(one) + degree_of(two) <= _HIGHEST_DEGREE
     if exact:
         form = _difference(one, two)
         roots = form_roots(form)
@@ -183,6 +184,24 @@ def crossings(
     return Crossings(tuple(line.point(one, p1) for p1 in roots), better, exact)
 
 
+def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = None) -> Rack:
+    """Return the rack of the players whom `crossings` compares at p1, a number or an array.
+
+    >>> rack_along(0.6, break_odds=2.25)
+    Rack(p1=0.6, p2=0.6)
+    """
+    if p2 is not None:
+        if break_odds is not None:
+            raise InputError("p2 and break_odds cannot both stay as they are; leave one out")
+        return Rack(p1, number_probability(p2, "p2"))
+    if break_odds is None:
+        return Rack(p1)
+    if not 0.0 < break_odds < np.inf:
+        raise InputError(f"break_odds is {break_odds!r}; give a number above 0")
+    lost = break_odds * (1.0 - np.asarray(p1))
+    return Rack(p1, lost / (lost + p1))
+
+
 def _read(played: MatchFormat | str) -> MatchFormat:
     return played if isinstance(played, MatchFormat) else match_format(played)
 
@@ -195,9 +214,10 @@ def _difference(one: MatchFormat, two: MatchFormat) -> Form:
 
 
 class _Line(NamedTuple):
-    """The players that are compared: one for each p1."""
+    """The players that are compared: one pair for each p1."""
 
-    rack_of: Callable[[Any], Rack]
+    p2: float | None
+    break_odds: float | None
     breaks: BreakFormat | None
     first_breaker: int
 
@@ -210,30 +230,27 @@ class _Line(NamedTuple):
         first_breaker: int,
     ) -> _Line:
         one_of(first_breaker, "first_breaker", (1, 2))
-        if p2 is not None and break_odds is not None:
-            raise InputError("p2 and break_odds cannot both stay as they are; leave one out")
         if isinstance(breaks, str):
             if breaks not in BREAK_FORMATS:
                 known = ", ".join(BREAK_FORMATS)
                 raise InputError(f"breaks is {breaks!r}; give one of {known}")
             breaks = BREAK_FORMATS[breaks]
-        if p2 is not None:
-            fixed = number_probability(p2, "p2")
-            return cls(lambda p1: Rack(p1, fixed), breaks, first_breaker)
-        if break_odds is None:
-            return cls(Rack, None, first_breaker)
-        odds = float(break_odds)
-        if not 0.0 < odds < np.inf:
-            raise InputError(f"break_odds is {break_odds!r}; give a number above 0")
-        return cls(
-            lambda p1: Rack(p1, odds * (1.0 - p1) / (odds * (1.0 - p1) + p1)),
-            breaks,
-            first_breaker,
-        )
+        rack_along(0.5, p2=p2, break_odds=break_odds)
+        return cls(p2, break_odds, breaks, first_breaker)
+
+    @property
+    def break_matters(self) -> bool:
+        return self.p2 is not None or self.break_odds is not None
+
+    def match(self, played: MatchFormat, p1: Any) -> Match:
+        rack = rack_along(p1, p2=self.p2, break_odds=self.break_odds)
+        return played.match(rack, breaks=self.breaks, first_breaker=self.first_breaker)
 
     def log_odds(self, played: MatchFormat, p1: Any) -> Any:
         """Return the log-odds of the match, right in both tails; NaN where a chance is 0."""
-        match = played.match(self.rack_of(p1), breaks=self.breaks, first_breaker=self.first_breaker)
+        if p1 is _P1:
+            return _log_odds_on_grid(self, played)
+        match = self.match(played, p1)
         wins = [np.asarray(win_probability(match, player=player)) for player in (1, 2)]
         one, two = (np.log(win, out=np.full(win.shape, np.nan), where=win > 0.0) for win in wins)
         return one - two
@@ -242,19 +259,23 @@ class _Line(NamedTuple):
         return self.log_odds(one, p1) - self.log_odds(two, p1)
 
     def point(self, played: MatchFormat, p1: float) -> Crossing:
-        rack = self.rack_of(p1)
-        match = played.match(rack, breaks=self.breaks, first_breaker=self.first_breaker)
-        return Crossing(p1, rack.p2, win_probability(match))
+        match = self.match(played, p1)
+        return Crossing(p1, match.innermost_rack.p2, win_probability(match))
+
+
+@lru_cache(maxsize=64)
+def _log_odds_on_grid(line: _Line, played: MatchFormat) -> Any:
+    """Return the curve of a match: each is looked at once, however many it is compared with."""
+    return line.log_odds(played, _P1.copy())
 
 
 def _changes_of_sign(function: Callable[[Any], Any]) -> list[float] | None:
     """Return where a function of p1 changes its sign; None if it is nowhere but noise."""
-    grid = expit(_GRID)
-    values = function(grid)
+    values = function(_P1)
     known = np.abs(values) > _NOISE  # false for NaN too
     if not known.any():
         return None
-    places, signs = grid[known], values[known] > 0.0
+    places, signs = _P1[known], values[known] > 0.0
     return [
         float(brentq(function, places[i], places[i + 1], xtol=1e-14, rtol=1e-14))
         for i in np.flatnonzero(signs[1:] != signs[:-1])

@@ -16,7 +16,7 @@ from evenbreak.games.rack import Rack
 __all__ = ["MatchFormat", "match_format"]
 
 _LONGEST = 1000
-_WAYS = "9:5, '7:7 win by 2', 'ahead 5:3' or '3:1 of 3:3', perhaps with ', winner breaks' after it"
+_WAYS = "9:5, '7:7 win by 2', 'ahead 5:3' or '3:1 of 3:3', perhaps with 'winner breaks' after it"
 _BREAKS = {
     "winner": "winner",
     "loser": "loser",
@@ -125,7 +125,7 @@ class MatchFormat:
         if self.breaks is None:
             return text
         shown = {name: word for word, name in _BREAKS.items()}[self.breaks]
-        return f"{text}, {shown.upper() if len(shown) == 1 else shown} breaks"
+        return f"{text} {shown.upper() if len(shown) == 1 else shown} breaks"
 
 
 def match_format(text: str) -> MatchFormat:
@@ -136,7 +136,7 @@ def match_format(text: str) -> MatchFormat:
     text
         `9:5` (player 1, whom the text calls A, needs 9 games, player 2, B, needs 5),
         `7:7 win by 2`, `ahead 5:3`, or one of them `of` another, which then is the set:
-        `3:1 of 3:3`. After it may stand who breaks: `, winner breaks`, or loser,
+        `3:1 of 3:3`. After it may stand who breaks: `winner breaks`, or loser,
         alternate, A or B. Each number is from 1 to 1000.
 
     Raises
@@ -151,7 +151,7 @@ def match_format(text: str) -> MatchFormat:
     >>> match_format("3:1 of 3:3").scores
     27
     >>> str(match_format("ahead 5:3, A breaks"))
-    'ahead 5:3, A breaks'
+    'ahead 5:3 A breaks'
     >>> match_format("nine games")
     Traceback (most recent call last):
     ...
