@@ -197,11 +197,20 @@ def command(name: str) -> click.Command:
     return found
 
 
+def params_of(one: click.Command) -> list[click.Parameter]:
+    """Return the options and arguments of a command, and those of the commands within it."""
+    if not isinstance(one, click.Group):
+        return one.params
+    ctx = click.Context(one)
+    inner = [one.get_command(ctx, name) for name in one.list_commands(ctx)]
+    return one.params + [param for each in inner if each is not None for param in params_of(each)]
+
+
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_option_is_described_and_no_other(name: str) -> None:
     options = {
         text
-        for option in command(name).params
+        for option in params_of(command(name))
         for text in (*option.opts, *option.secondary_opts)
         if text.startswith("--")
     }
