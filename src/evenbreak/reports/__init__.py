@@ -11,6 +11,7 @@ __getattr__, __dir__, __all__ = attach(
         "break_plots": ["breaks_figure"],
         "draw": ["draw", "image_bytes"],
         "frames": ["ratings_frame", "summary_frame"],
+        "html_sheet": ["sheet_html"],
         "matchups": ["RaceLimits", "find_players", "matchups_frame", "most_active"],
         "paper": ["pdf_bytes"],
         "problems": ["Problems"],
@@ -34,6 +35,7 @@ __getattr__, __dir__, __all__ = attach(
         "sheet_pages": ["sheet_pages"],
         "shot_plots": ["shots_figure"],
         "to_csv": ["to_csv"],
+        "workbook": ["report_tables", "workbook_bytes"],
         "write_files": ["write_files"],
     },
 )

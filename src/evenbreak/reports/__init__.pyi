@@ -3,6 +3,7 @@ from evenbreak.reports.draw import draw as draw
 from evenbreak.reports.draw import image_bytes as image_bytes
 from evenbreak.reports.frames import ratings_frame as ratings_frame
 from evenbreak.reports.frames import summary_frame as summary_frame
+from evenbreak.reports.html_sheet import sheet_html as sheet_html
 from evenbreak.reports.matchups import RaceLimits as RaceLimits
 from evenbreak.reports.matchups import find_players as find_players
 from evenbreak.reports.matchups import matchups_frame as matchups_frame
@@ -35,4 +36,6 @@ from evenbreak.reports.sheet import sheet_text as sheet_text
 from evenbreak.reports.sheet_pages import sheet_pages as sheet_pages
 from evenbreak.reports.shot_plots import shots_figure as shots_figure
 from evenbreak.reports.to_csv import to_csv as to_csv
+from evenbreak.reports.workbook import report_tables as report_tables
+from evenbreak.reports.workbook import workbook_bytes as workbook_bytes
 from evenbreak.reports.write_files import write_files as write_files
