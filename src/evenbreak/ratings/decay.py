@@ -99,7 +99,7 @@ def _dated(results: Results) -> NDArray[np.datetime64]:
         if not len(results):
             return np.zeros(0, dtype="datetime64[D]")
         raise InputError(
-            f"{undated:,} of {len(results):,} matches have no date; add their dates, or leave out "
-            "half_life and as_of"
+            f"{undated:,} of {len(results):,} matches have no date; add their dates, or rate "
+            "without a half-life and a day"
         )
     return results.date

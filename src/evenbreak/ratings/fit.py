@@ -19,7 +19,7 @@ from evenbreak.ratings.posterior import PairCounts, count_pairs, find_mode
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
 
-__all__ = ["BREAK_SD", "PRIOR_SD", "Ratings", "fit"]
+__all__ = ["BREAK_SD", "NARROWEST", "PRIOR_SD", "WIDEST", "Ratings", "fit"]
 
 PRIOR_SD = math.log(2.0)
 """Default standard deviation of the prior, in natural log-odds: one doubling of the odds.
@@ -29,6 +29,9 @@ to professionals at 130, is four of them wide; the marginal likelihood of a seas
 snooker professionals, who are nearer to each other, is highest at 0.5. It weighs as much
 as eight games against an equal opponent, so after a few matches the results speak.
 """
+
+# Beyond these the data, or the prior, are nothing but rounding to the other.
+NARROWEST, WIDEST = 1e-3, 100.0
 
 BREAK_SD = math.log(2.0)
 """Standard deviation of the prior of the break advantage, about 0, in natural log-odds.
@@ -288,8 +291,7 @@ def _checked_sd(prior_sd: Any) -> float:
         prior_sd,
         message := f"prior_sd is {prior_sd!r}; give a number from 0.001 to 100, in log-odds",
     )
-    # Beyond these the data, or the prior, are nothing but rounding to the other.
-    if not 1e-3 <= value <= 100.0:
+    if not NARROWEST <= value <= WIDEST:
         raise InputError(message)
     return value
 

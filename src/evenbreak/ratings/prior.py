@@ -135,7 +135,7 @@ def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
     if len(played) == 0 or played.date is None or played.date.min() == played.date.max():
         raise InputError(
             "a prior is chosen by what it predicts of later days, and there are no two days with "
-            "matches; give prior_sd"
+            "matches; give the prior's width"
         )
     return played, played.date
 

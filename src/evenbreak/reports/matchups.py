@@ -14,6 +14,7 @@ from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.fair import FairRace, fair_races
 from evenbreak.ratings.fit import Ratings
+from evenbreak.ratings.results import Results
 from evenbreak.reports.results_columns import clean_name
 
 if TYPE_CHECKING:
@@ -78,7 +79,7 @@ def by_strength(ratings: Ratings, players: Iterable[int]) -> list[int]:
     return sorted(players, key=lambda k: (-strength[k], k))
 
 
-def find_players(ratings: Ratings, names: Sequence[str]) -> list[int]:
+def find_players(ratings: Ratings | Results, names: Sequence[str]) -> list[int]:
     """Return the positions of the named players, each once; upper and lower case may differ.
 
     Raises

@@ -1,0 +1,352 @@
+"""`evenbreak rate`: ratings with their uncertainty, from a results file."""
+
+from __future__ import annotations
+
+import math
+import sys
+import textwrap
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from evenbreak.cli.options import NUMBER, refuse, wants_aliases, wants_json
+from evenbreak.cli.output import SCHEMA_VERSION, aligned, print_json, to_terminal
+from evenbreak.errors import DataError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from evenbreak.ratings.fit import Ratings
+    from evenbreak.ratings.prior import PriorChoice
+    from evenbreak.ratings.scale import Scale
+    from evenbreak.reports.read_results import ResultsFile
+
+__all__ = ["rate"]
+
+FIT_ONLY = {
+    "anchors": "--anchor",
+    "prior": "--prior",
+    "half_life": "--half-life",
+    "as_of": "--as-of",
+    "break_advantage": "--break-advantage",
+    "pairs": "--pair",
+}
+"""Options that mean nothing to a league's own update rule."""
+
+WIDTH = 80
+"""Columns of a person's terminal: longer lines of words are broken."""
+
+EXAMPLES = """\b
+Examples:
+  evenbreak rate season.csv --scale fargo
+  evenbreak rate season.csv --prior best --half-life 180
+  evenbreak rate season.csv --anchor "Ann Lee=95" --pair "Ann Lee" "Bo Diaz"
+  evenbreak rate --system npl --roster last.csv tonight.csv
+"""
+
+
+def _points(ctx: click.Context, param: click.Parameter, value: str | None) -> Any:
+    """Return a number of points above 0, or the option's word; None where it is absent."""
+    word = "best" if param.name == "prior" else "fit"
+    if value is None or value.strip().lower() == word:
+        return None if value is None else word
+    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
+    if math.isfinite(number) and (word == "fit" or number > 0):
+        return number
+    least = " above 0" if word == "best" else ""
+    raise click.BadParameter(
+        f"{value!r}; give a number of points{least}, or {word}", ctx=ctx, param=param
+    )
+
+
+def _days(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+    if value is None:
+        return None
+    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
+    if math.isfinite(number) and number > 0:
+        return number
+    raise click.BadParameter(
+        f"{value!r}; give a number of days above 0, such as 180", ctx=ctx, param=param
+    )
+
+
+def _day(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    if value is None:
+        return None
+    import datetime as dt
+
+    try:
+        return dt.date.fromisoformat(value.strip()).isoformat()
+    except ValueError:
+        raise click.BadParameter(
+            f"{value!r}; give a day, such as 2026-01-31", ctx=ctx, param=param
+        ) from None
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("results", metavar="RESULTS.csv")
+@click.option(
+    "--scale",
+    "scale_name",
+    metavar="npl|fargo|elo|POINTS",
+    help="The scale of the ratings: POINTS of difference double the odds of a game.  "
+    "[default: npl]",
+)
+@click.option(
+    "--anchor",
+    "anchors",
+    multiple=True,
+    metavar="POINTS|NAME=POINTS",
+    help="The mean rating; or the rating of a named player, and may be given again: the named "
+    "have these ratings on average.  [default: the scale's middle]",
+)
+@click.option(
+    "--prior",
+    metavar="POINTS|best",
+    callback=_points,
+    help="How far players are apart, before any result: the standard deviation; best: the one "
+    "that predicts later days best.  [default: what doubles the odds]",
+)
+@click.option(
+    "--half-life",
+    metavar="DAYS",
+    callback=_days,
+    help="A match counts half after so many days.  [default: always whole]",
+)
+@click.option(
+    "--as-of",
+    metavar="DATE",
+    callback=_day,
+    help="Rate as of this day: leave later matches out.  [default: the last date]",
+)
+@click.option(
+    "--break-advantage",
+    metavar="POINTS|fit",
+    callback=_points,
+    help="By how much the breaker of a rack plays better; fit: estimate it, where the file says "
+    "who broke.  [default: the break does not matter]",
+)
+@click.option(
+    "--pair",
+    "pairs",
+    nargs=2,
+    multiple=True,
+    metavar="A B",
+    help="Print how far apart two players are, and how surely; may be given again.",
+)
+@click.option(
+    "--system",
+    metavar="NAME",
+    help="Apply a league's own update rule instead, such as npl, to --roster.",
+)
+@click.option(
+    "--roster",
+    metavar="LAST.csv",
+    help="With --system: the list of ratings before these results.",
+)
+@click.option(
+    "--chart",
+    metavar="NAME|FILE.csv",
+    help="With --system: by which chart they played, where the file states neither race nor "
+    "winner.",
+)
+@wants_aliases
+@wants_json
+def rate(
+    results: str,
+    scale_name: str | None,
+    system: str | None,
+    roster: str | None,
+    chart: str | None,
+    aliases: str | None,
+    as_json: bool,
+    **asked: Any,
+) -> None:
+    """Rate players from their results, and say how sure each rating is.
+
+    RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a and
+    score_b; or race_a, race_b and winner where no more is known; or racks. Other columns
+    are those of `evenbreak report`; - reads standard input.
+    """
+    if system is not None:
+        given = [FIT_ONLY[name] for name, value in asked.items() if value]
+        given += ["--scale"] if scale_name is not None else []
+        if given:
+            refuse(f"--system moves ratings by its own rule; leave out {', '.join(given)}")
+        if roster is None:
+            refuse("--system needs the ratings before these results; give --roster LAST.csv")
+        from evenbreak.cli.rate_system import rate_by_system
+
+        rate_by_system(
+            results, system=system, roster=roster, chart=chart, aliases=aliases, as_json=as_json
+        )
+        return
+    if roster is not None:
+        refuse("--roster is for --system; give --system npl too, or leave it out")
+    if chart is not None:
+        refuse("--chart is for --system; give --system npl too, or leave it out")
+    _rate(results, scale_name or "npl", aliases, as_json, **asked)
+
+
+def _rate(
+    path: str,
+    scale_name: str,
+    aliases: str | None,
+    as_json: bool,
+    *,
+    anchors: Sequence[str],
+    prior: float | str | None,
+    half_life: float | None,
+    as_of: str | None,
+    break_advantage: float | str | None,
+    pairs: Sequence[tuple[str, str]],
+) -> None:
+    from evenbreak.ratings.fit import fit
+    from evenbreak.ratings.scale import scale_of
+    from evenbreak.reports.rate_frames import pairs_frame, rate_frame
+    from evenbreak.reports.rate_words import connection_words, pair_rows, rate_rows, rate_words
+
+    scale = scale_of(scale_name)
+    file = _read(path, aliases)
+    anchor = _anchor(file, anchors)
+    prior_sd, choice = _prior(file, prior, scale, half_life, as_of, break_advantage)
+    ratings = fit(
+        file.results,
+        prior_sd=prior_sd,
+        scale=scale,
+        anchor=anchor,
+        half_life=half_life,
+        as_of=as_of,
+        break_advantage=break_advantage,
+    )
+    if not ratings.matches:
+        raise DataError([f"{file.source}: no match in it was played; add matches with games"])
+    if break_advantage == "fit" and ratings.break_advantage is None:
+        _say(
+            "Warning: of no game the file says who broke, so there is no break advantage to fit; "
+            "give racks, first_break and break_format"
+        )
+    chosen = [_pair(ratings, pair) for pair in pairs]
+    frame = pairs_frame(ratings, chosen) if pairs else rate_frame(ratings)
+    if as_json:
+        print_json(_as_json(ratings, choice, frame, "pairs" if pairs else "players"))
+        return
+    words = [*rate_words(ratings, choice), *connection_words(ratings)]
+    if to_terminal():
+        shown = pair_rows(frame) if pairs else rate_rows(frame)
+        told = "\n".join(textwrap.fill(line, WIDTH) for line in words)
+        _show(told + "\n\n" + aligned(shown, left=2 if pairs else 1))
+        return
+    from evenbreak.reports.to_csv import to_csv
+
+    for line in words:
+        _say(line)
+    click.echo(to_csv(frame), nl=False)
+
+
+def _read(path: str, aliases: str | None) -> ResultsFile:
+    from evenbreak.reports.read_results import read_results
+
+    file = read_results(path, aliases=aliases)
+    for warning in file.warnings:
+        _say(f"Warning: {warning}")
+    return file
+
+
+def _anchor(file: ResultsFile, texts: Sequence[str]) -> float | dict[str, float] | None:
+    """Return the mean, or the ratings of named players, that --anchor gives."""
+    from evenbreak.reports.matchups import find_players
+
+    means, named = [], {}
+    for text in texts:
+        name, _, number = text.rpartition("=")
+        if not NUMBER.fullmatch(number.strip()) or not math.isfinite(float(number)):
+            refuse(f"--anchor is {text!r}; give points, such as 80, or NAME=POINTS")
+        if name.strip():
+            (place,) = find_players(file.results, [name])
+            named[file.results.players[place]] = float(number)
+        else:
+            means.append(float(number))
+    if len(means) + bool(named) > 1:
+        refuse("--anchor gives the mean once, or ratings of named players; not both")
+    return named or (means[0] if means else None)
+
+
+def _prior(
+    file: ResultsFile,
+    prior: float | str | None,
+    scale: Scale,
+    half_life: float | None,
+    as_of: str | None,
+    break_advantage: float | str | None,
+) -> tuple[float, PriorChoice | None]:
+    """Return the standard deviation of the prior in log-odds, and how it was chosen."""
+    from evenbreak.ratings.fit import NARROWEST, PRIOR_SD, WIDEST
+
+    if prior is None:
+        return PRIOR_SD, None
+    if prior != "best":
+        width = float(scale.log_odds(float(prior)))
+        if not NARROWEST <= width <= WIDEST:
+            least, most = scale.points(NARROWEST), scale.points(WIDEST)
+            refuse(f"--prior is {prior:g} points; on this scale give {least:.2g} to {most:.4g}")
+        return width, None
+    from evenbreak.ratings.decay import day_of, until
+    from evenbreak.ratings.prior import best_prior
+
+    results = file.results
+    if as_of is not None:
+        results = results.select(until(results, day_of(as_of)))
+    choice = best_prior(results, half_life=half_life, break_advantage=break_advantage, scale=scale)
+    return choice.prior_sd, choice
+
+
+def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
+    from evenbreak.reports.matchups import find_players
+
+    found = find_players(ratings, names)
+    if len(found) < 2:
+        refuse(f"--pair names one player twice, {names[0]!r}; name two")
+    return found[0], found[1]
+
+
+def _as_json(
+    ratings: Ratings, choice: PriorChoice | None, frame: pd.DataFrame, what: str
+) -> dict[str, Any]:
+    scale = ratings.scale
+    return {
+        "scale": scale.name,
+        "points_per_doubling": scale.points_per_doubling,
+        "anchor": ratings.anchor,
+        "anchored_at": dict(ratings.named),
+        "prior_sd_points": float(scale.points(ratings.prior_sd)),
+        "prior_sd_log_odds": ratings.prior_sd,
+        "priors_tried": None
+        if choice is None
+        else [
+            {"prior_sd_points": float(scale.points(width)), "log_loss": loss}
+            for width, loss in zip(choice.tried, choice.log_loss, strict=True)
+        ],
+        "half_life_days": ratings.half_life,
+        "as_of": None if ratings.as_of is None else str(ratings.as_of),
+        "break_advantage": ratings.break_advantage,
+        "break_advantage_standard_error": ratings.break_error,
+        "matches": ratings.matches,
+        "forfeits_left_out": ratings.forfeits,
+        "empty_left_out": ratings.empty,
+        "later_left_out": ratings.later,
+        what: frame.astype(object).where(frame.notna(), None).to_dict("records"),
+        "schema_version": SCHEMA_VERSION,
+    }
+
+
+def _say(message: str) -> None:
+    from evenbreak.reports.problems import printable
+
+    click.echo(printable(message), err=True)
+
+
+def _show(text: str) -> None:
+    # Names may have letters that the terminal's encoding lacks.
+    click.echo(text.encode(sys.stdout.encoding or "utf-8", "replace"), nl=False)
