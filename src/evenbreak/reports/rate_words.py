@@ -40,7 +40,7 @@ def rate_words(ratings: Ratings, choice: PriorChoice | None = None) -> list[str]
     left_out = [
         f"{count:,} {what}"
         for count, what in (
-            (ratings.forfeits, "forfeits"),
+            (ratings.forfeits, "forfeit" if ratings.forfeits == 1 else "forfeits"),
             (ratings.empty, "at 0-0"),
             (ratings.later, f"after {ratings.as_of}"),
         )
