@@ -158,10 +158,14 @@ def night_problems(
     1 'Boo' is not on the list; add the player with a rating to begin with, or correct the name
     """
     night = _night_of(roster, results, chart)
-    wrong = find_problems(night.results)
     problems = [
         *_strangers(roster, night),
-        *(p._replace(message=p.message + _by_chart(roster, night, chart, p.row)) for p in wrong),
+        *(
+            problem
+            if chart is None or not _off_chart(night, problem)
+            else problem._replace(message=_no_end(roster, night, chart, problem.row))
+            for problem in find_problems(night.results)
+        ),
     ]
     refused = {problem.row for problem in problems}
     known = (night.a >= 0) & (night.b >= 0)
@@ -200,8 +204,8 @@ def _night_of(roster: Roster, results: Results, chart: Chart | None) -> _Night:
     if chart is not None and len(roster):
         rated = (a >= 0) & (b >= 0) & _whole(roster.rating[a]) & _whole(roster.rating[b])
         chart_a[rated], chart_b[rated] = chart.races((roster.rating[a] - roster.rating[b])[rated])
-    race_a = chart_a if results.race_a is None else results.race_a
-    race_b = chart_b if results.race_b is None else results.race_b
+    race_a = np.zeros_like(chart_a) if results.race_a is None else results.race_a
+    race_b = np.zeros_like(chart_b) if results.race_b is None else results.race_b
     unraced = (race_a == 0) & (race_b == 0)
     filled = replace(
         results,
@@ -245,14 +249,19 @@ def _strangers(roster: Roster, night: _Night) -> Iterator[Problem]:
             )
 
 
-def _by_chart(roster: Roster, night: _Night, chart: Chart | None, row: int) -> str:
-    """Return whence a race came that no column states, to end a message with."""
-    a, b = night.a[row], night.b[row]
-    if chart is None or not (night.from_chart[row] and night.chart_a[row]):
-        return ""
+def _off_chart(night: _Night, problem: Problem) -> bool:
+    """Tell whether a score is at odds with a race that only the chart says."""
+    scores = problem.column in ("score_a", "score_b")
+    return scores and bool(night.from_chart[problem.row] and night.chart_a[problem.row])
+
+
+def _no_end(roster: Roster, night: _Night, chart: Chart, row: int) -> str:
+    results, a, b = night.results, night.a[row], night.b[row]
     return (
-        f"; the race {night.chart_a[row]}:{night.chart_b[row]} is that of the chart {chart.name} "
-        f"for {roster.rating[a]:g} and {roster.rating[b]:g}"
+        f"{results.score_a[row]}-{results.score_b[row]} is no end of the race "
+        f"{night.chart_a[row]}:{night.chart_b[row]} that {roster.players[a]!r} and "
+        f"{roster.players[b]!r} have by the chart {chart.name} for {roster.rating[a]:g} and "
+        f"{roster.rating[b]:g}; correct the score, give race_a and race_b, or mark a forfeit"
     )
 
 

@@ -13,6 +13,7 @@ __getattr__, __dir__, __all__ = attach(
         "frames": ["ratings_frame", "summary_frame"],
         "html_sheet": ["sheet_html"],
         "matchups": ["RaceLimits", "find_players", "matchups_frame", "most_active"],
+        "moves_frame": ["moves_frame", "moves_of_files"],
         "paper": ["pdf_bytes"],
         "problems": ["Problems"],
         "published": [

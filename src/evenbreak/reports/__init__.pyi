@@ -8,6 +8,8 @@ from evenbreak.reports.matchups import RaceLimits as RaceLimits
 from evenbreak.reports.matchups import find_players as find_players
 from evenbreak.reports.matchups import matchups_frame as matchups_frame
 from evenbreak.reports.matchups import most_active as most_active
+from evenbreak.reports.moves_frame import moves_frame as moves_frame
+from evenbreak.reports.moves_frame import moves_of_files as moves_of_files
 from evenbreak.reports.paper import pdf_bytes as pdf_bytes
 from evenbreak.reports.problems import Problems as Problems
 from evenbreak.reports.published import Erratum as Erratum
