@@ -6,8 +6,13 @@ from evenbreak.handicaps.audit import even_doublings as even_doublings
 from evenbreak.handicaps.chart import CHARTS as CHARTS
 from evenbreak.handicaps.chart import Chart as Chart
 from evenbreak.handicaps.chart import chart as chart
+from evenbreak.handicaps.chart_measure import ChartMeasure as ChartMeasure
+from evenbreak.handicaps.chart_measure import last_difference as last_difference
+from evenbreak.handicaps.chart_measure import measure_chart as measure_chart
 from evenbreak.handicaps.chart_rows import ChartDraft as ChartDraft
 from evenbreak.handicaps.chart_rows import ChartRow as ChartRow
+from evenbreak.handicaps.design import design as design
+from evenbreak.handicaps.design import nearest_chart as nearest_chart
 from evenbreak.handicaps.fair import FairRace as FairRace
 from evenbreak.handicaps.fair import fair_races as fair_races
 from evenbreak.handicaps.ladder import LadderLaw as LadderLaw
@@ -24,6 +29,8 @@ from evenbreak.handicaps.moves import MatchMove as MatchMove
 from evenbreak.handicaps.moves import Moves as Moves
 from evenbreak.handicaps.moves import apply_results as apply_results
 from evenbreak.handicaps.moves import night_problems as night_problems
+from evenbreak.handicaps.play import Play as Play
+from evenbreak.handicaps.race_limits import RaceLimits as RaceLimits
 from evenbreak.handicaps.systems import SYSTEMS as SYSTEMS
 from evenbreak.handicaps.systems import System as System
 from evenbreak.handicaps.systems import system_of as system_of

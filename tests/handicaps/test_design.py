@@ -1,0 +1,279 @@
+from itertools import pairwise, product
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from evenbreak.errors import InputError
+from evenbreak.games import winner_breaks
+from evenbreak.handicaps import (
+    Chart,
+    Play,
+    RaceLimits,
+    audit,
+    chart,
+    design,
+    last_difference,
+    measure_chart,
+    nearest_chart,
+)
+
+NPL = {8: (5, 7), 10: (7, 9), 12: (9, 11), 20: (17, 19)}
+"""The longest matches of the races that each printed chart draws on."""
+
+
+def npl_limits(number):
+    return RaceLimits(NPL[number], weaker_least=2)
+
+
+def races_of(made, differences):
+    m, n = made.races(differences)
+    return list(zip(m.tolist(), n.tolist(), strict=True))
+
+
+def all_charts(limits, play, up_to):
+    """Yield every way to give differences 0, 1, ... races that get harder and harder."""
+    races = limits.races
+    even = dict(
+        zip(races, play.even_differences(*np.array(races).T).round(9).tolist(), strict=True)
+    )
+    for path in product(races, repeat=up_to + 1):
+        steps = pairwise(path)
+        if path[0][0] == path[0][1] and all(a == b or even[a] < even[b] for a, b in steps):
+            yield path
+
+
+def losses(path, play, target=0.5, tilt=0.5):
+    """Return what each difference costs, by the definition."""
+    cost = [0.0]
+    for points, (m, n) in enumerate(path[1:], 1):
+        above = play.win([m], [n], [points])[0, 0] - target
+        weight = 1.0 - tilt if above > 0 else tilt
+        cost.append(0.5 * abs(above) / weight)
+    return cost
+
+
+def lengths(path, play):
+    return [play.mean_games([m], [n], [d])[0, 0] for d, (m, n) in enumerate(path)]
+
+
+SMALL = [
+    (RaceLimits((3, 5), weaker_least=2), Play(2), 4),
+    (RaceLimits((3, 4)), Play(1.5), 5),
+    (RaceLimits((2, 4)), Play(2, breaks=winner_breaks, break_points=1), 4),
+    (RaceLimits((3, 4)), Play(2, win_by=2), 4),
+]
+
+
+@pytest.mark.parametrize(("limits", "play", "up_to"), SMALL)
+@pytest.mark.parametrize(("target", "tilt"), [(0.5, 0.5), (0.6, 0.5), (0.5, 0.2)])
+def test_no_chart_of_all_is_fairer(limits, play, up_to, target, tilt):
+    every = [losses(path, play, target, tilt) for path in all_charts(limits, play, up_to)]
+    assert len(every) > 10
+    for criterion, total in (("mean", sum), ("worst", max)):
+        made = design(play, limits, target=target, tilt=tilt, criterion=criterion, up_to=up_to)
+        ours = losses(races_of(made, range(up_to + 1)), play, target, tilt)
+        assert total(ours) == pytest.approx(min(map(total, every)), abs=1e-9)
+        if criterion == "worst":
+            least = min(map(max, every)) + 1e-9
+            assert sum(ours) == pytest.approx(min(sum(c) for c in every if max(c) <= least))
+
+
+@pytest.mark.parametrize("budget", [2.4, 2.7, 3.0])
+def test_no_chart_that_is_as_short_is_fairer(budget):
+    limits, play, up_to = SMALL[1]
+    every = [
+        (np.mean(lengths(path, play)), sum(losses(path, play)))
+        for path in all_charts(limits, play, up_to)
+    ]
+    made = races_of(design(play, limits, up_to=up_to, mean_games=budget), range(up_to + 1))
+    length = np.mean(lengths(made, play))
+    assert length <= budget
+    assert sum(losses(made, play)) == pytest.approx(
+        min(cost for games, cost in every if games <= length + 1e-12)
+    )
+
+
+def test_a_budget_and_the_worst_difference():
+    limits, play, up_to = SMALL[1]
+    every = [
+        (np.mean(lengths(path, play)), max(losses(path, play)))
+        for path in all_charts(limits, play, up_to)
+    ]
+    made = design(play, limits, up_to=up_to, mean_games=2.7, criterion="worst")
+    ours = races_of(made, range(up_to + 1))
+    assert np.mean(lengths(ours, play)) <= 2.7
+    assert max(losses(ours, play)) == pytest.approx(
+        min(cost for games, cost in every if games <= 2.7)
+    )
+
+
+@pytest.mark.parametrize("number", NPL)
+def test_designed_charts_are_fairer_than_the_printed_ones_of_the_same_races(number):
+    printed = chart(f"npl_{number}")
+    theirs = measure_chart(printed, "npl")
+    for criterion in ("mean", "worst"):
+        made = design("npl", npl_limits(number), criterion=criterion, up_to=theirs.up_to)
+        ours = measure_chart(made, "npl", up_to=theirs.up_to)
+        assert ours.worst_unfairness <= theirs.worst_unfairness
+        assert ours.mean_unfairness < theirs.mean_unfairness
+        assert ours.games_p90 <= theirs.games_p90
+
+
+@pytest.mark.parametrize(
+    ("number", "where"),
+    [
+        (8, [19, 29]),
+        (10, [46, 63, 64]),
+        (12, [58, 74, 75, 76]),
+        (20, [7, 8, 9, 17, 18, 19, 27, 28, 29, 45, 49, 50, 51, 52, 53, 59, 60, 61, 68, 98]),
+    ],
+)
+def test_the_nearest_races_make_the_printed_charts_but_for_these_differences(number, where):
+    printed = chart(f"npl_{number}")
+    last = printed.rows[-1].difference_from + 7
+    made = nearest_chart("npl", npl_limits(number), up_to=last)
+    here = range(last + 1)
+    differ = [
+        d
+        for d, one, other in zip(here, races_of(made, here), races_of(printed, here), strict=True)
+        if one != other
+    ]
+    assert differ == where
+
+
+def test_the_nearest_race_is_nearest_at_each_difference():
+    limits = npl_limits(12)
+    made = nearest_chart("npl", limits, up_to=60)
+    play = Play("npl")
+    assert made.race(0) == made.race(1) == (6, 6)
+    for points in range(1, 61):
+        others = [race for race in limits.races if race[0] != race[1] or race == (6, 6)]
+        missed = {race: abs(play.win(*zip(race), [points])[0, 0] - 0.5) for race in others}
+        assert missed[made.race(points)] == pytest.approx(min(missed.values()), abs=1e-12)
+
+
+@pytest.mark.parametrize("scale", ["npl", "fargo", 400.0])
+@pytest.mark.parametrize("tilt", [0.0, 0.25, 0.5, 0.75, 1.0])
+def test_the_audit_of_a_designed_chart_tells_its_scale_and_tilt(scale, tilt):
+    play = Play(scale)
+    made = design(play, RaceLimits((9, 11), weaker_least=2), tilt=tilt)
+    fit = audit(made).best_fit
+    assert fit.points_per_doubling == pytest.approx(play.points, rel=0.02)
+    assert fit.tilt == pytest.approx(tilt, abs=0.12)
+
+
+def test_at_tilt_0_the_stronger_is_never_the_underdog_and_at_1_never_the_favourite():
+    play, points = Play("npl"), np.arange(1, 40)
+    for tilt, sign in ((0.0, 1.0), (1.0, -1.0)):
+        made = design(play, RaceLimits((5, 9), weaker_least=2), tilt=tilt, up_to=40)
+        races = races_of(made, points)
+        for d, (m, n) in zip(points.tolist(), races, strict=True):
+            others = (play.win(*zip(race), [d])[0, 0] for race in ((5, 4), (6, 2), (8, 2)))
+            if any(sign * (other - 0.5) >= 0 for other in others):
+                assert sign * (play.win([m], [n], [d])[0, 0] - 0.5) >= -1e-9
+
+
+def test_a_target_is_what_the_stronger_gets():
+    play = Play("fargo")
+    made = design(play, RaceLimits((7, 15), weaker_least=2), target=0.6)
+    m, n = made.races(np.arange(40, 200))
+    wins = [
+        play.win([a], [b], [d])[0, 0]
+        for a, b, d in zip(m.tolist(), n.tolist(), range(40, 200), strict=True)
+    ]
+    assert np.mean(wins) == pytest.approx(0.6, abs=0.01)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.integers(1, 9),
+    st.integers(0, 6),
+    st.integers(1, 3),
+    st.floats(3, 120),
+    st.floats(0.3, 0.8),
+    st.floats(0, 1),
+    st.sampled_from(["mean", "worst"]),
+)
+def test_every_design_is_a_chart_within_its_limits(
+    low, more, least, scale, target, tilt, criterion
+):
+    try:
+        limits = RaceLimits((low, low + more), weaker_least=least)
+    except InputError:
+        return
+    made = design(scale, limits, target=target, tilt=tilt, criterion=criterion)
+    assert {row[2:] for row in made.rows} <= set(limits.races)
+    even = [Play(scale).even_differences([row[2]], [row[3]])[0] for row in made.rows]
+    assert even == sorted(even)
+    assert len(set(even)) == len(even)
+
+
+def test_a_limit_on_the_90_per_cent_length_holds_at_every_difference():
+    free, short = (
+        design("npl", RaceLimits((5, 15), weaker_least=2, games_p90=most), up_to=60)
+        for most in (None, 9)
+    )
+    assert measure_chart(free, "npl", up_to=60).games_p90 > 9
+    assert measure_chart(short, "npl", up_to=60).games_p90 == 9
+
+
+def test_measures_are_means_over_all_differences():
+    short, play = Chart("short", [(0, 1, 2, 2), (2, None, 3, 2)]), Play("npl")
+    races = [(2, 2), (2, 2), (3, 2), (3, 2)]
+    wins = [abs(play.win([m], [n], [d])[0, 0] - 0.5) for d, (m, n) in enumerate(races)]
+    measured = measure_chart(short, play, up_to=3)
+    assert measured.mean_unfairness == pytest.approx(np.mean(wins))
+    assert measured.worst_unfairness == pytest.approx(max(wins))
+    assert measured.worst_difference == int(np.argmax(wins))
+    assert measured.mean_games == pytest.approx(np.mean(lengths(races, play)))
+    assert measured.games_p90 == 4
+
+
+def test_the_last_difference_is_where_the_last_race_is_even():
+    for number in NPL:
+        printed, play = chart(f"npl_{number}"), Play("npl")
+        last, row = last_difference(printed, play), printed.rows[-1]
+        wins = play.win([row.stronger_needs], [row.weaker_needs], [last, last + 1])[0]
+        assert wins[0] <= 0.5 < wins[1]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "remedy"),
+    [
+        ({"games": (7, 5)}, "give the smaller number first"),
+        ({"games": 7}, r"give the pair \(lo, hi\)"),
+        ({"games": (0, 5)}, "games is 0; give a whole number, 1 or more"),
+        ({"games": (6, 6)}, "give a second number of 7 or more"),
+        ({"games": (5, 7), "weaker_least": 5}, "give a second number of 9 or more"),
+        ({"games": (5, 7), "stronger_least": 5}, "give a second number of 9 or more"),
+        ({"games": (5, 7), "weaker_least": 0}, "weaker_least is 0"),
+        ({"games": (5, 7), "games_p90": 0}, "games_p90 is 0"),
+    ],
+)
+def test_limits_that_leave_nothing_are_refused(wrong, remedy):
+    with pytest.raises(InputError, match=remedy):
+        RaceLimits(**wrong)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "remedy"),
+    [
+        ({"target": 2}, "target is 2"),
+        ({"tilt": -1}, "tilt is -1"),
+        ({"criterion": "best"}, "criterion is 'best'; give 'mean' or 'worst'"),
+        ({"up_to": 0}, "up_to is 0"),
+        ({"mean_games": 0}, "mean_games is 0; give a number above 0"),
+        ({"mean_games": 2}, "the shortest chart that keeps the limits has a mean of"),
+        ({"limits": RaceLimits((5, 7), games_p90=3)}, "at a difference of 0 no allowed race"),
+        ({"limits": RaceLimits((1, 999))}, "too many to go through; narrow games"),
+        (
+            {"limits": RaceLimits((1, 99)), "play": Play("npl", win_by=2)},
+            "400 are the most: narrow games",
+        ),
+    ],
+)
+def test_wrong_wishes_are_refused(wrong, remedy):
+    with pytest.raises(InputError, match=remedy):
+        design(**{"play": "npl", "limits": RaceLimits((5, 7)), **wrong})
