@@ -203,3 +203,14 @@ def test_a_chart_that_tells_no_scale_needs_one():
 def test_drafts_that_cannot_be_audited(rows, message):
     with pytest.raises(InputError, match=message):
         audit(ChartDraft("ours", rows), scale="npl")
+
+
+def test_odd_charts_are_audited_too():
+    huge = [(0, 10**6, 5, 5), (10**6 + 1, 2 * 10**6, 10**6, 1), (2 * 10**6 + 1, None, 10**6, 1)]
+    for report in (audit(Chart("huge", huge), scale=0.01), audit(Chart("huge", huge))):
+        assert all(0.0 <= row.p_win_low <= 1.0 for row in report.rows)
+        assert np.isfinite([row.even_difference for row in report.rows]).all()
+    odd = ChartDraft("odd", (ChartRow(0, 0, 5, 5), ChartRow(1, 1, 900, 1), ChartRow(2, 2, 1, 900)))
+    report = audit(odd, scale="npl")
+    assert report.rows[2].even_difference == -report.rows[1].even_difference < 0.0
+    assert not report.rows[2].monotone

@@ -126,6 +126,13 @@ def test_a_chart_is_found_by_its_file(write):
     assert problems_of(write("x"), find_chart) == problems_of(write("x"))
 
 
+@pytest.mark.parametrize("name", ["x" * 5000, "x\0y", "no/such", "x\ny"])
+def test_names_that_no_file_has(name):
+    (told,) = problems_of(name, find_chart)
+    assert "no chart is called so; name a file, or fargo_r6_hot" in told
+    assert "\n" not in told
+
+
 def test_neither_a_name_nor_a_file():
     assert problems_of("npl_9", find_chart) == [
         "F: there is no such file, and no chart is called so; name a file, or fargo_r6_hot, npl_8, "
@@ -153,3 +160,14 @@ def test_no_file_makes_another_error(tmp_path_factory, data, header):
         else:
             told = None
     assert told is None or all(told)
+
+
+@given(st.sampled_from([b"", ROWS.encode(), LEVELS.encode()]), st.binary(max_size=60))
+def test_no_bytes_make_another_error(tmp_path_factory, header, body):
+    path = tmp_path_factory.mktemp("charts") / "ours.csv"
+    path.write_bytes(header + body)
+    try:
+        told = (read_chart(path).name,)
+    except DataError as error:
+        told = error.problems
+    assert all(told)

@@ -161,7 +161,7 @@ def audit(chart: Chart | ChartDraft, *, scale: Any = None) -> ChartAudit:
             f"scale is missing, and chart {chart.name!r} does not tell one; give npl, fargo, "
             "elo, or the points that double the odds"
         )
-    used = scale_of(best.points_per_doubling if best and scale is None else scale)
+    used = _fitted(best) if best and scale is None else scale_of(scale)
     return ChartAudit(
         chart.name,
         used,
@@ -220,6 +220,11 @@ def _best_fit(even: NDArray[np.float64], cuts: NDArray[np.float64]) -> ChartFit 
         float(tilted / points),
         float(np.sqrt(np.mean((columns @ (points, tilted) - cuts) ** 2))),
     )
+
+
+def _fitted(fit: ChartFit) -> Scale:
+    """Return the scale of a fit, which may be as odd as the chart."""
+    return Scale(f"{fit.points_per_doubling:.4g} points", fit.points_per_doubling)
 
 
 def _fit_on(points: float, even: NDArray[np.float64], cuts: NDArray[np.float64]) -> ChartFit | None:

@@ -264,13 +264,20 @@ def find_chart_file(name_or_path: str | Path) -> ChartFile:
     try:
         return read_chart_file(name_or_path)
     except DataError as error:
-        if str(name_or_path) == "-" or Path(name_or_path).exists():
+        if str(name_or_path) == "-" or _exists(name_or_path):
             raise
         known = ", ".join((*CHARTS, *LEVEL_CHARTS))
         problem = error.problems[0].partition(";")[0]
         raise DataError(
             [f"{problem}, and no chart is called so; name a file, or {known}"]
         ) from None
+
+
+def _exists(path: str | Path) -> bool:
+    try:
+        return Path(path).exists()
+    except OSError:  # a name that no file can have, such as one of a thousand letters
+        return False
 
 
 def chart_frame(chart: Chart | LevelChart) -> pd.DataFrame:
