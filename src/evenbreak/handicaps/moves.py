@@ -154,7 +154,7 @@ def night_problems(
     >>> for problem in night_problems(system_of("npl"), club, night):
     ...     print(problem.row, problem.message)
     0 neither the race nor the winner is stated ('Ann' - 'Bo', 5-3); give the chart by which they
-    played (npl_8, npl_10, npl_12 or npl_20), or the columns race_a and race_b, or winner
+    played (npl_8, npl_10, npl_12 or npl_20), or the columns race_a and race_b
     1 'Boo' is not on the list; add the player with a rating to begin with, or correct the name
     """
     night = _night_of(roster, results, chart)
@@ -273,12 +273,12 @@ def _no_winner(system: System, roster: Roster, night: _Night, row: int, chart: C
         *charts, last = system.charts
         return (
             f"neither the race nor the winner is stated ({match}); give the chart by which they "
-            f"played ({', '.join(charts)} or {last}), or the columns race_a and race_b, or winner"
+            f"played ({', '.join(charts)} or {last}), or the columns race_a and race_b"
         )
     ratings = f"{roster.rating[night.a[row]]:g} and {roster.rating[night.b[row]]:g}"
     return (
         f"the ratings {ratings} are not both whole ({match}), and the chart {chart.name} has rows "
-        "for whole points only; round them in the list, or give race_a and race_b, or winner"
+        "for whole points only; round them in the list, or give race_a and race_b"
     )
 
 
