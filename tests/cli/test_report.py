@@ -171,6 +171,22 @@ def test_excel_gets_its_marks(run, tmp_path):
         assert body.count(b"\r\n") == body.count(b"\n") > 10
 
 
+def test_aliases_mend_names_and_the_page_keeps_their_folder_to_itself(run, tmp_path):
+    aliases = tmp_path / "private" / "aliases.csv"
+    aliases.parent.mkdir()
+    aliases.write_text("name,means\nAnnie,Ann\n", encoding="utf-8")
+    season = SMALL + "2024-09-24,Annie,Bo,7,5\n"
+    out = tmp_path / "sheet"
+    words = ("report", "-", "--out", str(out), "--aliases", str(aliases), "--html")
+    result = run(*words, stdin=season)
+    assert result.exit_code == 0
+    assert f"read as {aliases} says: 'Annie' as 'Ann'" in result.stderr
+    assert {row["player"] for row in rows(out, "ratings.csv")} == {"Ann", "Bo", "Cy"}
+    page = content(out)["sheet.html"].decode()
+    assert "read as aliases.csv says: &#39;Annie&#39; as &#39;Ann&#39;" in page
+    assert "private" not in page
+
+
 def test_a_page_and_a_workbook_are_made_when_asked_for(run, tmp_path):
     pytest.importorskip("xlsxwriter", reason="writes workbooks")
     words = ("report", "-", "--html", "--excel")

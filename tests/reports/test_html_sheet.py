@@ -267,8 +267,13 @@ def test_where_lengths_differ_there_are_dots_and_no_chart():
 
 
 def test_warnings_are_told_without_the_folder_of_the_file():
-    warnings = ("folder/season.csv: columns not used: 'x'", "folder/season.csv:7: 1 row is again")
+    warnings = (
+        "folder/season.csv: columns not used: 'x'",
+        "folder/season.csv:7: 1 row is again",
+        "aliases.csv: is not UTF-8",
+    )
     text, _ = made(league(["Ann", "Bo"]), warnings=warnings)
     assert "folder" not in text
     assert "<dd>columns not used: &#39;x&#39;</dd>" in text
     assert "<dd>line 7: 1 row is again</dd>" in text
+    assert "<dt>a warning</dt><dd>aliases.csv: is not UTF-8</dd>" in text

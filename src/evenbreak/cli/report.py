@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Collection, Sequence
+from dataclasses import replace
+from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.cli.options import refuse, refuse_both, which_races
+from evenbreak.cli.options import refuse, refuse_both, wants_aliases, which_races
 from evenbreak.errors import DataError
 
 if TYPE_CHECKING:
@@ -60,6 +62,7 @@ Examples:
     metavar="N",
     help=f"Pair the N players with the most games.  [default: {TOP}, without --players]",
 )
+@wants_aliases
 @click.option(
     "--html", is_flag=True, help="Also write sheet.html, one file for phones, screens and printers."
 )
@@ -75,6 +78,7 @@ def report(
     race_to: int | None,
     players: tuple[str, ...],
     top: int | None,
+    aliases: str | None,
     html: bool,
     excel: bool,
     excel_csv: bool,
@@ -106,9 +110,13 @@ def report(
     scale = scale_of(scale_name)
     limits = RaceLimits(games, RACE_TO if games is None and race_to is None else race_to)
     _say(f"Reading {'standard input' if results == '-' else results}")
-    file = read_results(results)
+    file = read_results(results, aliases=aliases)
     for warning in file.warnings:
         _say(f"Warning: {warning}")
+    if aliases is not None:
+        # The sheet is handed out, and folders are nobody else's business.
+        told = [text.replace(aliases, PurePath(aliases).name) for text in file.warnings]
+        file = replace(file, warnings=tuple(told))
     _say(f"Rating {len(file.results.players):,} players")
     ratings = fit(file.results, scale=scale)
     if not ratings.matches:

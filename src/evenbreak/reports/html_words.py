@@ -118,8 +118,12 @@ def left_out_and_why(
     yield from _not_shown(rated, paired, shown)
     for warning in file.warnings:
         # Where the file lay on somebody's disk is nobody else's business.
-        told = warning.removeprefix(f"{file.source}:").lstrip()
-        told = f"line {told}" if told[:1].isdecimal() and ":" in told else told
+        if not warning.startswith(f"{file.source}:"):
+            yield LeftOut("a warning", warning)
+            continue
+        told = warning.removeprefix(f"{file.source}:")
+        # After the name comes a blank, or the number of a line.
+        told = told.lstrip() if told.startswith(" ") else f"line {told}"
         yield LeftOut(f"a warning on {file_name(file)}", told)
 
 
