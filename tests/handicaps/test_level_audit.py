@@ -66,12 +66,17 @@ def test_a_consistent_chart_has_no_misfit():
     assert cells(report)[4, 3].p_win_middle == pytest.approx(0.5)
 
 
-def test_cells_that_get_no_harder_are_marked():
+@pytest.mark.parametrize(
+    "needs",
+    [
+        pytest.param([[3, 2, 2], [5, 3, 3], [4, 4, 3]], id="easier than for the next lower level"),
+        pytest.param([[3, 3, 2], [4, 3, 2], [4, 5, 3]], id="easier than against the next higher"),
+    ],
+)
+def test_cells_that_get_no_harder_are_marked(needs):
+    odd = cells(audit_levels(LevelChart("odd", [1, 2, 3], needs)))
+    assert {pair for pair, cell in odd.items() if not cell.monotone} == {(3, 1)}
     assert all(cell.monotone for cell in audit_levels(APA).cells)
-    odd = LevelChart("odd", [1, 2, 3], [[3, 3, 3], [5, 3, 3], [4, 4, 3]])
-    assert {pair for pair, cell in cells(audit_levels(odd)).items() if not cell.monotone} == {
-        (3, 1)
-    }
 
 
 def test_one_level():
