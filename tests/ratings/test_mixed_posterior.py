@@ -1,6 +1,7 @@
 """Ratings from mixed evidence against scipy's minimiser on a likelihood written out by hand."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -87,6 +88,85 @@ def by_hand(results, prior_sd, break_sd):
 
     size = players + (1 if break_sd else 0)
     return minimize(cost, np.zeros(size), method="BFGS", options={"gtol": 1e-7}).x
+
+
+def score_chance(x1, x2, score, form, first, last):
+    """Return P(score, last winner | the log-odds of a on either break), rack by rack."""
+    p = {1: logistic(x1), 2: logistic(x2)}
+    states = {(0, 0, first): 1.0}
+    for rack in range(sum(score)):
+        after = {}
+        for (i, j, breaker), chance in states.items():
+            for winner in (1, 2):
+                if rack == sum(score) - 1 and winner != last:
+                    continue
+                share = p[breaker] if winner == 1 else 1 - p[breaker]
+                ahead = {"winner": winner, "loser": 3 - winner, "alternate": 3 - breaker}[form]
+                key = (i + (winner == 1), j + (winner == 2), ahead)
+                after[key] = after.get(key, 0.0) + chance * share
+        states = after
+    return sum(chance for (i, j, _), chance in states.items() if (i, j) == score)
+
+
+def second_differences(cost, at, step=1e-3):
+    """Return the Hessian of a function, by differences."""
+    ways = step * np.eye(len(at))
+    return np.array(
+        [
+            [
+                cost(at + x + y) - cost(at + x - y) - cost(at - x + y) + cost(at - x - y)
+                for y in ways
+            ]
+            for x in ways
+        ]
+    ) / (4 * step**2)
+
+
+@pytest.mark.parametrize("form", ["winner", "loser", "alternate"])
+def test_scores_with_known_first_breaks_against_scipy(form):
+    rng = np.random.default_rng(9)
+    rows = []
+    for _ in range(20):
+        a, b = (int(k) for k in rng.choice(4, 2, replace=False))
+        race, lost = int(rng.integers(2, 6)), int(rng.integers(0, 4))
+        other, won = max(lost + 1, int(rng.integers(2, 6))), bool(rng.integers(0, 2))
+        score, needs = ((race, lost), (race, other)) if won else ((lost, race), (other, race))
+        rows.append((a, b, *score, *needs, int(rng.integers(1, 3))))
+    a, b, sa, sb, ra, rb, first = (list(column) for column in zip(*rows, strict=True))
+    code = FORMATS.index(form)
+    results = Results(
+        tuple("ABCD"),
+        a,
+        b,
+        sa,
+        sb,
+        race_a=ra,
+        race_b=rb,
+        first_break=first,
+        break_format=[code] * 20,
+    )
+
+    def cost(x):
+        skill, advantage = x[:4], x[4]
+        total = float(skill @ skill) / (2 * 0.9**2) + advantage**2 / (2 * BREAK_SD**2)
+        for k in range(20):
+            d = skill[a[k]] - skill[b[k]]
+            last = 1 if sa[k] == ra[k] else 2
+            total -= math.log(
+                score_chance(d + advantage, d - advantage, (sa[k], sb[k]), form, first[k], last)
+            )
+        return total
+
+    expected = minimize(cost, np.zeros(5), method="BFGS", options={"gtol": 1e-7})
+    ratings = fit(results, prior_sd=0.9, break_advantage="fit", **LOG_ODDS)
+    np.testing.assert_allclose(ratings.rating, expected.x[:4], atol=2e-5)
+    assert ratings.break_advantage == pytest.approx(expected.x[4], abs=2e-5)
+    covariance = np.linalg.inv(second_differences(cost, expected.x))
+    assert ratings.break_error == pytest.approx(math.sqrt(covariance[4, 4]), rel=1e-4)
+    np.testing.assert_allclose(
+        ratings.standard_error, np.sqrt(np.diagonal(covariance)[:4]), rtol=1e-4
+    )
+    assert ratings.break_games == sum(sa) + sum(sb)
 
 
 @pytest.mark.parametrize("unscored", [0.0, 0.5, 1.0])
@@ -208,6 +288,21 @@ def test_standard_errors_of_races_and_breaks_cover_as_often_as_they_say():
     assert np.mean(np.abs(pairs) < 1) == pytest.approx(0.683, abs=0.17)
     assert np.std(breaks) == pytest.approx(1, abs=0.3)
     assert np.mean(breaks) == pytest.approx(0, abs=0.4)
+
+
+def test_scores_alone_tell_the_break_advantage_less_surely_than_racks():
+    rng = np.random.default_rng(13)
+    z = []
+    for _ in range(30):
+        racks, _ = play(rng, 10, 150, advantage=0.3, unscored=0)
+        scores = replace(racks, racks=None)
+        by_racks, by_scores = (
+            fit(season, break_advantage="fit", **LOG_ODDS) for season in (racks, scores)
+        )
+        assert by_scores.break_error > by_racks.break_error
+        z.append((by_scores.break_advantage - 0.3) / by_scores.break_error)
+    assert np.mean(z) == pytest.approx(0, abs=0.55)
+    assert np.std(z) == pytest.approx(1, abs=0.4)
 
 
 def test_breakers_who_won_every_rack_have_a_finite_advantage():

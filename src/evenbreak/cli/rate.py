@@ -225,7 +225,7 @@ def _rate(
     if break_advantage == "fit" and ratings.break_advantage is None:
         _say(
             "Warning: of no game the file says who broke, so there is no break advantage to fit; "
-            "give racks, first_break and break_format"
+            "give break_format and first_break, with races or racks"
         )
     chosen = [_pair(ratings, pair) for pair in pairs]
     frame = pairs_frame(ratings, chosen) if pairs else rate_frame(ratings)

@@ -121,6 +121,8 @@ class Curvature:
             return step, 0.0
         bordered = self._iterate(self.border, accuracy)
         rest = self.corner - float(self.border @ bordered)
+        if rest <= 0.0:  # not convex here: down along the slope, as if all of the corner were left
+            rest = abs(self.corner) + float(self.border @ bordered)
         shift = -(slope + float(self.border @ step)) / rest
         return step - bordered * shift, shift
 

@@ -5,9 +5,11 @@ Of a match either the games are known, each won with the log-odds
     θi - θj + β,  θi - θj - β  or  θi - θj
 
 as i broke, j broke, or nobody knows who did; or only who won a race i:j, which has the
-likelihood W(p(θi - θj); m, n). β is the break advantage. Every term's logarithm is
+likelihood W(p(θi - θj); m, n). β is the break advantage. Every such term's logarithm is
 concave in (θ, β), and the priors strictly so: there is one mode, and Newton's method with
-a step that is halved until it goes down finds it.
+a step that is halved until it goes down finds it. Where it is known how many racks each
+broke, but not who won which of them, a term convex in β alone is added (see `splits`):
+concave the sum still is in θ.
 """
 
 from __future__ import annotations
@@ -25,6 +27,7 @@ from evenbreak.ratings.covariance import Curvature
 from evenbreak.ratings.posterior import GRADIENT_TOLERANCE
 from evenbreak.ratings.race_likelihood import race_slopes
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.splits import Splits, stacked
 from evenbreak.ratings.who_broke import count_broken
 
 __all__ = ["Evidence", "MixedMode", "evidence_of", "find_mixed_mode"]
@@ -53,6 +56,9 @@ class Evidence:
     race_pair, race_side, race_m, race_n, race_weight
         of each match known by its winner alone: its pair, who won (1 the low player, -1
         the high one), the games that the winner and the loser needed, and its weight.
+    splits, split_weight
+        how games of which the score alone is known may have split between who broke, and
+        what each such split weighs; the terms of games have the middle of each.
     """
 
     players: int
@@ -67,6 +73,8 @@ class Evidence:
     race_m: Floats
     race_n: Floats
     race_weight: Floats
+    splits: Splits
+    split_weight: Floats
 
     @property
     def graph(self) -> sparse.csr_array:
@@ -96,7 +104,8 @@ class Evidence:
         races = race_slopes(
             self.race_side * difference[self.race_pair], self.race_m, self.race_n
         ).log_win
-        return float(self.race_weight @ races - games)
+        split = self.splits.log_sums(advantage)[0]
+        return float(self.race_weight @ races + self.split_weight @ split - games)
 
     def _ends(self, pull: Floats) -> Floats:
         """Return what pulls at each player: of his pairs, with the sign of his end."""
@@ -112,7 +121,8 @@ class Evidence:
         races = race_slopes(self.race_side * difference[self.race_pair], self.race_m, self.race_n)
         weight = self.race_weight * self.race_side * races.slope
         pull -= np.bincount(self.race_pair, weight, len(self.low))
-        return self._ends(pull), float(self.broke @ miss)
+        split = self.splits.log_sums(advantage)[1]
+        return self._ends(pull), float(self.broke @ miss - self.split_weight @ split)
 
     def curvature(
         self, skill: Floats, advantage: float, precision: float, break_precision: float | None
@@ -131,7 +141,8 @@ class Evidence:
         if break_precision is not None:
             across = np.bincount(self.pair, self.broke * bend, len(self.low))
             border = self._ends(across.astype(np.float64))
-            corner = float((self.broke != 0) @ bend) + break_precision
+            spread = self.splits.log_sums(advantage)[2]
+            corner = float((self.broke != 0) @ bend - self.split_weight @ spread) + break_precision
         return Curvature(self.players, self.low, self.high, weight, precision, border, corner)
 
 
@@ -155,10 +166,14 @@ def evidence_of(
         np.concatenate([_pair_codes(scored), _pair_codes(won_only)]), return_inverse=True
     )
     scored_place, race_place = place[: len(scored)], place[len(scored) :]
+    won, lost = scored.score_a[None].astype(np.float64), scored.score_b[None].astype(np.float64)
+    splits, split_weight = stacked([]), np.zeros(0)
     if breaks:
-        won, lost = count_broken(scored)
-    else:
-        won, lost = scored.score_a[None], scored.score_b[None]
+        won, lost, pattern, splits = count_broken(scored)
+        known = pattern >= 0
+        split_weight = np.bincount(pattern[known], weights[0][known], len(splits.value)).astype(
+            np.float64
+        )
     turned = scored.player_a > scored.player_b
     low_won, low_lost = np.where(turned, lost, won), np.where(turned, won, lost)
     sides = np.array([0, 1, -1])[: len(won), None] * np.where(turned, -1, 1)
@@ -183,6 +198,8 @@ def evidence_of(
         np.where(a_won, race_a, race_b).astype(np.float64),
         np.where(a_won, race_b, race_a).astype(np.float64),
         weights[1],
+        splits,
+        split_weight,
     )
 
 
