@@ -5,8 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from evenbreak.cli import chart_audit
 from evenbreak.cli.chart import CHART_COMMANDS, chart
 from evenbreak.handicaps import CHARTS, LEVEL_CHARTS
+from evenbreak.ratings.scale import scale_of
 
 ROWS = "difference_from,difference_to,stronger_needs,weaker_needs\n"
 
@@ -123,6 +125,20 @@ def test_audit_of_skill_levels(run):
     result = run("chart", "audit", "apa_8ball")
     assert len(result.stdout.splitlines()) == 22
     assert "Most unfair: level 7 v 4, 5:2" in result.stderr
+
+
+def test_the_most_unfair_race_with_the_end_of_its_band_that_is_worse(run):
+    early = ROWS + "0,2,5,5\n3,8,6,4\n9,25,6,4\n26,,7,4\n"
+    told = run("chart", "audit", "-", "--scale", "npl", stdin=early).stderr
+    assert "Most unfair: 6:4 at a difference of 3, where the stronger wins 0.289" in told
+    told = run("chart", "audit", "npl_10").stderr
+    assert "Most unfair: 7:3 at a difference of 46, where the stronger wins 0.57" in told
+
+
+@pytest.mark.parametrize(("beside", "points"), [("npl_8", 30.0), ("fargo_r6_hot", 100.16)])
+def test_the_chart_beside_is_on_the_same_scale_if_it_was_made_for_about_that(beside, points):
+    other = chart_audit.other_chart(beside, scale_of("npl"))
+    assert other.scale.points_per_doubling == pytest.approx(points, abs=0.01)
 
 
 @pytest.mark.parametrize("ending", ["png", "svg"])

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from evenbreak.handicaps.level_chart import LevelChart
     from evenbreak.ratings.scale import Scale
 
-__all__ = ["chart_audit"]
+__all__ = ["chart_audit", "other_chart"]
 
 ROW_HEADINGS = ("difference", "race", "W low", "middle", "high", "even at", "place", "off by")
 LEVEL_HEADINGS = ("levels", "race", "W low", "middle", "high", "even at", "apart", "off by")
@@ -73,7 +73,7 @@ def chart_audit(
     if plot is not None:
         from evenbreak.reports.chart_plots import chart_figure
 
-        other = None if beside is None else _other(beside, report.scale)
+        other = None if beside is None else other_chart(beside, report.scale)
         write_plot(chart_figure(report, other), plot)
     if as_json:
         print_json(
@@ -101,7 +101,7 @@ def chart_audit(
         click.echo(line, err=not to_terminal())
 
 
-def _other(chart: str, scale: Scale) -> ChartAudit:
+def other_chart(chart: str, scale: Scale) -> ChartAudit:
     """Return the audit of the chart beside, on the same scale if it was made for about that."""
     from evenbreak.handicaps.audit import audit
     from evenbreak.handicaps.level_chart import LevelChart
