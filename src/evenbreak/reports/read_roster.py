@@ -34,6 +34,15 @@ OPTIONAL = {
 }
 """The columns that a roster may have, with their other names."""
 
+WRITTEN = dict.fromkeys(
+    (
+        *("won", "lost", "races_won", "races_lost"),
+        *("rating_before", "change", "matches_won", "matches_lost", "why"),
+    ),
+    (),
+)
+"""What the lists that `evenbreak rate` and `evenbreak report` write say besides."""
+
 LARGEST = 1e6
 """The largest rating or error that is taken for one, in points."""
 
@@ -86,7 +95,7 @@ def read_roster(path: str | Path) -> RosterFile:
     >>> club.players, club.rating, club.games
     (('Ann', 'Bo'), array([92.5,  nan]), array([140,   0]))
     """
-    table = read_table(path, REQUIRED, OPTIONAL)
+    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN})
     if not len(table) and not len(table.problems):
         table.problems.add(None, "has no players below its header; write one line for each")
     names = _names(table)
