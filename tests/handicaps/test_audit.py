@@ -8,7 +8,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps import Chart, ChartDraft, ChartRow, audit, chart, even_doublings
+from evenbreak.handicaps import (
+    Chart,
+    ChartDraft,
+    ChartRow,
+    RaceLimits,
+    audit,
+    chart,
+    design,
+    even_doublings,
+)
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings.scale import scale_of
 
@@ -95,6 +104,16 @@ def test_the_audit_of_a_designed_chart_recovers_its_scale_and_tilt(points, tilt)
     assert fit.points_per_doubling == pytest.approx(points, rel=0.01)
     assert fit.tilt == pytest.approx(tilt, abs=1.5 / points)
     assert fit.misfit < 0.5
+
+
+@pytest.mark.parametrize("scale", ["npl", "fargo", "elo", 45.0])
+@pytest.mark.parametrize("tilt", [0.0, 0.25, 0.5, 0.75, 1.0])
+@pytest.mark.parametrize("games", [(7, 9), (13, 15)])
+def test_the_audit_of_the_fairest_chart_recovers_its_scale_and_tilt(scale, tilt, games):
+    fit = audit(design(scale, RaceLimits(games, weaker_least=2), tilt=tilt)).best_fit
+    assert fit.points_per_doubling == pytest.approx(scale_of(scale).points_per_doubling, rel=0.01)
+    assert fit.tilt == pytest.approx(tilt, abs=0.06)
+    assert fit.misfit < 1.0
 
 
 @settings(max_examples=50)
