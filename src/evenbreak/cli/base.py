@@ -20,6 +20,7 @@ COMMANDS = {
     "live": "Tell the odds of a match under way, and what the next rack is worth.",
     "compare": "Compare match formats: who gains by which, and where they cross.",
     "fair": "Find the race that is nearest to an even chance.",
+    "matchups": "Tell tonight's races for a list of rated players.",
     "chart": "List and show handicap charts, audit one, or design one.",
     "validate": "Tell how far the ratings of a league can be trusted.",
     "oneball": "Answer who wins the one-ball game, and which shot is best.",

@@ -1,0 +1,203 @@
+"""What `evenbreak matchups` says: its table on a terminal, and when the evening ends."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from evenbreak.cli.output import aligned, chance_text
+from evenbreak.cli.players import scale_text
+from evenbreak.matches.evening import evening
+from evenbreak.reports.problems import printable
+from evenbreak.reports.roster_matchups import NEW, RosterMatchups, roster_matchups
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.handicaps.chart import Chart
+    from evenbreak.handicaps.level_chart import LevelChart
+    from evenbreak.ratings.roster import Roster
+    from evenbreak.ratings.scale import Scale
+    from evenbreak.reports.matchups import RaceLimits
+
+__all__ = ["Told"]
+
+KINDS = {"chart": "By the chart", "best": "In the fairest races"}
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """What was asked for, and how to say the answer."""
+
+    roster: Roster
+    scale: Scale
+    chart: Chart | LevelChart | None
+    limits: RaceLimits | None
+    minutes: float | None
+
+    def matchups(self, pairs: NDArray[Any]) -> RosterMatchups:
+        """Return the races of pairs."""
+        return roster_matchups(
+            self.roster,
+            pairs,
+            scale=self.scale,
+            chart=self.chart,
+            limits=self.limits,
+            minutes_per_game=self.minutes,
+        )
+
+    @property
+    def heading(self) -> str:
+        """What the table rests on, in one line."""
+        ways = [] if self.chart is None else [f"chart {self.chart.name}"]
+        if self.limits is not None and self.limits.games is not None:
+            ways.append("fairest races of {} to {} games".format(*self.limits.games))
+        elif self.limits is not None:
+            ways.append(f"fairest races to {self.limits.race_to}")
+        text = " and ".join(ways)
+        return f"{text[:1].upper()}{text[1:]}, {scale_text(self.scale)}"
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether the error of any rating is stated."""
+        return bool((self.roster.standard_error > 0.0).any())
+
+    def text(self, answer: RosterMatchups) -> str:
+        """Return the table for a terminal, with what is to be said of it below."""
+        kinds = self._kinds()
+        both = len(kinds) > 1
+        names = list(answer.frame.columns)
+        rows = [dict(zip(names, row, strict=True)) for row in answer.frame.itertuples(index=False)]
+        headings = ["A", "B"]
+        for name in kinds.values():
+            headings += self._headings(name, both=both)
+        cells = [
+            [
+                printable(row["player_a"]),
+                printable(row["player_b"]),
+                *(cell for prefix in kinds for cell in self._cells(prefix, row, both=both)),
+            ]
+            for row in rows
+        ]
+        parts = [printable(self.heading), aligned([headings, *cells], left=2).rstrip("\n")]
+        if below := self._below(answer, rows):
+            parts.append("\n".join(below))
+        return "\n\n".join(parts) + "\n"
+
+    def _kinds(self) -> dict[str, str]:
+        """Return the prefix of the columns of each kind of race, and what to call it."""
+        kinds = {} if self.chart is None else {"chart_": "chart"}
+        return kinds if self.limits is None else {**kinds, "": "fairest"}
+
+    def _headings(self, name: str, *, both: bool) -> list[str]:
+        length = "games" if self.minutes is None else "minutes"
+        plug_in = ["as if sure"] if self.doubtful and not both else []
+        return [name, "A wins", *plug_in, length, *([] if both else ["9 of 10 within"])]
+
+    def _cells(self, prefix: str, row: dict[str, Any], *, both: bool) -> list[str]:
+        names = self._headings("", both=both)
+        if math.isnan(row["difference"]):
+            return [""] * len(names)
+        unit = "games" if self.minutes is None else "minutes"
+        cells = [
+            f"{row[f'{prefix}race_a']}:{row[f'{prefix}race_b']}",
+            chance_text(row[f"{prefix}p_win_a"]),
+        ]
+        if self.doubtful and not both:
+            cells.append(chance_text(row[f"{prefix}p_win_a_plug_in"]))
+        mean = row[f"{prefix}mean_{unit}"]
+        cells.append(f"{mean:.1f}" if self.minutes is None else f"{mean:.0f}")
+        return cells if both else [*cells, f"{row[f'{prefix}{unit}_p90']:.0f}"]
+
+    def _below(self, answer: RosterMatchups, rows: list[dict[str, Any]]) -> list[str]:
+        """Return what is to be said of the pairs."""
+        lines = [
+            f"{printable(row['player_a'])} (A), {printable(row['player_b'])} (B): {note}"
+            for row in rows
+            for note in row["note"].split("; ")
+            if note and note not in NEW
+        ]
+        if self.doubtful:
+            lines.append(
+                "Chances are averaged over what the ratings may be"
+                + (
+                    "; as if sure: were they right."
+                    if len(self._kinds()) == 1
+                    else "; into a file, also as if they were right."
+                )
+            )
+        if self.chart is not None and answer.linked.any():
+            worst = rows[int(answer.frame["chart_unfairness"].argmax())]
+            lines.append(
+                f"The chart is least fair to {printable(_weaker(worst))}, who wins "
+                f"{chance_text(0.5 - worst['chart_unfairness'])} against "
+                f"{printable(_favoured(worst))}."
+            )
+        return lines
+
+    def evening(
+        self, answer: RosterMatchups, pairs: NDArray[Any], tables: int, seed: int
+    ) -> list[dict[str, Any]]:
+        """Return when all matches that have a race are over, in minutes."""
+        minutes = self.minutes or 1.0
+        meets = [(int(a), int(b)) for a, b in pairs[answer.linked]]
+        ends = []
+        for kind, laws in (("chart", answer.chart_laws), ("best", answer.best_laws)):
+            if laws:
+                end = evening(laws, tables=tables, players=meets, rng=np.random.default_rng(seed))
+                ends.append(
+                    {
+                        "races": kind,
+                        "matches": len(laws),
+                        "tables": tables,
+                        "mean_minutes": end.mean * minutes,
+                        "minutes_p90": end.p90 * minutes,
+                        "exact": end.exact,
+                        "runs": end.runs,
+                        "mean_minutes_error": end.mean_error * minutes,
+                        "minutes_p90_error": end.p90_error * minutes,
+                    }
+                )
+        return ends
+
+    def evening_lines(self, ends: list[dict[str, Any]]) -> list[str]:
+        """Return when the evening ends, a line for each kind of race."""
+        return [_evening_line(end) for end in ends]
+
+
+def _evening_line(end: dict[str, Any]) -> str:
+    tables = f"{end['tables']} table{'s' if end['tables'] > 1 else ''}"
+    matches = f"{end['matches']:,} match{'es' if end['matches'] > 1 else ''}"
+    text = (
+        f"{KINDS[end['races']]}, {matches} on {tables} take {_clock(end['mean_minutes'])} on "
+        f"average;\n9 evenings of 10 are over within {_clock(end['minutes_p90'])}"
+    )
+    if end["exact"]:
+        return f"{text}."
+    return (
+        f"{text}, by {end['runs']:,} evenings\nplayed out (standard errors "
+        f"{end['mean_minutes_error']:.1f} and {end['minutes_p90_error']:.1f} minutes)."
+    )
+
+
+def _clock(minutes: float) -> str:
+    """Return minutes as hours and minutes.
+
+    >>> _clock(52.4), _clock(119.7), _clock(185.0)
+    ('52 min', '2 h 00', '3 h 05')
+    """
+    whole = round(minutes)
+    return f"{whole} min" if whole < 60 else f"{whole // 60} h {whole % 60:02d}"
+
+
+def _weaker(row: dict[str, Any]) -> str:
+    name: str = row["player_b"] if row["chart_p_win_a"] >= 0.5 else row["player_a"]
+    return name
+
+
+def _favoured(row: dict[str, Any]) -> str:
+    name: str = row["player_a"] if row["chart_p_win_a"] >= 0.5 else row["player_b"]
+    return name
