@@ -21,6 +21,7 @@ __getattr__, __dir__, __all__ = attach(
         "level_audit": ["LevelAudit", "LevelCell", "audit_levels"],
         "level_chart": ["LEVEL_CHARTS", "LevelChart", "level_chart"],
         "moves": ["MatchMove", "Moves", "apply_results", "night_problems"],
+        "pareto": ["ParetoChart", "pareto"],
         "play": ["Play"],
         "race_limits": ["RaceLimits"],
         "systems": ["SYSTEMS", "System", "system_of"],

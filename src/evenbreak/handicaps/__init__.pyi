@@ -29,6 +29,8 @@ from evenbreak.handicaps.moves import MatchMove as MatchMove
 from evenbreak.handicaps.moves import Moves as Moves
 from evenbreak.handicaps.moves import apply_results as apply_results
 from evenbreak.handicaps.moves import night_problems as night_problems
+from evenbreak.handicaps.pareto import ParetoChart as ParetoChart
+from evenbreak.handicaps.pareto import pareto as pareto
 from evenbreak.handicaps.play import Play as Play
 from evenbreak.handicaps.race_limits import RaceLimits as RaceLimits
 from evenbreak.handicaps.systems import SYSTEMS as SYSTEMS

@@ -13,9 +13,13 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["cheapest_within", "without_the_worst"]
+__all__ = ["NoChartError", "cheapest_within", "without_the_worst"]
 
 Floats = NDArray[np.float64]
+
+
+class NoChartError(InputError):
+    """No chart keeps the limits."""
 
 
 def _cheapest(cost: Floats, evens: int) -> NDArray[np.int64]:
@@ -29,7 +33,7 @@ def _cheapest(cost: Floats, evens: int) -> NDArray[np.int64]:
     path = np.empty(len(best), dtype=np.int64)
     path[-1] = best[-1].argmin()
     if not np.isfinite(best[-1, path[-1]]):
-        raise InputError(
+        raise NoChartError(
             "no chart keeps these limits with races that get harder as the difference grows; "
             "allow longer matches or more races"
         )
@@ -55,7 +59,7 @@ def cheapest_within(cost: Floats, length: Floats, evens: int, budget: float) -> 
     price, path = math.inf, _cheapest(length, evens)
     shortest = _mean(length, path)
     if shortest > budget:
-        raise InputError(
+        raise NoChartError(
             f"mean_games is {budget:g}, and the shortest chart that keeps the limits has a mean "
             f"of {shortest:.2f} games; give so many or more, or allow shorter races"
         )
@@ -89,5 +93,5 @@ def without_the_worst(cost: Floats, length: Floats, evens: int, budget: float) -
 def _keeps(length: Floats, evens: int, budget: float) -> bool:
     try:
         return _mean(length, _cheapest(length, evens)) <= budget
-    except InputError:
+    except NoChartError:
         return False

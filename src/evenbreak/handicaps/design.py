@@ -10,30 +10,14 @@ misses the target by, so the best path follows by dynamic programming over the d
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from itertools import groupby
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from evenbreak.checks import number_probability, one_of, whole
-from evenbreak.errors import InputError
-from evenbreak.handicaps.chart import Chart, ChartRow
-from evenbreak.handicaps.chart_paths import cheapest_within, without_the_worst
-from evenbreak.handicaps.play import Play, play_of
+from evenbreak.handicaps.candidates import Candidates
+from evenbreak.handicaps.chart import Chart
+from evenbreak.handicaps.play import play_of
 from evenbreak.handicaps.race_limits import RaceLimits
 
 __all__ = ["design", "nearest_chart"]
-
-Floats = NDArray[np.float64]
-
-_TIE = 1e-12
-_MOST_CELLS = 5_000_000
-_MOST_ONE_BY_ONE = 400
-_HEAVIEST = 1e6
-"""The weight that stands for 'never, unless no allowed race does better'."""
 
 
 def design(
@@ -96,16 +80,10 @@ def design(
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
     [(0, 3, 3), (8, 4, 3), (20, 5, 3), (29, 4, 2), (40, 5, 2)]
     """
-    target, tilt = number_probability(target, "target"), number_probability(tilt, "tilt")
-    criterion = one_of(criterion, "criterion", ("mean", "worst"))
-    races = _Races.of(play_of(play), limits, up_to)
-    cost = races.cost(target, tilt)
-    budget = math.inf if mean_games is None else _above_0(mean_games, "mean_games")
-    length = races.mean_games() if budget < math.inf else np.zeros_like(cost)
-    length = np.where(np.isfinite(cost), length, np.inf)
-    if criterion == "worst":
-        cost = without_the_worst(cost, length, races.evens, budget)
-    return races.chart(cheapest_within(cost, length, races.evens, budget), name)
+    candidates = Candidates(play_of(play), limits, up_to)
+    return candidates.fairest(
+        target=target, tilt=tilt, criterion=criterion, mean_games=mean_games, name=name
+    )
 
 
 def nearest_chart(
@@ -131,86 +109,4 @@ def nearest_chart(
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
     [(0, 4, 4), (7, 4, 3), (20, 5, 3), (29, 4, 2), (40, 5, 2), (49, 6, 2)]
     """
-    races = _Races.of(play_of(play), limits, up_to)
-    cost = races.cost(0.5, 0.5)
-    cost[: races.evens - 1] = np.inf
-    return races.chart(cost.argmin(axis=0), name)
-
-
-@dataclass(frozen=True)
-class _Races:
-    """All races that may be in a chart, the easiest for the stronger player first.
-
-    The first `evens` of them are even races, the shorter first; of the others each is even
-    at a larger difference than the one before.
-    """
-
-    play: Play
-    m: NDArray[np.int64]
-    n: NDArray[np.int64]
-    evens: int
-    points: NDArray[np.int64]
-    allowed: NDArray[np.bool_]
-
-    @classmethod
-    def of(cls, play: Play, limits: RaceLimits, up_to: int | None) -> _Races:
-        """Return the races that the limits allow, or refuse what would take too long."""
-        m, n = np.array(limits.races).T
-        if not play.is_plain and m.size > _MOST_ONE_BY_ONE:
-            raise InputError(
-                f"games is {limits.games!r}, which makes {m.size} races; won by more than 1 or "
-                f"with a break that counts, {_MOST_ONE_BY_ONE} are the most: narrow games"
-            )
-        even = play.even_differences(m, n)
-        last = (
-            max(math.floor(even.max() + _TIE), 1)
-            if up_to is None
-            else whole(up_to, "up_to", at_least=1)
-        )
-        if m.size * (last + 1) > _MOST_CELLS:
-            raise InputError(
-                f"{m.size} races at {last + 1} differences are too many to go through; narrow "
-                "games, raise the fewest games of the weaker player, or lower up_to"
-            )
-        order = np.lexsort((m + n, np.where(m == n, -np.inf, even)))
-        m, n, points = m[order], n[order], np.arange(last + 1)
-        allowed = np.ones((m.size, points.size), dtype=bool)
-        if limits.games_p90 is not None:
-            allowed = play.ends_within(m, n, points, limits.games_p90) >= 0.9 - _TIE
-            if not allowed.any(axis=0).all():
-                nowhere = int(points[~allowed.any(axis=0)][0])
-                raise InputError(
-                    f"games_p90 is {limits.games_p90}, and at a difference of {nowhere} no "
-                    "allowed race ends within so many games in 9 of 10 matches; give more, or "
-                    "allow shorter races"
-                )
-        return cls(play, m, n, int((m == n).sum()), points, allowed)
-
-    def cost(self, target: float, tilt: float) -> Floats:
-        """Return what each race costs at each difference, shape (races, differences)."""
-        above = self.play.win(self.m, self.n, self.points) - target
-        weights = (min(0.5 / one, _HEAVIEST) if one else _HEAVIEST for one in (1.0 - tilt, tilt))
-        over, under = weights
-        cost = np.where(above > 0.0, over * above, under * np.maximum(-above - _TIE, 0.0))
-        cost[:, 0] = np.where(np.arange(self.m.size) < self.evens, 0.0, np.inf)
-        return np.where(self.allowed, cost, np.inf)
-
-    def mean_games(self) -> Floats:
-        """Return the mean length of each race at each difference, in games."""
-        return self.play.mean_games(self.m, self.n, self.points)
-
-    def chart(self, path: NDArray[np.int64], name: str) -> Chart:
-        """Return the chart that has at each difference the race of this place."""
-        places = [(place, len(list(run))) for place, run in groupby(path.tolist())]
-        rows, start = [], 0
-        for k, (place, count) in enumerate(places):
-            end = None if k == len(places) - 1 else start + count - 1
-            rows.append(ChartRow(start, end, int(self.m[place]), int(self.n[place])))
-            start += count
-        return Chart(name, rows)
-
-
-def _above_0(value: Any, name: str) -> float:
-    if not (isinstance(value, int | float) and 0.0 < value < math.inf):
-        raise InputError(f"{name} is {value!r}; give a number above 0")
-    return float(value)
+    return Candidates(play_of(play), limits, up_to).nearest(name)
