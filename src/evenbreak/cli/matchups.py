@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -176,7 +177,9 @@ def _print(told: Told, meets: NDArray[Any], tables: int | None, seed: int, as_js
         rows = frame.where(frame.notna(), None).to_dict("records")
         print_json({"pairs": rows, "evening": ends, "schema_version": SCHEMA_VERSION})
         return
-    click.echo("\n".join([told.text(answer), *told.evening_lines(ends)]).rstrip("\n"))
+    text = "\n".join([told.text(answer), *told.evening_lines(ends)]).rstrip("\n")
+    # Names may have letters that the terminal's encoding lacks.
+    click.echo(f"{text}\n".encode(sys.stdout.encoding or "utf-8", "replace"), nl=False)
 
 
 def _stream(told: Told, meets: NDArray[Any], tables: int | None, seed: int) -> None:

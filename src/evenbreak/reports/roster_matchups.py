@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.errors import DataError, InputError
+from evenbreak.errors import InputError
 from evenbreak.handicaps.chart import Chart
 from evenbreak.handicaps.level_chart import LevelChart
 from evenbreak.handicaps.uncertain import (
@@ -22,7 +22,7 @@ from evenbreak.matches.evening import Length
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.reports.matchups import NOT_LINKED, RaceLimits
-from evenbreak.reports.problems import quoted
+from evenbreak.reports.problems import Problems, quoted
 from evenbreak.reports.read_roster import RosterFile
 
 if TYPE_CHECKING:
@@ -69,21 +69,26 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
         with one line for each such player.
     """
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
-    problems = [
-        f"{file.source}:{file.lines[place]}: standard_error {roster.standard_error[place]:g} "
-        f"says nothing of a player; write {most:g} points at most, or check --scale"
-        for place in np.flatnonzero(roster.standard_error > most).tolist()
-    ]
+    problems = Problems(file.source)
+    problems.add_rows(
+        file.lines,
+        np.flatnonzero(roster.standard_error > most),
+        lambda place: (
+            f"standard_error {roster.standard_error[place]:g} says nothing of a player; write "
+            f"{most:g} points at most, or check --scale"
+        ),
+    )
     if isinstance(chart, LevelChart):
-        strange = ~np.isin(_whole(roster.rating), chart.levels)
-        problems += [
-            f"{file.source}:{file.lines[place]}: rating {roster.rating[place]:g} of "
-            f"{quoted(roster.players[place])} is no level of the chart {chart.name}; write one of "
-            f"{', '.join(map(str, chart.levels))}"
-            for place in np.flatnonzero(strange).tolist()
-        ]
-    if problems:
-        raise DataError(problems)
+        levels = ", ".join(map(str, chart.levels))
+        problems.add_rows(
+            file.lines,
+            np.flatnonzero(~np.isin(_whole(roster.rating), chart.levels)),
+            lambda place: (
+                f"rating {roster.rating[place]:g} of {quoted(roster.players[place])} is no level "
+                f"of the chart {chart.name}; write one of {levels}"
+            ),
+        )
+    problems.raise_any()
 
 
 @dataclass(frozen=True, eq=False)
