@@ -36,7 +36,7 @@ def test_words_tell_what_the_ratings_rest_on():
     assert rate_words(ratings, choice) == [
         "3 players, 2 matches with 21 games; left out: 1 forfeit, 1 at 0-0.",
         "On an NPL-like scale (30 points double the odds of a game).",
-        "Before any result: mean 80, standard deviation 30.0 points.",
+        "Before any result: standard deviation 30.0 points.",
         "Of 2 such deviations this one (the last tried) predicted 1,200 later results best.",
         "Anchored at A 90, B 80 on average.",
         "A match counts half after 30 days.",

@@ -68,7 +68,8 @@ def rate_words(ratings: Ratings, choice: PriorChoice | None = None) -> list[str]
 
 def _prior_words(ratings: Ratings, choice: PriorChoice | None) -> list[str]:
     points = ratings.scale.points(ratings.prior_sd)
-    lines = [f"Before any result: mean {ratings.anchor:g}, standard deviation {points:.1f} points."]
+    mean = "" if ratings.named else f"mean {ratings.anchor:g}, "
+    lines = [f"Before any result: {mean}standard deviation {points:.1f} points."]
     if choice is not None:
         edge = " (the last tried)" if choice.prior_sd in (choice.tried[0], choice.tried[-1]) else ""
         lines.append(
