@@ -41,6 +41,12 @@ def test_each_band_has_the_fairest_race_of_every_difference_in_it(scale, limits)
         assert band.p_first == race_win_probability(p, band.stronger, band.weaker)
 
 
+def test_a_pair_at_the_very_edge_is_in_the_band_of_its_race():
+    limits, npl = RaceLimits(games=(9, 9)), scale_of("npl")
+    edge = chart_bands(limits, npl, 90.0)[1].first
+    assert chart_bands(limits, npl, edge)[-1].first == edge
+
+
 def test_there_is_no_chart_where_lengths_differ_or_of_too_many_lines():
     npl = scale_of("npl")
     assert chart_bands(RaceLimits(games=(7, 13)), npl, 90.0) == []

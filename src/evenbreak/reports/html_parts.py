@@ -221,7 +221,8 @@ def chart_bands(limits: RaceLimits, scale: Scale, furthest: float) -> list[Band]
         return []
     decimals = decimals_of(scale)
     unit = 10.0**-decimals
-    last = max(1, math.ceil(furthest / unit))
+    # One step beyond, so that the furthest pair is in a band even where one begins with it.
+    last = math.ceil(furthest / unit) + 1
 
     def race(step: int) -> tuple[int, int]:
         fairest = limits.fairest(scale.win_probability(step * unit))

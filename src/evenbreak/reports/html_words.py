@@ -48,6 +48,8 @@ def three_pairs(pairs: Sequence[SurePair]) -> list[tuple[str, SurePair]]:
     """Return the best known, the middling and the least known pair, each once."""
     if not pairs:
         return []
+    if len(pairs) == 1:
+        return [("", pairs[0])]
     named = {0: "best known", (len(pairs) - 1) // 2: "middling", len(pairs) - 1: "least known"}
     return [(name, pairs[k]) for k, name in sorted(named.items())]
 
