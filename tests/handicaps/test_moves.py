@@ -1,3 +1,7 @@
+import importlib.util
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,6 +13,7 @@ from evenbreak.handicaps.moves import apply_results, night_problems
 from evenbreak.handicaps.systems import system_of
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import NOT_STATED, Roster
+from evenbreak.reports.read_results import read_results
 
 NPL = system_of("npl")
 CLUB = Roster(["Cy", "Ann", "Bo"], [71, 92, 80], [9.0, 4.0, np.nan], [10, 200, NOT_STATED])
@@ -130,6 +135,34 @@ def test_a_chart_is_not_asked_about_parts_of_a_point():
 def test_results_that_cannot_be_used_are_refused():
     with pytest.raises(InputError, match="row 0 of the results: 'Zed' is not on the list"):
         apply_results(NPL, CLUB, night(("Ann", "Zed", 5, 3), race_a=[5], race_b=[5]))
+
+
+DATA = Path(__file__).resolve().parents[2] / "data"
+
+
+def test_a_season_night_by_night_finds_the_races_that_were_played():
+    # The script that made the season keeps ratings of its own, and they chose these races.
+    spec = importlib.util.spec_from_file_location("make_league", DATA / "make_demo_league.py")
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    names, skills, off = zip(*script.ROSTER, strict=True)
+    roster = Roster(names, np.add(skills, off))
+    season = read_results(DATA / "demo_league.csv").results
+    bare = replace(season, race_a=None, race_b=None)
+    played = 0
+    for day in np.unique(season.date):
+        of_day = season.date == day
+        moves = apply_results(NPL, roster, bare.select(of_day), chart=chart("npl_10"))
+        stated = season.select(of_day)
+        for match in moves.matches:
+            a_won = season.players[stated.player_a[match.row]] == names[match.winner]
+            races = (stated.race_a, stated.race_b) if a_won else (stated.race_b, stated.race_a)
+            assert match.by_chart == tuple(int(race[match.row]) for race in races)
+        roster = moves.after
+        played += len(moves.matches)
+    assert played == 395
+    assert roster.rating.sum() == sum(skills) + sum(off)
+    assert np.abs(roster.rating - skills).mean() < np.abs(off).mean()
 
 
 @st.composite
