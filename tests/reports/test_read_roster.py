@@ -1,4 +1,5 @@
 from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -7,7 +8,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import DataError
 from evenbreak.ratings.roster import NOT_STATED
-from evenbreak.reports.read_roster import read_roster
+from evenbreak.reports.read_roster import OPTIONAL, REQUIRED, read_roster
 
 
 @pytest.fixture(scope="session")
@@ -113,3 +114,10 @@ def test_any_cells_are_read_or_refused(read, rows):
 def test_any_bytes_are_read_or_refused(read, content):
     with suppress(DataError):
         read(b"player,rating\n" + content)
+
+
+def test_every_column_is_described_with_its_other_names():
+    page = Path(__file__).resolve().parents[2] / "docs" / "reference" / "files.md"
+    text = page.read_text(encoding="utf-8")
+    for column, others in {**REQUIRED, **OPTIONAL}.items():
+        assert f"| `{column}` | {', '.join(others)} |" in text

@@ -121,14 +121,8 @@ class Told:
             if note and note not in NEW
         ]
         if self.doubtful:
-            lines.append(
-                "Chances are averaged over what the ratings may be"
-                + (
-                    "; as if sure: were they right."
-                    if len(self._kinds()) == 1
-                    else "; into a file, also as if they were right."
-                )
-            )
+            tail = "" if len(self._kinds()) > 1 else "; as if sure: were they right"
+            lines.append(f"A wins: averaged over how far the ratings may be off{tail}.")
         if self.chart is not None and answer.linked.any():
             worst = rows[int(answer.frame["chart_unfairness"].argmax())]
             lines.append(
