@@ -5,8 +5,14 @@ from evenbreak import __version__
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import scale_of
-from evenbreak.reports.frames import ratings_frame, scale_text, summary_frame
-from evenbreak.reports.matchups import RaceLimits, matchups_frame
+from evenbreak.reports.frames import (
+    count_groups,
+    dates_of,
+    ratings_frame,
+    scale_text,
+    summary_frame,
+)
+from evenbreak.reports.matchups import RaceLimits, matchups_frame, most_active
 from evenbreak.reports.read_results import ResultsFile
 
 
@@ -98,3 +104,22 @@ def test_a_file_without_dates_has_none_in_its_summary():
 @pytest.mark.parametrize("name", ["npl", "fargo", "elo", 50])
 def test_a_scale_is_only_like_one_that_has_a_name(name):
     assert "like" in scale_text(scale_of(name)) or "of its own" in scale_text(scale_of(name))
+
+
+def test_players_known_by_winners_alone_are_no_players_without_results():
+    season = Results.from_names(
+        ["Ann", "Bo"],
+        ["Bo", "Cy"],
+        [0, 0],
+        [0, 0],
+        race_a=[7, 7],
+        race_b=[5, 5],
+        winner=[1, 1],
+        unscored=[True, True],
+        date=["2026-01-05", "2026-01-12"],
+    )
+    ratings = fit(season)
+    assert not ratings.idle.any()
+    assert count_groups(ratings) == 1
+    assert dates_of(season) == ("2026-01-05", "2026-01-12")
+    assert most_active(ratings, 1) == [1]

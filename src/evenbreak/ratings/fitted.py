@@ -88,6 +88,11 @@ class Ratings:
     _skill: Floats = field(repr=False)
     _break_precision: float | None = field(default=None, repr=False)
 
+    @property
+    def idle(self) -> NDArray[np.bool_]:
+        """Which players have no result that counts: their rating is the prior's."""
+        return self.games + self.races_won + self.races_lost == 0
+
     @cached_property
     def standard_error(self) -> Floats:
         """The posterior standard deviation of each rating, in points.

@@ -79,7 +79,7 @@ def summary_frame(
         "last_date": last,
         "games": int(ratings.won.sum()),
         "players": len(ratings.players),
-        "players_without_games": int((ratings.games == 0).sum()),
+        "players_without_games": int(ratings.idle.sum()),
         "components": count_groups(ratings),
         "groups_of_similar_names": len(file.similar_names),
         "scale": f"{scale_text(scale)}; not an official rating",
@@ -100,8 +100,8 @@ def summary_frame(
 
 
 def count_groups(ratings: Ratings) -> int:
-    """Return how many groups of players never met; one without games is no group."""
-    return len(np.unique(ratings.component[ratings.games > 0]))
+    """Return how many groups of players never met; one without results is no group."""
+    return len(np.unique(ratings.component[~ratings.idle]))
 
 
 def file_name(file: ResultsFile) -> str:
@@ -111,8 +111,8 @@ def file_name(file: ResultsFile) -> str:
 
 def dates_of(results: Results) -> tuple[str, str]:
     """Return the first and the last day on which a match was played, '' where none is stated."""
-    played = results.played().results
-    if played.date is None:
-        return "", ""
-    days = played.date[~np.isnat(played.date)]
+    counted = results.played().results, results.won_only()
+    stated = [part.date for part in counted if part.date is not None]
+    days = np.concatenate(stated) if stated else np.zeros(0, "datetime64[D]")
+    days = days[~np.isnat(days)]
     return (str(days.min()), str(days.max())) if len(days) else ("", "")

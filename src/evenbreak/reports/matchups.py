@@ -66,9 +66,11 @@ class RaceLimits:
 def most_active(ratings: Ratings, top: int) -> list[int]:
     """Return the players with the most games (positions in `ratings.players`), the most first.
 
-    Of players with equally many games the first in the order of names comes first.
+    Of players with equally many games those come first with the most matches known by their
+    winner alone, then the first in the order of names.
     """
-    order = sorted(range(len(ratings.players)), key=lambda k: (-ratings.games[k], k))
+    races = ratings.races_won + ratings.races_lost
+    order = sorted(range(len(ratings.players)), key=lambda k: (-ratings.games[k], -races[k], k))
     return order[:top]
 
 

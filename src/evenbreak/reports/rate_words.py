@@ -117,7 +117,6 @@ def connection_words(ratings: Ratings) -> list[str]:
     'Nothing links 2 groups of players, of 3 and 2: compare ratings within a group only.'
     """
     count = np.bincount(ratings.component)[1:]
-    idle = ratings.games + ratings.races_won + ratings.races_lost == 0
     sizes = [int(size) for size in count if size > 1]
     words = []
     if len(sizes) > 1:
@@ -131,7 +130,11 @@ def connection_words(ratings: Ratings) -> list[str]:
             "That each group is centred at one rating is an assumption, not a comparison; a match "
             "or two between groups would link them.",
         ]
-    if idle.any():
-        players = "1 player has" if idle.sum() == 1 else f"{int(idle.sum()):,} players have"
+    if ratings.idle.any():
+        players = (
+            "1 player has"
+            if ratings.idle.sum() == 1
+            else f"{int(ratings.idle.sum()):,} players have"
+        )
         words.append(f"{players} no games that count; the rating is the prior's.")
     return words

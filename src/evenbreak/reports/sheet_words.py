@@ -58,7 +58,7 @@ def source_and_dates(file: ResultsFile) -> str:
 
 def played(ratings: Ratings) -> str:
     """Return how much was played, by how many."""
-    players = int((ratings.games > 0).sum())
+    players = int((~ratings.idle).sum())
     return (
         f"{count_of(ratings.matches, 'match', 'matches')} of {players:,} players, "
         f"{count_of(int(ratings.won.sum()), 'game', 'games')}."
@@ -75,7 +75,7 @@ def left_out(ratings: Ratings) -> Iterator[str]:
 
 def unlike_others(ratings: Ratings) -> Iterator[str]:
     """Yield whose ratings mean less than the others', if anybody's do."""
-    idle = int((ratings.games == 0).sum())
+    idle = int(ratings.idle.sum())
     if idle:
         names = count_of(idle, "more player has", "more players have")
         yield f"{names} no game: rated in the middle for want of knowledge."
