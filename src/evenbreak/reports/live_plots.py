@@ -52,7 +52,8 @@ def plot_course(odds: LiveOdds) -> Figure:
     most = max(range(len(odds.swings)), key=lambda i: abs(odds.swings[i]))
     swing = odds.swings[most]
     told = f"{swing:+.2f}".replace("-", "\N{MINUS SIGN}")
-    side: Literal["left", "right"] = "left" if swing > 0 else "right"
+    last = most >= len(odds.swings) - 2
+    side: Literal["left", "right"] = "left" if last or (swing > 0 and most > 0) else "right"
     label_beside(above, most + 0.5, wins[most] + 0.5 * swing, told, side)
     above.set(ylim=(-0.03, 1.03), ylabel="P(A wins the match)")
     above.legend(frameon=False, loc="best")
