@@ -124,12 +124,19 @@ def test_each_player_who_is_not_on_the_list_or_not_rated_is_told_once():
     assert "'New' has no rating on the list" in told[1].message
 
 
-def test_a_chart_is_not_asked_about_parts_of_a_point():
-    club = Roster(["Ann", "Bo"], [92.5, 80.5])
-    (problem,) = night_problems(NPL, club, night(("Ann", "Bo", 5, 3)), chart=chart("npl_10"))
-    assert problem.message.startswith("the ratings 92.5 and 80.5 are not both whole ('Ann' - 'Bo'")
-    moves = apply_results(NPL, club, night(("Ann", "Bo", 5, 3), race_a=[5], race_b=[4]))
-    assert list(moves.after.rating) == [93.5, 79.5]
+def test_a_chart_is_asked_with_whole_points():
+    club = Roster(["Ann", "Bo"], [92.5, 87.4])
+    by_ten = chart("npl_10")
+    (match,) = apply_results(NPL, club, night(("Ann", "Bo", 5, 3)), chart=by_ten).matches
+    assert match.race == by_ten.race(93 - 87) == (5, 4)
+    assert by_ten.race(5) == (5, 5)
+
+
+@pytest.mark.parametrize("options", [{}, {"chart": chart("npl_10")}], ids=["bare", "chart"])
+@pytest.mark.parametrize("club", [Roster([], []), Roster(["Ann"], [np.nan])], ids=["none", "new"])
+def test_a_list_that_helps_nobody(club, options):
+    told = night_problems(NPL, club, night(("Ann", "Bo", 5, 3), ("Bo", "Ann", 5, 4)), **options)
+    assert [(p.row, p.column) for p in told] == [(0, "player_a"), (0, "player_b")]
 
 
 def test_results_that_cannot_be_used_are_refused():

@@ -110,10 +110,10 @@ def _tables(moves: Moves, frame: pd.DataFrame) -> str:
     rows, told, listed = [["played", "was", "is", "moves"]], ["why"], []
     for rank, row in enumerate(_plain(frame, *COLUMNS), 1):
         name, was, rating, change, games = row
-        now = "new" if rating is None else f"{rating:g}"
+        now = "new" if rating is None else _points(rating)
         listed.append([str(rank), printable(name), now, "" if games is None else str(games)])
         for place, reason in enumerate(why.get(position(name), ())):
-            moved = [printable(name), f"{was:g}", now, f"{change:+g}" if change else "0"]
+            moved = [printable(name), _points(was), now, f"{change:+g}" if change else "0"]
             rows.append(["", "", "", ""] if place else moved)
             told.append(printable(reason))
     columns = aligned(rows).splitlines()
@@ -125,6 +125,10 @@ def _tables(moves: Moves, frame: pd.DataFrame) -> str:
         + "\n\n"
         + aligned([["", "the list now", "rating", "games"], *listed], left=2)
     )
+
+
+def _points(rating: float) -> str:
+    return f"{rating:.0f}" if rating == round(rating) else f"{rating:.1f}"
 
 
 def _plain(frame: pd.DataFrame, *columns: str) -> list[list[Any]]:

@@ -97,7 +97,8 @@ def apply_results(
     results
         the matches of the night; every player must be on the list, with a rating.
     chart
-        by which the races were given where the results state none. Without it a match with
+        by which the races were given where the results state none, for ratings rounded to
+        whole points. Without it a match with
         neither race nor winner is refused: of two scores the higher need not be the winner's.
 
     Raises
@@ -168,10 +169,9 @@ def night_problems(
         ),
     ]
     refused = {problem.row for problem in problems}
-    known = (night.a >= 0) & (night.b >= 0)
     problems += [
-        Problem(int(row), "winner", _no_winner(system, roster, night, int(row), chart))
-        for row in np.flatnonzero(night.counted & known & (night.winner == 0))
+        Problem(int(row), "winner", _no_winner(system, night.results, int(row)))
+        for row in np.flatnonzero(night.counted & night.rated & (night.winner == 0))
         if int(row) not in refused
     ]
     return sorted(problems, key=lambda problem: problem.row)
@@ -181,14 +181,15 @@ class _Night(NamedTuple):
     """A night's results beside the list: arrays with an entry for each row.
 
     `results` has the chart's races where none was stated; a and b are positions in the list,
-    -1 where a player is not on it; `counted` says which rows move ratings; `winner` is 1, 2,
-    or 0 where it cannot be told; `chart_a` and `chart_b` are 0 where no chart was looked up;
-    `from_chart` says in which rows `results` has the chart's race.
+    -1 where a player is not on it; `rated` says where both have a rating, `counted` which rows
+    move ratings; `winner` is 1, 2, or 0 where it cannot be told; `chart_a` and `chart_b` are 0
+    where no chart was looked up; `from_chart` says where `results` has the chart's race.
     """
 
     results: Results
     a: NDArray[np.int64]
     b: NDArray[np.int64]
+    rated: NDArray[np.bool_]
     counted: NDArray[np.bool_]
     winner: NDArray[np.int8]
     chart_a: NDArray[np.int64]
@@ -201,9 +202,13 @@ def _night_of(roster: Roster, results: Results, chart: Chart | None) -> _Night:
     place = np.array([on_list.get(name, -1) for name in results.players], dtype=np.int64)
     a, b = place[results.player_a], place[results.player_b]
     chart_a, chart_b = np.zeros((2, len(results)), dtype=np.int64)
-    if chart is not None and len(roster):
-        rated = (a >= 0) & (b >= 0) & _whole(roster.rating[a]) & _whole(roster.rating[b])
-        chart_a[rated], chart_b[rated] = chart.races((roster.rating[a] - roster.rating[b])[rated])
+    # One entry more, for those who are not on the list and whose place is -1.
+    known = np.append(np.isfinite(roster.rating), False)
+    rated = known[a] & known[b]
+    if chart is not None:
+        # As `evenbreak matchups` rounds: each rating, halves upwards.
+        points = np.floor(np.append(roster.rating, 0.0) + 0.5)
+        chart_a[rated], chart_b[rated] = chart.races((points[a] - points[b])[rated])
     race_a = np.zeros_like(chart_a) if results.race_a is None else results.race_a
     race_b = np.zeros_like(chart_b) if results.race_b is None else results.race_b
     unraced = (race_a == 0) & (race_b == 0)
@@ -215,12 +220,7 @@ def _night_of(roster: Roster, results: Results, chart: Chart | None) -> _Night:
     given_away = np.zeros(len(results), bool) if results.forfeit is None else results.forfeit
     unscored = np.zeros(len(results), bool) if results.unscored is None else results.unscored
     counted = ~given_away & (unscored | (results.score_a > 0) | (results.score_b > 0))
-    return _Night(filled, a, b, counted, _winner(filled), chart_a, chart_b, unraced)
-
-
-def _whole(ratings: NDArray[np.float64]) -> NDArray[np.bool_]:
-    whole: NDArray[np.bool_] = np.isfinite(ratings) & (ratings == np.floor(ratings))
-    return whole
+    return _Night(filled, a, b, rated, counted, _winner(filled), chart_a, chart_b, unraced)
 
 
 def _winner(results: Results) -> NDArray[np.int8]:
@@ -265,20 +265,13 @@ def _no_end(roster: Roster, night: _Night, chart: Chart, row: int) -> str:
     )
 
 
-def _no_winner(system: System, roster: Roster, night: _Night, row: int, chart: Chart | None) -> str:
-    results = night.results
+def _no_winner(system: System, results: Results, row: int) -> str:
     name_a, name_b = results.players[results.player_a[row]], results.players[results.player_b[row]]
-    match = f"{name_a!r} - {name_b!r}, {results.score_a[row]}-{results.score_b[row]}"
-    if chart is None:
-        *charts, last = system.charts
-        return (
-            f"neither the race nor the winner is stated ({match}); give the chart by which they "
-            f"played ({', '.join(charts)} or {last}), or the columns race_a and race_b"
-        )
-    ratings = f"{roster.rating[night.a[row]]:g} and {roster.rating[night.b[row]]:g}"
+    *charts, last = system.charts
     return (
-        f"the ratings {ratings} are not both whole ({match}), and the chart {chart.name} has rows "
-        "for whole points only; round them in the list, or give race_a and race_b"
+        f"neither the race nor the winner is stated ({name_a!r} - {name_b!r}, "
+        f"{results.score_a[row]}-{results.score_b[row]}); give the chart by which they played "
+        f"({', '.join(charts)} or {last}), or the columns race_a and race_b"
     )
 
 
