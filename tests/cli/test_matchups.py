@@ -107,6 +107,13 @@ def test_the_scale_is_that_of_the_chart(run, roster):
     assert row["p_game_a"] == pytest.approx(1 / (1 + 2**-0.455))
 
 
+def test_ratings_of_another_scale_are_doubted(run, roster):
+    path = roster("player,rating\nAnn,712\nBo,421\n")
+    assert "double 10 times on the npl scale" in run("matchups", path, *SURE).stderr
+    assert "Warning" not in run("matchups", path, *SURE, "--scale", "fargo").stderr
+    assert "Warning" not in run("matchups", roster(), *SURE).stderr
+
+
 def test_levels_need_a_scale(run, roster):
     path = roster("player,skill level\nAnn,5\nBo,3\n")
     result = run("matchups", path, "--chart", "apa_8ball")
@@ -255,3 +262,16 @@ words = st.sampled_from(LINE.split()) | st.text(max_size=4)
 @given(st.lists(words, max_size=6))
 def test_no_words_make_a_traceback(run, line):
     assert run("matchups", DEMO, *line).exit_code in (0, 2, 3)
+
+
+CELLS = st.sampled_from(["Ann", "Bo", "80", "", "9.5", "-3", "0", '"', "x", "1e5", "999999"])
+ROWS = st.lists(st.lists(CELLS | st.text(max_size=3), min_size=4, max_size=4), max_size=5)
+
+
+@given(ROWS)
+def test_no_roster_makes_a_traceback(run, rows):
+    text = "player,rating,standard_error,games\n" + "\n".join(",".join(row) for row in rows)
+    words = ("--chart", "npl_10", "--race-to", "5", "--minutes-per-game", "8", "--tables", "2")
+    result = run("matchups", "-", *words, stdin=text.encode("utf-8", "replace"))
+    assert result.exit_code in (0, 2, 3)
+    assert bool(result.stdout) == (result.exit_code == 0)

@@ -8,7 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
+from evenbreak.games.race import Race
+from evenbreak.games.rack import Rack
 from evenbreak.matches.evening import Length, evening
+from evenbreak.matches.length import match_length
 from evenbreak.matches.races import race_law
 
 EVEN = Length([1, 2], [0.5, 0.5])
@@ -62,7 +65,7 @@ def described(end):
 APART = [(f"a{k}", f"b{k}") for k in range(8)]
 
 
-@pytest.mark.parametrize("tables", [1, 2, 3, 4, 9])
+@pytest.mark.parametrize("tables", [1, 2, 3, 4, 5, 6, 9])
 def test_every_course_of_an_evening(tables):
     laws = [EVEN, SKEW, EVEN, FIXED, SKEW, EVEN]
     mean, sd, p90 = described(law_of_end(laws, tables, APART))
@@ -122,6 +125,12 @@ def test_playing_out_agrees_with_the_exact_answer():
     assert exact.exact
     assert played.mean == pytest.approx(exact.mean, abs=4 * played.mean_error)
     assert abs(played.p90 - exact.p90) <= 1
+
+
+def test_laws_of_races_will_do():
+    law, length = race_law(3, 2, 0.6), match_length(Race(3, 2, Rack(0.6)))
+    assert evening([law]).mean == pytest.approx(law.mean, rel=1e-12)
+    assert evening([length] * 50, tables=50).exact
 
 
 def test_many_tables_are_played_out():

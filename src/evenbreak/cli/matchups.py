@@ -30,6 +30,7 @@ MOST_MATCHES = 1_000
 """The most matches of one evening."""
 
 MOST_NAMED = 8
+FAR_APART = 8.0  # doublings of the odds; from beginners to professionals it is some four
 AT_A_TIME = 20_000
 LONGEST_GAME = 1440.0  # minutes: a day
 
@@ -151,6 +152,8 @@ def matchups(
         _say(f"Warning: {warning}")
     players = _started(file.roster, points, starter, starter_sd)
     check_roster(file, players, table, points)
+    if scale is None:
+        _doubt_scale(players, points)
     if pairs is None:
         many = len(players) * (len(players) - 1) // 2
         if not many:
@@ -241,6 +244,16 @@ def _started(roster: Roster, scale: Scale, starter: float | None, sd: float | No
     if not silent.all():
         _say_of(roster, silent, "No standard_error, rating taken as right")
     return started
+
+
+def _doubt_scale(roster: Roster, scale: Scale) -> None:
+    """Warn of ratings too far apart for a scale that was not asked for."""
+    apart = float(roster.rating.max() - roster.rating.min()) / scale.points_per_doubling
+    if apart > FAR_APART:
+        _say(
+            f"Warning: from the weakest to the strongest the odds double {apart:.0f} times on the "
+            f"{scale.name} scale; if the ratings are others, say which with --scale"
+        )
 
 
 def _say_of(roster: Roster, which: NDArray[Any], message: str) -> None:

@@ -36,6 +36,7 @@ MOST_DOUBLINGS = 10.0
 """The largest error that is taken for one, in doublings of the odds."""
 
 _MOST_NODES = 20_000
+_FEWEST_GAMES = 6  # shorter races need the nodes of these
 _TIE = 1e-9
 _AT_A_TIME = 1 << 20  # values held in memory at once
 
@@ -221,7 +222,7 @@ def _rule(largest_error: float, longest: int, scale: Scale) -> tuple[Floats, Flo
     """
     if largest_error == 0.0:
         return np.zeros(1), np.ones(1)
-    ratio = scale.log_odds(largest_error) * math.sqrt(longest) / 2.0
+    ratio = scale.log_odds(largest_error) * math.sqrt(max(longest, _FEWEST_GAMES)) / 2.0
     return _hermite(min(_MOST_NODES, 24 + math.ceil(14.0 * ratio**2)))
 
 

@@ -10,7 +10,7 @@ __getattr__, __dir__, __all__ = attach(
     __name__,
     {
         "crossings": ["Crossing", "Crossings", "crossings", "even_probability"],
-        "evening": ["Evening", "Length", "evening"],
+        "evening": ["Evening", "Length", "LengthLaw", "evening"],
         "formats": ["MatchFormat", "match_format"],
         "length": ["MatchLength", "match_length"],
         "live": ["LiveOdds", "Standing", "live_odds"],

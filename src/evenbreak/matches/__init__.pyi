@@ -4,6 +4,7 @@ from evenbreak.matches.crossings import crossings as crossings
 from evenbreak.matches.crossings import even_probability as even_probability
 from evenbreak.matches.evening import Evening as Evening
 from evenbreak.matches.evening import Length as Length
+from evenbreak.matches.evening import LengthLaw as LengthLaw
 from evenbreak.matches.evening import evening as evening
 from evenbreak.matches.formats import MatchFormat as MatchFormat
 from evenbreak.matches.formats import match_format as match_format

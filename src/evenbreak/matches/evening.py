@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,7 +23,7 @@ from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.matches.quantiles import quantile_of
 
-__all__ = ["Evening", "Length", "evening"]
+__all__ = ["Evening", "Length", "LengthLaw", "evening"]
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -33,6 +33,20 @@ _WORK = 200_000_000  # matches times matches times runs that are played out
 _FEWEST_RUNS, _MOST_RUNS = 1_000, 50_000
 _MOST_MATCHES = 1_000
 _LONGEST = 100_000  # games of a match
+
+
+class LengthLaw(Protocol):
+    """Anything that says how long a match lasts: P(it takes games[k] games) = probability[k]."""
+
+    @property
+    def games(self) -> ArrayLike:
+        """The lengths, in games."""
+        ...
+
+    @property
+    def probability(self) -> ArrayLike:
+        """The chance of each length."""
+        ...
 
 
 class Length(NamedTuple):
@@ -72,7 +86,7 @@ class Evening:
 
 
 def evening(
-    lengths: Sequence[Length],
+    lengths: Sequence[LengthLaw],
     *,
     tables: int = 1,
     players: Sequence[tuple[Hashable, Hashable]] | None = None,
@@ -84,7 +98,8 @@ def evening(
     Parameters
     ----------
     lengths
-        the law of each match's length in games, in the order of the list.
+        the law of each match's length in games, in the order of the list: a `Length`, a
+        `MatchLength`, a `RaceLaw`.
     tables
         how many tables there are.
     players
@@ -118,15 +133,15 @@ def evening(
         if tables == 1:
             end = _one_table(laws)
         elif len(np.unique(pairs)) == pairs.size:
-            end = _several_tables(laws, tables)
+            end = _all_at_once(laws) if tables == len(laws) else _several_tables(laws, tables)
         if end is not None:
             return _exact(end)
     return _played_out(laws, tables, pairs, rng or np.random.default_rng(0), runs)
 
 
-def _law(length: Length, name: str) -> Floats:
+def _law(length: LengthLaw, name: str) -> Floats:
     """Return P(the match takes k games) for k = 0, 1, ..."""
-    games, probability = (np.asarray(part) for part in length)
+    games, probability = np.asarray(length.games), np.asarray(length.probability)
     right = games.ndim == 1 and games.shape == probability.shape and games.size > 0
     if not right or games.dtype.kind not in "iu" or probability.dtype.kind not in "iuf":
         raise InputError(f"{name} is no law; give games, whole numbers, and a chance for each")
@@ -161,6 +176,13 @@ def _one_table(laws: list[Floats]) -> Floats:
     for law in laws:
         end = np.convolve(end, law)
     return end
+
+
+def _all_at_once(laws: list[Floats]) -> Floats:
+    """Return the law of the longest of all."""
+    longest = max(map(len, laws))
+    within = np.prod([np.cumsum(np.pad(law, (0, longest - len(law)))) for law in laws], axis=0)
+    return np.diff(within, prepend=0.0)
 
 
 def _several_tables(laws: list[Floats], tables: int) -> Floats | None:
