@@ -75,7 +75,7 @@ def test_a_pair_is_as_sure_as_its_difference_with_the_covariance():
 def test_bars_and_marks_share_an_axis():
     ratings = fit(SEASON)
     rated = ratings_frame(ratings)
-    lines = player_lines(rated, ratings.scale)
+    lines = player_lines(rated, ratings)
     ticks = bar_ticks(rated)
     assert len(ticks) >= 2
     (first, second) = ticks[:2]
@@ -93,7 +93,7 @@ def test_wide_races_make_narrow_blocks():
         season = Results.from_names(names, names[1:] + names[:1], [7] * 40, [5] * 40)
         ratings = fit(season)
         paired = matchups_frame(ratings, range(40), RaceLimits(race_to=to))
-        lines = player_lines(ratings_frame(ratings), ratings.scale)
+        lines = player_lines(ratings_frame(ratings), ratings)
         return [len(block.across) for block in race_blocks(lines, paired)]
 
     assert blocks(7) == [20, 20]

@@ -32,8 +32,8 @@ def test_forfeits_and_empty_scores_are_counted():
 def test_many_players_without_games_are_cut():
     names = [f"P{k}" for k in range(8)]
     season = Results.from_names(["Ann", *names], ["Bo", *["Ann"] * 8], [7] + [0] * 8, [5] + [0] * 8)
-    (idle,) = (what for what in told(season, [0, 1]) if "without a game" in what)
-    assert idle.startswith("8 players without a game: ")
+    (idle,) = (what for what in told(season, [0, 1]) if "without a result" in what)
+    assert idle.startswith("8 players without a result: ")
     assert idle.endswith(" and 3 more")
 
 
@@ -69,3 +69,19 @@ def test_the_model_is_the_one_that_was_used():
     assert "500 ± 72.13 (normal prior" in about_model(ratings)
     aged = dataclasses.replace(ratings, half_life=90.0, break_advantage=12.34)
     assert "90 days old counting half, who breaks playing 12.3 points better" in about_model(aged)
+
+
+def test_who_is_known_by_matches_won_alone_is_not_without_a_result():
+    season = Results.from_names(
+        ["Ann", "Bo"],
+        ["Bo", "Cy"],
+        [7, 0],
+        [5, 0],
+        race_a=[7, 7],
+        race_b=[7, 7],
+        winner=[1, 1],
+        unscored=[False, True],
+    )
+    assert not fit(season).idle.any()
+    assert told(season) == {}
+    assert "on games, and on the chance of a race where only" in about_model(fit(season))

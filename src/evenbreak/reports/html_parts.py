@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fit import Ratings
 from evenbreak.ratings.scale import Scale
+from evenbreak.reports.frames import count_groups
 from evenbreak.reports.matchups import RaceLimits
 from evenbreak.reports.sheet_words import NO_RACE, decimals_of, races_by_name
 
@@ -101,11 +102,11 @@ class SurePair(NamedTuple):
     high: float
 
 
-def player_lines(rated: pd.DataFrame, scale: Scale) -> list[PlayerLine]:
+def player_lines(rated: pd.DataFrame, ratings: Ratings) -> list[PlayerLine]:
     """Return the lines of the ratings, in the order of `rated`; the index says the place."""
-    decimals = decimals_of(scale)
+    decimals = decimals_of(ratings.scale)
     low, high = _reach(rated)
-    grouped = len(set(rated["component"][rated["games"] > 0])) > 1
+    grouped = count_groups(ratings) > 1
     rows: Any = rated.itertuples(index=True)
 
     def along(points: float) -> float:

@@ -96,7 +96,7 @@ def sheet_html(
     chosen = rated[rated["player"].isin({*paired["player_a"], *paired["player_b"]})]
     in_table = chosen.head(MOST_IN_TABLE)
     pairs = pairs_of(paired, set(in_table["player"]))
-    lines = player_lines(rated, ratings.scale)
+    lines = player_lines(rated, ratings)
     across = [lines[place] for place in in_table.index]
     sure = sure_pairs(ratings, pairs)
     furthest = max((pair.difference for pair in sure), default=0.0)

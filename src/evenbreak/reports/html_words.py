@@ -61,12 +61,15 @@ def about_model(ratings: Ratings) -> str:
     ages = "early and late matches of the file alike"
     if ratings.half_life is not None:
         ages = f"a match that is {ratings.half_life:g} days old counting half"
+    races = ", and on the chance of a race where only its winner is known"
+    if not ratings.races_won.any():
+        races = ""
     breaks = "whoever breaks"
     if ratings.break_advantage is not None:
         breaks = f"who breaks playing {ratings.break_advantage:.3g} points better"
     return (
-        "Bradley\N{EN DASH}Terry on games: a player who is rated d points higher wins a game with "
-        f"the chance 1/(1 + 2^(\N{MINUS SIGN}d/{scale.points_per_doubling:.6g})), every game "
+        f"Bradley\N{EN DASH}Terry on games{races}: a player who is rated d points higher wins a game "
+        f"with the chance 1/(1 + 2^(\N{MINUS SIGN}d/{scale.points_per_doubling:.6g})), every game "
         f"independent of the others, {ages}, {breaks}. "
         f"Before any result a player is rated {ratings.anchor:g} ± {prior:.4g} (normal prior, one "
         "standard deviation)."
@@ -100,10 +103,10 @@ def left_out_and_why(
         yield LeftOut(
             count_of(ratings.empty, "match at 0-0", "matches at 0-0"), "no game was entered"
         )
-    idle = [name for name, games in zip(rated["player"], rated["games"], strict=True) if not games]
+    idle = [name for name, none in zip(ratings.players, ratings.idle, strict=True) if none]
     if idle:
         yield LeftOut(
-            f"{count_of(len(idle), 'player', 'players')} without a game: {_some(idle)}",
+            f"{count_of(len(idle), 'player', 'players')} without a result: {_some(idle)}",
             "rated in the middle for want of knowledge",
         )
     apart = int(paired["race_a"].isna().sum())
