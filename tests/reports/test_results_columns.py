@@ -188,3 +188,14 @@ def test_a_missing_score_column_is_told_where_nothing_stands_in_for_it(read):
     with pytest.raises(DataError, match="there is no column 'score_a'") as caught:
         read("player_a,player_b,race_a,race_b\nAnn,Bo,7,5\n")
     assert len(caught.value.problems) == 2
+
+
+def test_without_score_columns_one_line_says_what_a_row_lacks(read):
+    with pytest.raises(DataError) as caught:
+        read("player_a,player_b,race_a,race_b,winner\nAnn,Bo,7,5,\nCy,Bo,x,5,a\nCy,Bo,7,5,Di\n")
+    told = [problem.rpartition("r.csv")[2].partition(";")[0] for problem in caught.value.problems]
+    assert told == [
+        ":2: it is not said who won",
+        ":3: race_a 'x' is not a whole number from 1 to 1,000,000",
+        ":4: winner 'Di' is neither of the two players",
+    ]

@@ -91,7 +91,7 @@ class Ratings:
     @property
     def idle(self) -> NDArray[np.bool_]:
         """Which players have no result that counts: their rating is the prior's."""
-        return self.games + self.races_won + self.races_lost == 0
+        return np.asarray(self.games + self.races_won + self.races_lost == 0)
 
     @cached_property
     def standard_error(self) -> Floats:

@@ -201,9 +201,18 @@ class ResultsColumns:
             unscored &= self.values.get(name, np.zeros(len(self.table))) > 0
         if unscored.any():
             self.values["unscored"] = unscored
+        unreadable = np.zeros(len(self.table), dtype=bool)  # has been told, and may be all there is
+        for name in ("race_a", "race_b", "winner"):
+            if name in self.values:
+                unreadable |= ~self._is_empty(name) & (self.values[name] == 0)
+        if not any(name in self.table for name in empty):
+            if not _missing(self.table, "score_a"):
+                self._refuse(both & ~by_rack & ~unscored & ~unreadable, _nothing_known)
+            return
         for name, cells in empty.items():
             if not _missing(self.table, name):  # else the missing column has been told
-                self._refuse(cells & ~by_rack & ~unscored, partial(_empty_score, name))
+                told = cells & ~by_rack & ~unscored & ~(both & unreadable)
+                self._refuse(told, partial(_empty_score, name))
 
     def _is_empty(self, name: str) -> NDArray[np.bool_]:
         distinct, codes = self.table.texts(name)
@@ -261,6 +270,13 @@ def _empty_score(name: str, _: int) -> str:
     return (
         f"{name} is empty; write the games won, or race_a, race_b and winner if no more is known, "
         "or mark a forfeit, or leave out a match that was not played"
+    )
+
+
+def _nothing_known(_: int) -> str:
+    return (
+        "it is not said who won; write race_a, race_b and winner, or racks, or mark a forfeit, or "
+        "leave out a match that was not played"
     )
 
 
