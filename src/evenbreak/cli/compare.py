@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
@@ -44,6 +45,9 @@ MOST_FORMATS = 7
 MOST_SCORES = {"race": 10_000, "break": 900, "": 2_500}
 """Scores that a match may have: a race where the break matters, another match where it does,
 and another match where it does not. Each answer then takes seconds."""
+
+WIDTH = 80
+"""Of a terminal, in characters."""
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""
@@ -255,7 +259,12 @@ def _text(
         for (i, j), found in pairs.items()
     ]
     width = max(len(who) for who, _ in turns)
-    listed = "".join(f"  {who.ljust(width)}  {better}\n" for who, better in turns)
+    lines = [
+        f"  {(who if not i else '').ljust(width)}  {part}\n"
+        for who, better in turns
+        for i, part in enumerate(wrap(better, max(WIDTH - width - 4, 30)))
+    ]
+    listed = "".join(lines)
     return f"{text}\nBetter for A as {axis} grows{told}:\n\n{listed}\n{_advice(compared)}\n"
 
 
