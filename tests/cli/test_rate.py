@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+from pathlib import Path
 
 import pytest
 
@@ -190,3 +191,12 @@ def test_dates_are_needed_for_what_goes_by_dates(rate):
         result = rate(*words, season=season)
         assert (result.exit_code, result.stdout) == (2, "")
         assert "2 of 2 matches have no date" in result.stderr
+
+
+def test_the_break_advantage_of_the_demo_league_is_recovered(run):
+    """Its script lets the breaker play 8 points better, and keeps scores and first breaks only."""
+    demo = Path(__file__).parents[2] / "data" / "demo_league.csv"
+    answer = json.loads(run("rate", str(demo), "--break-advantage", "fit", "--json").stdout)
+    error = answer["break_advantage_standard_error"]
+    assert 2 < error < 5
+    assert abs(answer["break_advantage"] - 8) < 2 * error
