@@ -107,9 +107,10 @@ def test_a_race_beside_the_chart_is_warned_of(rate, tmp_path):
         (["none.csv", "--chart", "npl_10"], 3, "there is no such file"),
         (["night.csv", "--roster", "none.csv"], 3, "there is no such file"),
         (["night.csv", "--system", "fide"], 2, "give one of npl"),
-        (["-", "--roster", "-"], 2, "name one of the two files"),
+        (["-", "--roster", "-"], 2, "which only one file can be"),
         (["night.csv", "--roster", "night.csv"], 3, "there is no column 'player'"),
         (["night.csv", "--aliases", "last.csv"], 3, "there is no column 'name'"),
+        (["-", "--chart", "-"], 2, "which only one file can be"),
         (["night.csv", "--half-life", "30"], 2, "leave out --half-life"),
     ],
 )
@@ -117,6 +118,16 @@ def test_wrong_use_says_how_to_mend_it(rate, words, code, remedy):
     result = rate(*words)
     assert (result.exit_code, result.stdout) == (code, "")
     assert remedy in result.stderr
+
+
+def test_warnings_stand_beside_what_they_explain(rate, tmp_path):
+    (tmp_path / "last.csv").write_text("player,rating\nAnn,92\nDiaz Bo,80\nCy,71\n")
+    result = rate("night.csv", "--chart", "npl_10")
+    assert result.exit_code == 3
+    first, *_, error = result.stderr.splitlines()
+    assert first.endswith("read as aliases.csv says: 'Annie' as 'Ann'")
+    assert error.startswith("Error: night.csv:2: 'Diaz, Bo' is not on the list")
+    assert error.endswith("if 'Diaz Bo' is meant, write that or say so in --aliases")
 
 
 def test_chart_and_roster_are_for_a_system(run):

@@ -4,7 +4,7 @@ import pytest
 from evenbreak.errors import DataError
 from evenbreak.handicaps.chart import chart
 from evenbreak.handicaps.systems import system_of
-from evenbreak.reports.moves_frame import moves_frame, moves_of_files, off_chart, reasons
+from evenbreak.reports.moves_frame import moves_frame, moves_of_files, night_warnings, reasons
 from evenbreak.reports.read_results import read_results
 from evenbreak.reports.read_roster import read_roster
 from evenbreak.reports.to_csv import to_csv
@@ -89,9 +89,17 @@ def test_a_score_at_odds_with_the_chart(files):
     assert told[0].startswith(":2: 5-3 is no end of the race 6:4")
 
 
-def test_a_race_that_is_not_the_charts_is_told(files):
-    last, night = files(LAST, f"{HEADER},race_a,race_b\nAnn,Bo,5,3,5,4\nAnn,Cy,5,3,5,5\n")
-    moves = moves_of_files(NPL, last, night, chart=chart("npl_10"))
-    assert [
-        line.rpartition("night.csv")[2] for line in off_chart(moves, night, chart("npl_10"))
-    ] == [":3: 'Ann' - 'Cy' was a race 5:5; the chart npl_10 has 6:4 for 92 and 71"]
+def test_races_that_are_not_the_charts_and_further_nights_are_told(files):
+    by_ten = chart("npl_10")
+    header = f"date,{HEADER},race_a,race_b\n"
+    one = "2026-11-20,Ann,Bo,5,3,5,4\n2026-11-20,Ann,Cy,5,3,5,5\n"
+    off = ":3: 'Ann' - 'Cy' was a race 5:5; the chart npl_10 has 6:4 for 92 and 71"
+    more = (
+        ": holds 2 dates, for which the chart is looked up with the same ratings; run one night "
+        "at a time if the ratings moved in between"
+    )
+    for rows, wanted in ((one, [off]), (f"{one}2026-11-27,Bo,Ann,4,2,4,5\n", [more, off])):
+        last, night = files(LAST, header + rows)
+        moves = moves_of_files(NPL, last, night, chart=by_ten)
+        told = [line.rpartition("night.csv")[2] for line in night_warnings(moves, night, by_ten)]
+        assert told == wanted

@@ -43,21 +43,21 @@ def rate_by_system(
         whether JSON was asked for.
     """
     from evenbreak.handicaps.systems import system_of
-    from evenbreak.reports.moves_frame import moves_frame, moves_of_files, off_chart
+    from evenbreak.reports.moves_frame import moves_frame, moves_of_files, night_warnings
     from evenbreak.reports.read_results import read_results
     from evenbreak.reports.read_roster import read_roster
 
-    if path == roster == "-":
-        refuse("RESULTS.csv and --roster are both standard input; name one of the two files")
+    if [path, roster, chart, aliases].count("-") > 1:
+        refuse("- stands for standard input, which only one file can be; name the others")
     rule = system_of(system)
     by_chart = None if chart is None else _chart(chart)
     last = read_roster(roster)
     tonight = read_results(path, aliases=aliases)
-    moves = moves_of_files(rule, last, tonight, chart=by_chart)
     for warning in (*last.warnings, *tonight.warnings):
         _say(f"Warning: {warning}")
+    moves = moves_of_files(rule, last, tonight, chart=by_chart)
     if by_chart is not None:
-        for warning in off_chart(moves, tonight, by_chart):
+        for warning in night_warnings(moves, tonight, by_chart):
             _say(f"Warning: {warning}")
     frame = moves_frame(moves)
     if as_json:

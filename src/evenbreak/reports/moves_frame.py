@@ -21,7 +21,7 @@ from evenbreak.reports.similar_names import similar_names
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["moves_frame", "moves_of_files", "off_chart", "reasons"]
+__all__ = ["moves_frame", "moves_of_files", "night_warnings", "reasons"]
 
 
 def moves_of_files(
@@ -139,11 +139,22 @@ def _scores(match: MatchMove) -> tuple[str, str]:
     return told[0], told[1]
 
 
-def off_chart(moves: Moves, tonight: ResultsFile, chart: Chart) -> Iterator[str]:
-    """Yield a warning for each match that was played by another race than the chart's."""
+def night_warnings(moves: Moves, tonight: ResultsFile, chart: Chart) -> Iterator[str]:
+    """Yield what a person should look at in a night that was played by a chart, a line each.
+
+    That is each match that was played by another race than the chart's, and a file of more
+    than one night.
+    """
+    dates = tonight.results.date
+    days = 0 if dates is None else len(np.unique(dates[~np.isnat(dates)]))
+    if days > 1:
+        yield (
+            f"{tonight.source}: holds {days:,} dates, for which the chart is looked up with the "
+            "same ratings; run one night at a time if the ratings moved in between"
+        )
     players, ratings = moves.before.players, moves.before.rating
     for match in moves.matches:
-        if match.race is None or match.by_chart is None or match.race == match.by_chart:
+        if match.race is None or match.race == match.by_chart or match.by_chart is None:
             continue
         winner, loser = match.winner, match.loser
         yield (
