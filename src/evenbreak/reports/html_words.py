@@ -69,7 +69,8 @@ def about_model(ratings: Ratings) -> str:
         breaks = f"who breaks playing {ratings.break_advantage:.3g} points better"
     return (
         f"Bradley\N{EN DASH}Terry on games{races}: a player who is rated d points higher wins a "
-        f"game with the chance 1/(1 + 2^(\N{MINUS SIGN}d/{scale.points_per_doubling:.6g})), every game "
+        "game with the chance "
+        f"1/(1 + 2^(\N{MINUS SIGN}d/{scale.points_per_doubling:.6g})), every game "
         f"independent of the others, {ages}, {breaks}. "
         f"Before any result a player is rated {ratings.anchor:g} ± {prior:.4g} (normal prior, one "
         "standard deviation)."
