@@ -8,7 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.cli.base import program
-from evenbreak.cli.compare import COLUMNS
+from evenbreak.cli.compare import COLUMNS, Compared, _advice, _turns
+from evenbreak.games import Rack
+from evenbreak.matches import crossings, match_format, match_odds
 
 
 @pytest.fixture
@@ -78,6 +80,36 @@ def test_csv_into_a_pipe(run):
     result = run("compare", *never, "5:1")
     (row,) = csv.DictReader(io.StringIO(result.stdout))
     assert (row["even_p1"], row["even_places"]) == ("", "0")
+
+
+@pytest.mark.parametrize(
+    ("one", "two", "words"),
+    [
+        ("2:1", "4:2", "2:1 up to 0.6404, then 4:2"),
+        ("4:2", "2:1", "2:1 up to 0.6404, then 4:2"),
+        ("3:3", "3:2", "3:3, always"),
+        ("1:1", "ahead 1:1", "the same for all"),
+        ("ahead 6:1", "6:2", "6:2 up to 0.3106, ahead 6:1 up to 0.9372, then 6:2"),
+    ],
+)
+def test_who_gains_in_words(one, two, words):
+    assert _turns(crossings(one, two), one, two) == words
+
+
+@pytest.mark.parametrize(
+    ("texts", "words"),
+    [
+        (["1:1", "3:3"], "A is best off with 3:3; nearest to even: 1:1."),
+        (["1:1", "ahead 1:1"], "all are worth the same to A."),
+        (["1:1", "ahead 1:1", "4:1"], "best off with 1:1 and ahead 1:1; nearest to even: 1:1 and"),
+    ],
+)
+def test_advice(texts, words):
+    compared = [
+        Compared(played, match_odds(played.match(Rack(0.6))), ())
+        for played in map(match_format, texts)
+    ]
+    assert words in _advice(compared)
 
 
 def test_plot(run, tmp_path):

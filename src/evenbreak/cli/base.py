@@ -17,7 +17,7 @@ COMMANDS = {
     "report": "Make the fair-race sheet of a league from its results file.",
     "rate": "Rate players from their results, and say how sure each rating is.",
     "odds": "Answer what the chances of a match are, and how long it lasts.",
-    "live": "Tell the odds of a match under way, and what the next rack is worth.",
+    "live": "Tell the odds of a match under way, rack by rack.",
     "compare": "Compare match formats: who gains by which, and where they cross.",
     "fair": "Find the race that is nearest to an even chance.",
     "matchups": "Tell tonight's races for a list of rated players.",

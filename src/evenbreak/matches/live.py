@@ -120,7 +120,8 @@ def live_odds(
         who won each rack since then, 1 or 2.
     set_score
         the score of the set under way at the beginning of the course, in a match of sets
-        of racks; None: the set's own start score.
+        of racks; None: the set's own start score. Where the match has a break format of its
+        own for sets, the first breaker is taken to have begun that set too.
 
     Raises
     ------
