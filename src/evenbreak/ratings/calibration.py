@@ -220,4 +220,5 @@ def wilson(share: float, n: float) -> tuple[float, float]:
     """
     middle = (share + _Z**2 / (2.0 * n)) / (1.0 + _Z**2 / n)
     half = _Z * math.sqrt(share * (1.0 - share) / n + _Z**2 / (4.0 * n * n)) / (1.0 + _Z**2 / n)
-    return max(0.0, middle - half), min(1.0, middle + half)
+    # Rounding may leave an end on the wrong side where nobody or everybody won.
+    return max(0.0, min(share, middle - half)), min(1.0, max(share, middle + half))

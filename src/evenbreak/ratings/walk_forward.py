@@ -61,8 +61,9 @@ class Forecasts:
         1 where a won the race, 0 where b did, NaN where there is none.
     prior_sd, half_life
         what the ratings were fitted with.
-    undated, forfeits, empty
-        rows left out because they have no date, were given away, or stand at 0-0.
+    undated, forfeits, empty, unscored
+        rows left out because they have no date, were given away, stand at 0-0, or tell
+        only who won.
     """
 
     results: Results
@@ -83,6 +84,7 @@ class Forecasts:
     undated: int
     forfeits: int
     empty: int
+    unscored: int
 
     def __len__(self) -> int:
         return len(self.results)
@@ -133,7 +135,7 @@ def walk_forward(
     precision = _between(prior_sd, "prior_sd", 1e-3, 100.0, "in log-odds") ** -2
     if half_life is not None:
         half_life = _between(half_life, "half_life", 0.01, 1e6, "in days")
-    season, undated, forfeits, empty = _in_order(results)
+    season, left_out = _in_order(results)
     days, date_of = np.unique(np.asarray(season.date), return_inverse=True)
     if len(days) < 2:
         raise InputError(
@@ -159,9 +161,7 @@ def walk_forward(
         np.sqrt(variance),
         prior_sd=float(prior_sd),
         half_life=half_life,
-        undated=undated,
-        forfeits=forfeits,
-        empty=empty,
+        **left_out,
     )
 
 
@@ -190,7 +190,7 @@ def even_races(results: Results) -> tuple[Ints, Ints, Floats]:
     return np.where(told, race_a, 0), np.where(told, race_b, 0), won
 
 
-def _in_order(results: Results) -> tuple[Results, int, int, int]:
+def _in_order(results: Results) -> tuple[Results, dict[str, int]]:
     """Return the played matches with a date, by date, and how many rows were left out."""
     played, forfeits, empty = results.played()
     dates = played.date
@@ -199,7 +199,12 @@ def _in_order(results: Results) -> tuple[Results, int, int, int]:
     dated = ~np.isnat(dates)
     season = played.select(dated)
     season = season.select(np.argsort(dates[dated], kind="stable"))
-    return season, int((~dated).sum()), forfeits, empty
+    return season, {
+        "undated": int((~dated).sum()),
+        "forfeits": forfeits,
+        "empty": empty,
+        "unscored": len(results) - len(played) - forfeits - empty,
+    }
 
 
 def _forecasts(
