@@ -82,6 +82,14 @@ def test_length_without_error_is_the_race_law():
     assert many.quantile(0.9).shape == (2,)
 
 
+def test_lengths_whose_chance_is_nothing_at_some_difference():
+    length = length_given_ratings([0.0, 40.0], 200.0, 60, 50)
+    assert length.games.tolist() == list(range(50, 110))
+    assert length.probability.sum(axis=-1) == pytest.approx([1.0, 1.0], abs=1e-12)
+    certain = length_given_ratings(1e6, 0.0, 5, 3)
+    assert (certain.mean, certain.quantile(0.9)) == (5.0, 5)
+
+
 @pytest.mark.parametrize("limits", [{"games": (7, 13)}, {"games": (1, 4)}, {"race_to": 6}])
 def test_without_error_the_races_are_those_of_fair_races(limits):
     differences = np.arange(-90, 91, 5)

@@ -164,10 +164,11 @@ class Told:
 
 def _evening_line(end: dict[str, Any]) -> str:
     tables = f"{end['tables']} table{'s' if end['tables'] > 1 else ''}"
-    matches = f"{end['matches']:,} match{'es' if end['matches'] > 1 else ''}"
+    matches = f"{end['matches']:,} matches" if end["matches"] > 1 else "1 match"
+    take = "take" if end["matches"] > 1 else "takes"
     text = (
-        f"{KINDS[end['races']]}, {matches} on {tables} take {_clock(end['mean_minutes'])} on "
-        f"average;\n9 evenings of 10 are over within {_clock(end['minutes_p90'])}"
+        f"{KINDS[end['races']]}, {matches} on {tables} {take} "
+        f"{_clock(end['mean_minutes'])} on average;\n9 evenings of 10 are over within {_clock(end['minutes_p90'])}"
     )
     if end["exact"]:
         return f"{text}."

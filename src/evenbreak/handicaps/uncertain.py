@@ -123,13 +123,14 @@ def length_given_ratings(
     m, n = whole(m, "m", at_least=1), whole(n, "n", at_least=1)
     gap, error = np.broadcast_arrays(*_checked(difference, standard_error, scale))
     nodes, weights = _rule(float(error.max(initial=0.0)), m + n, scale)
-    total: Any = 0.0
-    for node, weight in zip(nodes, weights, strict=True):
-        p = scale.win_probability(gap + node * error)
-        total = total + weight * match_length(Race(m, n, Rack(p))).probability
     games = np.arange(min(m, n), m + n)
-    mean = total @ games
-    sd = np.sqrt(((games - np.asarray(mean)[..., np.newaxis]) ** 2 * total).sum(axis=-1))
+    total: Floats = np.zeros((*gap.shape, len(games)))
+    for node, weight in zip(nodes, weights, strict=True):
+        length = match_length(Race(m, n, Rack(scale.win_probability(gap + node * error))))
+        # The shortest lengths are left out where their chance is nothing.
+        total[..., length.games - games[0]] += weight * length.probability
+    mean: Any = total @ games
+    sd: Any = np.sqrt(((games - mean[..., np.newaxis]) ** 2 * total).sum(axis=-1))
     if not gap.ndim:
         mean, sd = float(mean), float(sd)
     never = np.zeros(gap.shape) if gap.ndim else 0.0
