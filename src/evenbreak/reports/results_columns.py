@@ -125,7 +125,15 @@ class ResultsColumns:
 
     def _note(self, results: Results, rows: NDArray[np.int64]) -> None:
         for problem in find_problems(results):
-            self.table.problems.add(int(self.table.lines[rows[problem.row]]), problem.message)
+            row = rows[problem.row]
+            alias = self._by_aliases(row) if problem.column == "player_b" else ""
+            self.table.problems.add(int(self.table.lines[row]), problem.message + alias)
+
+    def _by_aliases(self, row: int) -> str:
+        """Return the two names of a player against himself, if aliases made them one."""
+        texts = map(self.table.texts, NAMES)
+        a, b = (clean_name(distinct[codes[row]]) for distinct, codes in texts)
+        return "" if a == b else f" ({quoted(a)} and {quoted(b)} are one player by the aliases)"
 
     def merged_names(self) -> list[str]:
         """Return a warning for each name that was also written with other blanks."""
