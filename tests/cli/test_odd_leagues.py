@@ -133,3 +133,16 @@ def test_two_players_of_one_name_on_a_list(run, league, tmp_path):
         assert result.exit_code == 3
         assert "last.csv:4: player 'Bob' stands in line 2 already" in result.stderr
         assert "tell two players of one name apart" in result.stderr
+
+
+@pytest.mark.parametrize("words", [["rate"], ["report", "--out", "sheet"], ["validate"]])
+def test_aliases_are_read_by_each_command_that_reads_results(run, league, tmp_path, words):
+    rows = ["Ann,Bo,5,3,", "Annie,Bo,5,4,", "Bo,Cy,5,2,", "Cy,Annie,5,1,", "Ann,Cy,5,4,"]
+    (tmp_path / "aliases.csv").write_text("name,means\nAnnie,Ann\n")
+    result = run(*words, league(rows), "--aliases", "aliases.csv")
+    assert result.exit_code == 0, result.stderr
+    assert "season.csv: read as aliases.csv says: 'Annie' as 'Ann'" in result.stderr
+    assert "Annie" not in result.stdout
+    refused = run(*words, "season.csv", "--aliases", "season.csv")
+    assert refused.exit_code == 3
+    assert "season.csv:1: there is no column 'name'" in refused.stderr
