@@ -168,7 +168,8 @@ def _evening_line(end: dict[str, Any]) -> str:
     take = "take" if end["matches"] > 1 else "takes"
     text = (
         f"{KINDS[end['races']]}, {matches} on {tables} {take} "
-        f"{_clock(end['mean_minutes'])} on average;\n9 evenings of 10 are over within {_clock(end['minutes_p90'])}"
+        f"{_clock(end['mean_minutes'])} on average;\n9 evenings of 10 are over within "
+        f"{_clock(end['minutes_p90'])}"
     )
     if end["exact"]:
         return f"{text}."

@@ -42,8 +42,8 @@ class Roster:
     Raises
     ------
     InputError
-        if a name stands there twice, the columns differ in length, a rating is infinite, or
-        an error is negative or infinite.
+        if a name stands there twice, the columns differ in length or hold what is no number,
+        a rating is infinite, or an error is negative or infinite.
 
     >>> club = Roster(["Ann", "Bo"], [92.0, np.nan], games=[140, 0])
     >>> len(club), club.position("Bo"), club.standard_error
@@ -142,8 +142,14 @@ class Roster:
 
 
 def _column(values: Any, name: str, kind: Any, many: int) -> NDArray[Any]:
-    # A copy, so that a later change of the caller's array changes nothing here.
-    column = np.array(values, dtype=kind)
+    try:
+        # A copy, so that a later change of the caller's array changes nothing here.
+        numbers = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} is {values!r}; give a number for each player") from None
+    if kind is np.int64 and not (np.isfinite(numbers) & (numbers == np.floor(numbers))).all():
+        raise InputError(f"{name} holds a value that is not whole; give whole numbers")
+    column = numbers.astype(kind)
     if column.shape != (many,):
         raise InputError(
             f"{name} has the shape {column.shape}; give one value for each of {many} players"
