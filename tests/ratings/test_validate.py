@@ -1,0 +1,75 @@
+"""A validated season: the best priors, and what holds of all figures together."""
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.ratings import Results, validate
+from evenbreak.ratings.validate import PRIORS
+
+
+def season(spread: float, *, matches: int = 900, seed: int = 1) -> Results:
+    """Return races to 5 between players whose skills have this spread in log-odds."""
+    rng = np.random.default_rng(seed)
+    skill = rng.normal(0.0, spread, 30)
+    a = rng.integers(0, 30, matches)
+    b = (a + rng.integers(1, 30, matches)) % 30
+    p = 1 / (1 + np.exp(skill[b] - skill[a]))
+    won = (rng.random((matches, 9)) < p[:, None]).cumsum(1)
+    lost = np.arange(1, 10) - won
+    end = ((won == 5) | (lost == 5)).argmax(1)
+    rows = np.arange(matches)
+    date = np.datetime64("2024-09-03") + rows // 45
+    return Results(tuple(f"p{k:02d}" for k in range(30)), a, b, won[rows, end], lost[rows, end],
+        date=date)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def found():
+    return validate(season(0.6))
+
+
+def test_the_prior_is_about_the_spread_of_the_skills(found):
+    assert 0.4 < found.prior_sd < 0.9
+    losses = dict(found.priors)
+    assert losses[found.prior_sd] == min(losses.values())
+    assert set(PRIORS) <= set(losses)
+
+
+def test_a_season_of_the_model_validates(found):
+    assert found.skill.low > 0.0
+    for row in found.scored:
+        assert row.slope is not None
+        assert row.slope.low < 1.0 < row.slope.high
+        assert row.log_loss.low < row.log_loss.value < row.log_loss.high
+    assert found.dispersion is not None
+    assert found.dispersion.p_value > 0.01
+
+
+def test_choosing_the_prior_as_it_goes_costs_little_but_something(found):
+    for row in found.scored:
+        assert row.as_it_went is not None
+        assert row.log_loss.value < row.as_it_went + 1e-4 < row.log_loss.value + 0.02
+
+
+def test_bins_hold_every_game_with_a_favourite(found):
+    told = found.forecasts
+    assert sum(row.games for row in found.games) == told.games[told.p_game != 0.5].sum()
+
+
+def test_the_same_seed_gives_the_same_figures(found):
+    again = validate(season(0.6))
+    assert again.scored == found.scored
+    assert again.dispersion == found.dispersion
+
+
+def test_a_given_prior_is_used_throughout():
+    found = validate(season(0.6, matches=200), prior_sd=0.8, seed=3)
+    assert {row.prior_sd for row in found.scored} == {0.8}
+    assert all(row.as_it_went is None for row in found.scored)
+    assert found.drawn == "matches"
+
+
+def test_one_date_is_refused():
+    with pytest.raises(InputError, match="give two dates"):
+        validate(season(0.6, matches=45))
