@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.cli.matchups_words import Told
+    from evenbreak.handicaps.chart import Chart
+    from evenbreak.handicaps.level_chart import LevelChart
     from evenbreak.ratings.roster import Roster
     from evenbreak.ratings.scale import Scale
 
@@ -141,11 +143,10 @@ def matchups(
         refuse("only one list can be on stdin; name a file for the other")
     from evenbreak.cli.matchups_words import Told
     from evenbreak.reports.matchups import RaceLimits
-    from evenbreak.reports.read_chart import find_chart
     from evenbreak.reports.read_roster import read_roster
     from evenbreak.reports.roster_matchups import all_pairs, check_roster
 
-    table = None if chart is None else find_chart(chart)
+    table = None if chart is None else _chart(chart)
     points = _scale(scale, chart, table)
     file = read_roster(roster)
     for warning in file.warnings:
@@ -176,7 +177,7 @@ def _print(told: Told, meets: NDArray[Any], tables: int | None, seed: int, as_js
     answer = told.matchups(meets)
     ends = [] if tables is None else told.evening(answer, meets, tables, seed)
     if as_json:
-        frame = answer.frame.astype(object)
+        frame = answer.frame.astype(object)  # so that a missing number can be None
         rows = frame.where(frame.notna(), None).to_dict("records")
         print_json({"pairs": rows, "evening": ends, "schema_version": SCHEMA_VERSION})
         return
@@ -199,7 +200,16 @@ def _stream(told: Told, meets: NDArray[Any], tables: int | None, seed: int) -> N
                 _say(text.replace("\n", " "))
 
 
-def _scale(scale: str | None, name: str | None, chart: Any) -> Scale:
+def _chart(name: str) -> Chart | LevelChart:
+    from evenbreak.reports.read_chart import find_chart_file
+
+    file = find_chart_file(name)
+    for warning in file.warnings:
+        _say(f"Warning: {warning}")
+    return file.chart
+
+
+def _scale(scale: str | None, name: str | None, chart: Chart | LevelChart | None) -> Scale:
     """Return the scale asked for, else that of the chart, else the NPL's."""
     from evenbreak.handicaps.level_chart import LevelChart
     from evenbreak.ratings.scale import SCALES, scale_of
