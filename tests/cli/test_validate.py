@@ -15,7 +15,7 @@ def test_a_pipe_gets_one_tidy_table(run):
     found = run("validate", DEMO, *SD)
     assert found.exit_code == 0
     rows = list(csv.DictReader(io.StringIO(found.stdout)))
-    assert list(rows[0]) == "part of item count expected value low high p_value".split()
+    assert ",".join(rows[0]) == "part,of,item,count,expected,value,low,high,p_value"
     parts = {row["part"] for row in rows}
     assert {"log_loss", "brier", "slope", "gain", "calibration", "dispersion", "spot"} <= parts
     (every,) = (row for row in rows if (row["part"], row["item"]) == ("spot", "all"))

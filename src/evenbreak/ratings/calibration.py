@@ -35,6 +35,9 @@ CONFIDENCE = 0.95
 REPLICAS = 2_000
 """Samples of a bootstrap."""
 
+TOSS_UP = 1e-9
+"""How near to 1/2 a chance has no favourite: an integral's rounding makes nobody one."""
+
 _Z = float(ndtri(0.5 + CONFIDENCE / 2))
 
 
@@ -176,7 +179,7 @@ def calibration(
 ) -> list[CalibrationBin]:
     """Return how often favourites won, by their predicted chance from 0.5 to 1.
 
-    Matches in which neither is the favourite, p = 0.5 exactly, say nothing and are left out.
+    Matches in which neither is the favourite, p = 0.5, say nothing and are left out.
 
     Parameters
     ----------
@@ -199,7 +202,7 @@ def calibration(
     place = np.minimum(np.searchsorted(edges, chance, side="right") - 1, bins - 1)
     found = []
     for k in range(bins):
-        rows = (place == k) & (p != 0.5) & (games > 0)
+        rows = (place == k) & (np.abs(p - 0.5) > TOSS_UP) & (games > 0)
         n = float(games[rows].sum())
         if n == 0.0:
             continue
