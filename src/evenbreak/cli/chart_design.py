@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from itertools import groupby
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from evenbreak.cli.chart_show import ROWS, span_text
-from evenbreak.cli.options import NUMBER, Command, chance, pair, refuse, span, wants_json
+from evenbreak.cli.design_wish import RULES, Wish, limit_options, wish_of
+from evenbreak.cli.options import chance, refuse, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, aligned, csv_text, print_json, to_terminal
 from evenbreak.cli.plot import plot_option, write_plot
 
@@ -18,16 +19,9 @@ if TYPE_CHECKING:
     from evenbreak.handicaps.chart import Chart
     from evenbreak.handicaps.chart_measure import ChartMeasure
     from evenbreak.handicaps.pareto import ParetoChart
-    from evenbreak.handicaps.play import Play
-    from evenbreak.handicaps.race_limits import RaceLimits
 
 __all__ = ["chart_design"]
 
-RULES = {
-    "mean": "the least mean unfairness",
-    "worst": "the least largest unfairness",
-    "nearest": "the race with W nearest 0.5 at each difference",
-}
 MEASURES = ("mean_unfairness", "worst_unfairness", "mean_games", "games_p90")
 MEASURE_HEADINGS = ("unfair, mean", "worst", "games, mean", "9 of 10 within")
 
@@ -39,95 +33,6 @@ Examples:
   evenbreak chart design --games 5..15 --scale fargo --tilt 0 > ours.csv
   evenbreak chart design --games 5..19 --least 2:2 --pareto --beside npl_10
 """
-
-
-class Wish(NamedTuple):
-    """What is asked for, apart from how it is printed."""
-
-    play: Play
-    limits: RaceLimits
-    rule: str
-    target: float
-    tilt: float
-    up_to: int | None
-    mean_games: float | None
-    beside: tuple[Chart, ...]
-
-
-def _above_0(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
-    if value is None:
-        return None
-    number = float(value) if NUMBER.fullmatch(value.strip()) else 0.0
-    if not 0.0 < number < 1e6:
-        raise click.BadParameter(f"{value!r}; give a number above 0", ctx=ctx, param=param)
-    return number
-
-
-def limit_options(command: Command) -> Command:
-    """Add the options that say which races a chart may hold and how they are played."""
-    for add in (
-        click.option(
-            "--break-points",
-            type=float,
-            metavar="B",
-            default=0.0,
-            help="What the break is worth in rating points; goes with --breaks.",
-        ),
-        click.option(
-            "--breaks",
-            type=click.Choice(["winner", "loser", "alternate"]),
-            help="Who breaks next; the first break is drawn.",
-        ),
-        click.option(
-            "--win-by",
-            type=click.IntRange(1, 20),
-            metavar="K",
-            default=1,
-            show_default=True,
-            help="By how many games a race must be won.",
-        ),
-        click.option(
-            "--minutes-per-game",
-            metavar="MIN",
-            callback=_above_0,
-            help="How long a game takes; goes with --minutes.",
-        ),
-        click.option(
-            "--minutes",
-            metavar="MIN",
-            callback=_above_0,
-            help="The same limit in minutes; goes with --minutes-per-game.",
-        ),
-        click.option(
-            "--games-p90",
-            type=click.IntRange(1),
-            metavar="K",
-            help="Let 9 of 10 matches end within K games, at every difference.",
-        ),
-        click.option(
-            "--mean-games",
-            metavar="G",
-            callback=_above_0,
-            help="Let matches take G games in the mean, at most.",
-        ),
-        click.option(
-            "--least",
-            metavar="M:N",
-            callback=pair,
-            default="1:1",
-            show_default=True,
-            help="The fewest games that the stronger and the weaker may need.",
-        ),
-        click.option(
-            "--games",
-            metavar="LO..HI",
-            callback=span,
-            required=True,
-            help="Races of which the longest possible match has LO to HI games.",
-        ),
-    ):
-        command = add(command)
-    return command
 
 
 @click.command("design", epilog=EXAMPLES)
@@ -188,7 +93,7 @@ def chart_design(pareto: bool, plot: str | None, as_json: bool, **wishes: Any) -
     Unfairness is how far the stronger player's chance W is from the target. Into a pipe or a
     file goes the chart as a CSV file that the other commands read.
     """
-    wish = _wish(**wishes)
+    wish = wish_of(**wishes)
     if pareto:
         _print_pareto(wish, plot, as_json)
         return
@@ -222,59 +127,6 @@ def chart_design(pareto: bool, plot: str | None, as_json: bool, **wishes: Any) -
     click.echo(aligned([["chart", *MEASURE_HEADINGS], *rows]), nl=False, err=not to_terminal())
     for line in _comparison(made, wish.beside, up_to):
         click.echo(line, err=not to_terminal())
-
-
-def _wish(
-    *,
-    games: tuple[int, int],
-    least: tuple[int, int],
-    games_p90: int | None,
-    minutes: float | None,
-    minutes_per_game: float | None,
-    scale: str,
-    win_by: int,
-    breaks: str | None,
-    break_points: float,
-    beside: tuple[str, ...],
-    rule: str,
-    **others: Any,
-) -> Wish:
-    """Return what is asked for, or refuse what contradicts itself."""
-    from evenbreak.games.breaks import BREAK_FORMATS
-    from evenbreak.handicaps.play import Play
-    from evenbreak.handicaps.race_limits import RaceLimits
-
-    if (minutes is None) != (minutes_per_game is None):
-        refuse("--minutes and --minutes-per-game go together; give both")
-    if minutes is not None and minutes_per_game is not None:
-        if games_p90 is not None:
-            refuse("--minutes and --games-p90 are one limit said twice; leave one out")
-        games_p90 = int(minutes / minutes_per_game + 1e-9)
-        if games_p90 < 1:
-            refuse("--minutes is less than a game takes; give more")
-    if (breaks is None) != (break_points == 0.0):
-        refuse("--breaks and --break-points go together; give both, or leave both out")
-    if rule == "nearest" and (others["mean_games"], others["target"], others["tilt"]) != (
-        None,
-        0.5,
-        0.5,
-    ):
-        refuse(
-            "--rule nearest takes the race nearest 0.5; leave --mean-games, --target, --tilt out"
-        )
-    play = Play(scale, win_by, None if breaks is None else BREAK_FORMATS[breaks], break_points)
-    limits = RaceLimits(games, *least, games_p90)
-    return Wish(play, limits, rule, beside=tuple(map(_chart_beside, beside)), **others)
-
-
-def _chart_beside(name: str) -> Chart:
-    from evenbreak.handicaps.chart import Chart
-    from evenbreak.reports.read_chart import find_chart
-
-    found = find_chart(name)
-    if not isinstance(found, Chart):
-        refuse("--beside names a chart of skill levels; name one of rating differences")
-    return found
 
 
 def _draw(wish: Wish, made: Chart, plot: str) -> None:
