@@ -129,7 +129,7 @@ def openskill(beta: float) -> float:
             (one,), (other,) = model.rate(pair)
             rating[a], rating[b] = (one, other) if won else (other, one)
 
-    return walk(lambda a, b: model.predict_win([[rating[a]], [rating[b]]])[0], learn)
+    return walk(lambda a, b: float(model.predict_win([[rating[a]], [rating[b]]])[0]), learn)
 
 
 def glicko(deviation: float) -> float:
