@@ -8,13 +8,11 @@ from hypothesis import strategies as st
 from evenbreak.errors import InputError
 from evenbreak.games import winner_breaks
 from evenbreak.handicaps import (
-    Chart,
     Play,
     RaceLimits,
     audit,
     chart,
     design,
-    last_difference,
     measure_chart,
     nearest_chart,
 )
@@ -217,44 +215,6 @@ def test_a_limit_on_the_90_per_cent_length_holds_at_every_difference():
     )
     assert measure_chart(free, "npl", up_to=60).games_p90 > 9
     assert measure_chart(short, "npl", up_to=60).games_p90 == 9
-
-
-def test_measures_are_means_over_all_differences():
-    short, play = Chart("short", [(0, 1, 2, 2), (2, None, 3, 2)]), Play("npl")
-    races = [(2, 2), (2, 2), (3, 2), (3, 2)]
-    wins = [abs(play.win([m], [n], [d])[0, 0] - 0.5) for d, (m, n) in enumerate(races)]
-    measured = measure_chart(short, play, up_to=3)
-    assert measured.mean_unfairness == pytest.approx(np.mean(wins))
-    assert measured.worst_unfairness == pytest.approx(max(wins))
-    assert measured.worst_difference == int(np.argmax(wins))
-    assert measured.mean_games == pytest.approx(np.mean(lengths(races, play)))
-    assert measured.games_p90 == 4
-
-
-def test_the_last_difference_is_where_the_last_race_is_even():
-    for number in NPL:
-        printed, play = chart(f"npl_{number}"), Play("npl")
-        last, row = last_difference(printed, play), printed.rows[-1]
-        wins = play.win([row.stronger_needs], [row.weaker_needs], [last, last + 1])[0]
-        assert wins[0] <= 0.5 < wins[1]
-
-
-@pytest.mark.parametrize(
-    ("wrong", "remedy"),
-    [
-        ({"games": (7, 5)}, "give the smaller number first"),
-        ({"games": 7}, r"give the pair \(lo, hi\)"),
-        ({"games": (0, 5)}, "games is 0; give a whole number, 1 or more"),
-        ({"games": (6, 6)}, "give a second number of 7 or more"),
-        ({"games": (5, 7), "weaker_least": 5}, "give a second number of 9 or more"),
-        ({"games": (5, 7), "stronger_least": 5}, "give a second number of 9 or more"),
-        ({"games": (5, 7), "weaker_least": 0}, "weaker_least is 0"),
-        ({"games": (5, 7), "games_p90": 0}, "games_p90 is 0"),
-    ],
-)
-def test_limits_that_leave_nothing_are_refused(wrong, remedy):
-    with pytest.raises(InputError, match=remedy):
-        RaceLimits(**wrong)
 
 
 @pytest.mark.parametrize(
