@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 DEMO = str(Path(__file__).resolve().parents[2] / "data" / "demo_league.csv")
-SD = ("--prior-sd", "0.5")
+SD = ("--prior", "22")
 
 
 def test_a_pipe_gets_one_tidy_table(run):
@@ -50,8 +50,8 @@ def test_a_file_without_an_order_in_time_is_refused(run, tmp_path, text, words):
     assert words in found.stderr
 
 
-@pytest.mark.parametrize("option", ["--prior-sd", "--half-life"])
-@pytest.mark.parametrize("value", ["0", "-1", "much", "nan", "1e9"])
+@pytest.mark.parametrize("option", ["--prior", "--half-life"])
+@pytest.mark.parametrize("value", ["0", "-1", "much", "nan", "1e9", "0.001"])
 def test_silly_numbers_are_refused(run, option, value):
     found = run("validate", DEMO, option, value)
     assert found.exit_code == 2

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import NUMBER, wants_aliases, wants_json
+from evenbreak.cli.options import NUMBER, refuse, wants_aliases, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, aligned, csv_text, print_json, to_terminal
 from evenbreak.cli.plot import plot_option, write_plot
 
@@ -25,7 +25,7 @@ EXAMPLES = """\b
 Examples:
   evenbreak validate season.csv
   evenbreak validate season.csv --plot calibration.png
-  evenbreak validate season.csv --prior-sd 0.5 --half-life 365
+  evenbreak validate season.csv --prior 20 --half-life 365
 """
 
 
@@ -33,9 +33,8 @@ def _positive(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     if value is None:
         return None
     number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    least, most = (0.001, 100.0) if param.name == "prior_sd" else (0.01, 1e6)
-    if not least <= number <= most:
-        message = f"{value!r}; give a number from {least:g} to {most:,.0f}"
+    if not 0.01 <= number <= 1e6:
+        message = f"{value!r}; give a number from 0.01 to 1,000,000"
         raise click.BadParameter(message, ctx=ctx, param=param)
     return number
 
@@ -43,10 +42,10 @@ def _positive(ctx: click.Context, param: click.Parameter, value: str | None) -> 
 @click.command(epilog=EXAMPLES)
 @click.argument("results", metavar="RESULTS.csv")
 @click.option(
-    "--prior-sd",
-    metavar="SD",
+    "--prior",
+    metavar="POINTS",
     callback=_positive,
-    help="The prior's standard deviation in log-odds.  [default: the one that predicts best]",
+    help="The prior's standard deviation in points.  [default: the one that predicts best]",
 )
 @click.option(
     "--half-life",
@@ -60,7 +59,7 @@ def _positive(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     default="npl",
     show_default=True,
     metavar="npl|fargo|elo|POINTS",
-    help="The scale in whose points the prior is told.",
+    help="The scale in whose points the prior is given and told.",
 )
 @click.option(
     "--seed",
@@ -75,7 +74,7 @@ def _positive(ctx: click.Context, param: click.Parameter, value: str | None) -> 
 @wants_json
 def validate(
     results: str,
-    prior_sd: float | None,
+    prior: float | None,
     half_life: float | None,
     scale_name: str,
     seed: int,
@@ -95,6 +94,10 @@ def validate(
     from evenbreak.reports.read_results import read_results
 
     scale = scale_of(scale_name)
+    prior_sd = None if prior is None else prior / scale.points_per_log_odds
+    if prior_sd is not None and not 1e-3 <= prior_sd <= 100.0:
+        least, most = 1e-3 * scale.points_per_log_odds, 100.0 * scale.points_per_log_odds
+        refuse(f"--prior is {prior:g} points; on this scale give {least:.2g} to {most:.4g}")
     file = read_results(results, aliases=aliases)
     for warning in file.warnings:
         click.echo(printable(f"Warning: {warning}"), err=True)

@@ -86,7 +86,9 @@ def _skill(found: Validation) -> str:
 def _slope(found: Validation) -> str:
     slope = _row(found, "game", "integrated").slope
     if slope is None:
-        return "Whether chances are right cannot be told: there were no favourites, or they won all."
+        return (
+            "Whether chances are right cannot be told: there were no favourites, or they won all."
+        )
     told = f"(slope {slope.value:.2f}, {slope.low:.2f} to {slope.high:.2f}; 1 is right)"
     if slope.high < 1.0:
         return f"Chances of games are too sure of themselves: the truth is nearer to even {told}."
