@@ -140,7 +140,7 @@ def glicko(deviation: float) -> float:
         one, other = player[a], player[b]
         spread = math.hypot(one.rd, other.rd) * math.log(10.0) / 400.0
         g = 1.0 / math.sqrt(1.0 + 3.0 * (spread / math.pi) ** 2)
-        return 1.0 / (1.0 + 10.0 ** (-g * (one.rating - other.rating) / 400.0))
+        return float(1.0 / (1.0 + 10.0 ** (-g * (one.rating - other.rating) / 400.0)))
 
     def learn(today: Results) -> None:
         games: dict[int, list[tuple[float, float, bool]]] = {}
