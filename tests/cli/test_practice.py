@@ -53,6 +53,7 @@ def test_no_trend_without_dates(practice):
         told = practice("-", stdin=text)
         assert told["n"] == 3
         assert told["slope_per_week"] is None
+        assert [note[:18] for note in told["notes"]] == ["a change with time"] * ("date" in text)
 
 
 def test_a_drift_is_noted(practice):

@@ -150,6 +150,8 @@ def _summary(file: ScoresFile, confidence: float, plot: str | None, as_json: boo
         told.append(
             "one score, or equal ones, show no spread: how far the true mean is off is not known"
         )
+    if line is None and own is not None and file.dates is not None:
+        told.append("a change with time shows with three scores or more, not all of one date")
     if line is not None and line.p_value < DRIFTS:
         told.append(
             "the scores seem to drift with time, but the interval takes the true mean for steady"
