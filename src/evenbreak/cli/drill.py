@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import NUMBER, chance, refuse, wants_json
+from evenbreak.cli.options import NUMBER, Whole, chance, refuse, wants_json
 from evenbreak.cli.output import (
     SCHEMA_VERSION,
     aligned,
@@ -107,7 +107,7 @@ def _chances(
 @click.option("--log", metavar="LOG.csv", help="Instead: a log of attempts; - is stdin.")
 @click.option(
     "--levels",
-    type=click.IntRange(1, MOST_LEVELS),
+    type=Whole(1, MOST_LEVELS),
     metavar="N",
     help="How many levels.  [default: 9 with --p, the highest of the log with --log]",
 )

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import NUMBER, chance, refuse, wants_json
+from evenbreak.cli.options import chance, number, refuse, wants_json
 from evenbreak.cli.plot import plot_option, write_plot
 from evenbreak.cli.practice_words import (
     NEW_WORDS,
@@ -45,11 +44,8 @@ def _score(ctx: click.Context, param: click.Parameter, value: str | None) -> flo
 
     from evenbreak.stats.confidence import LARGEST
 
-    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    if not abs(number) <= LARGEST:
-        message = f"{value!r} is not a score; give a number, such as 53"
-        raise click.BadParameter(message, ctx=ctx, param=param)
-    return number
+    wanted = " is not a score; give a number, such as 53"
+    return number(value, -LARGEST, LARGEST, wanted, ctx=ctx, param=param)
 
 
 def _confidence(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
