@@ -62,6 +62,14 @@ def test_version(run):
     assert run("--version").output == f"evenbreak {__version__}\n"
 
 
+def test_a_mistyped_command_is_answered_with_the_nearest(run):
+    for typed, meant in [("dril", "drill"), ("one-ball", "oneball"), ("brakes", "breaks")]:
+        result = run(typed, "0.5")
+        assert result.exit_code == 2
+        assert f"No such command {typed!r}. Did you mean {meant!r}?" in result.stderr
+    assert "Did you mean" not in run("xyzzy").stderr
+
+
 @pytest.mark.parametrize("words", [(), ("nope",), ("--nope",), ("odds", "--nope")])
 def test_wrong_use_ends_with_2_on_stderr(run, words):
     result = run(*words)

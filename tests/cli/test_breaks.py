@@ -94,6 +94,15 @@ def test_advice(p1, p2, lose, words):
     assert advice(compare_break_formats(Rack(p1, p2), lose=lose)).endswith(words)
 
 
+def test_a_terminal_of_80_columns_is_wide_enough(run, monkeypatch):
+    for module in ("output", "breaks"):
+        monkeypatch.setattr(f"evenbreak.cli.{module}.to_terminal", lambda: True)
+    text = run("breaks", "0.9", "0.5", "--lose", "2").stdout
+    assert max(map(len, text.splitlines())) <= 80
+    # W = 5/6 in winner breaks: 5/6 - 2/6 points a rack.
+    assert "In 100 racks with winner breaks A gets 50 points on average, give or take" in text
+
+
 def test_plot(run, tmp_path):
     path = tmp_path / "breaks.png"
     result = run("breaks", "0.9", "0.5", "--plot", str(path))
@@ -106,6 +115,9 @@ def test_plot(run, tmp_path):
     [
         ("0.9", "Missing argument 'P2'"),
         ("0.9 5", "'5' is not a probability; give a number from 0 to 1"),
+        ("60 55", "(60 % is 0.6)"),
+        ("0,9 0.5", "(with a decimal point: 0.9)"),
+        ("0.9 0.5 --win 1,5", "(with a decimal point: 1.5)"),
         ("-0.9 0.5", "'P1': '-0.9' is not a probability; give a number from 0 to 1"),
         ("0.9 0.5 --wins 1", "No such option '--wins'"),
         ("0.9 0.5 --win -1", "'-1' is no stake; give a number from 0 to 1000000"),

@@ -89,6 +89,32 @@ def test_negative_ratings(odds, line):
     assert odds(line) == odds("0 50 --race 3:3")
 
 
+def test_one_number_is_for_both_players(odds):
+    assert odds("--p 0.6 --race 7") == odds("--p 0.6 --race 7:7")
+    assert odds("--p 0.6 --ahead 3") == odds("--p 0.6 --ahead 3:3")
+    assert odds("--p 0.6 --race 2 --set 3") == odds("--p 0.6 --race 2:2 --set 3:3")
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("612 521", "Note: most npl ratings are from 20 to 130; for fargo ratings add "),
+        ("85 40 --scale fargo", "Note: most fargo ratings are from 200 to 850; for npl ratings "),
+        ("105 62", ""),
+        ("-20 30", ""),
+        ("612 521 --scale fargo", ""),
+        ("91 0 --scale fargo", ""),
+        ("1800 1500 --scale elo", ""),
+        ("612 521 --scale 100", ""),
+    ],
+)
+def test_ratings_that_look_like_those_of_another_scale_are_answered_with_a_note(run, line, told):
+    result = run("odds", *line.split(), "--race", "7")
+    assert result.exit_code == 0
+    assert (result.stderr != "") == (told != "")
+    assert result.stderr.startswith(told)
+
+
 def test_p1_p2_are_echoed_where_the_break_matters(odds):
     answer = odds(" ".join([*BREAKS, "--race 5:5"]))
     assert (answer["p_game_a"], answer["p1"], answer["p2"]) == (None, 0.6, 0.5)
@@ -175,10 +201,10 @@ def on_terminal(*words, **environment):
     return text.decode().replace("\r\n", "\n")
 
 
-def test_a_person_reads_few_digits_of_very_many_racks():
+def test_a_person_reads_few_digits_of_very_many_games():
     never_holds = ["--p1", "1e-300", "--p2", "1e-300", "--breaks", "alternate"]
     text = on_terminal("odds", *never_holds, "--ahead", "3:3")
-    assert "racks, mean" in text
+    assert "games, mean" in text
     assert " 2e+300\n" in text
     assert " 1.39e+300\n" in text
     assert " 4.61e+300\n" in text
@@ -193,6 +219,12 @@ def test_a_person_at_a_terminal_reads_words():
     assert WORDS["p_hill_hill"] in text
     assert WORDS["p_never_ends"] not in text
     assert "\x1b" not in text
+
+
+def test_a_person_is_told_that_the_match_is_over():
+    text = on_terminal("odds", "--p", "0.6", "--race", "3", "--score", "1:3")
+    assert "\nrace 3:3, the score is 1:3: B has won\n" in text
+    assert "A wins without losing a game from now on" in text
 
 
 def test_a_person_is_told_who_breaks_and_what_is_won():
@@ -222,7 +254,9 @@ def test_a_person_is_told_who_breaks_and_what_is_won():
         ("nan 5 --race 7:7", "give two numbers, such as 612 521"),
         ("1e999 5 --race 7:7", "too far apart"),
         ("612 521 --rac 7:7", "Did you mean"),
-        ("612 521 --race 7", "such as 7:5"),
+        ("612,5 521 --race 7", "(with a decimal point: 612.5)"),
+        ("612 521 --race 7:", "such as 7:5"),
+        ("612 521 --race 7 --score 3", "such as 3:0"),
         ("612 521 --race 7-5", "such as 7:5"),
         ("612 521 --race 0:5", "from 1 to 1000"),
         ("612 521 --race 9999:5", "from 1 to 1000"),

@@ -83,8 +83,8 @@ def test_csv_into_a_pipe(run):
 @pytest.mark.parametrize(
     ("shots", "words"),
     [
-        ([(0.4, 0.8)], "You would be the favourite with p2 below 0.6667."),
-        ([(0.4, 0.2)], "You are the favourite with p2 below 0.6667."),
+        ([(0.4, 0.8)], "You would be the favourite if a miss leaves less than 0.6667."),
+        ([(0.4, 0.2)], "You are the favourite if a miss leaves less than 0.6667."),
         ([(0.6, 1)], "You are the favourite, whatever a miss leaves."),
         ([(0.5, 1)], "The game is even; a little less left makes you the favourite."),
         ([(0, 0)], "Nobody ever makes a ball: nobody wins."),
@@ -93,12 +93,21 @@ def test_csv_into_a_pipe(run):
         ([(0.5, 0.5), (0.2, 0.2), (0.5, 0.5)], "Shots 1 and 3 are equally good."),
         (
             [(0.9, 1), (0.2, 0.2)],
-            "Take shot 1: it wins 0.3444 more than shot 2, whatever its p2 is.",
+            "Take shot 1: it wins 0.3444 more than shot 2, whatever it leaves.",
         ),
     ],
 )
 def test_advice(shots, words):
     assert told(*shots) == words
+
+
+def test_a_terminal_of_80_columns_is_wide_enough(run, monkeypatch):
+    for module in ("output", "oneball"):
+        monkeypatch.setattr(f"evenbreak.cli.{module}.to_terminal", lambda: True)
+    lines = run("oneball", "0.1", "0.05", "--or", "0.55:0.85").stdout.splitlines()
+    assert max(map(len, lines)) <= 80
+    assert lines[3].split()[:2] == ["you", "miss"]
+    assert lines[4].split()[:4] == ["shot", "kind", "make", "leaves"]
 
 
 @pytest.mark.parametrize("kind", ["png", "svg"])

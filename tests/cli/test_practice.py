@@ -53,6 +53,7 @@ def test_no_trend_without_dates(practice):
         told = practice("-", stdin=text)
         assert told["n"] == 3
         assert told["slope_per_week"] is None
+        assert [note[:18] for note in told["notes"]] == ["a change with time"] * ("date" in text)
 
 
 def test_a_drift_is_noted(practice):
@@ -156,6 +157,7 @@ def test_plot_of_nearly_nothing(run, tmp_path, text):
         ("- --new 53 --versus -", 2, "leave one out"),
         ("- --versus -", 2, "both lists cannot be on stdin; name a file"),
         ("- --new much", 2, "'much' is not a score; give a number, such as 53"),
+        ("- --new 48,5", 2, "such as 53 (with a decimal point: 48.5)"),
         ("- --new nan", 2, "'nan' is not a score"),
         ("- --new 1e99", 2, "'1e99' is not a score"),
         ("- --confidence 1", 2, "give a number between 0 and 1, such as 0.95"),

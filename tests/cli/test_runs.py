@@ -84,14 +84,26 @@ def test_text_on_a_terminal(run, monkeypatch):
     monkeypatch.setattr("evenbreak.cli.output.to_terminal", lambda: True)
     words = "--p 0.96 --safety 0.5 --innings 3 --between 5..9 --over 7"
     lines = run("runs", *words.split()).stdout.splitlines()
-    assert lines[0] == (
-        "the score of 3 innings; each shot is made with 0.96, but the first of an inning with 0.48"
-    )
+    assert lines[:2] == [
+        "each shot is made with 0.96, but the first of an inning with 0.48",
+        "the score of 3 innings",
+    ]
+    assert max(map(len, lines)) <= 80
     assert [line.rsplit("  ", 1)[0].strip() for line in lines[-3:]] == [
         "5 to 9",
-        "over 7",
-        "7 or less",
+        "over 7: 8 or more",
+        "not over 7: 7 or less",
     ]
+
+
+def test_a_line_between_two_scores_is_passed_by_the_next_one(run, monkeypatch):
+    ask = ("runs", "--mean", "24", "--over")
+    half, whole = (json.loads(run(*ask, line, "--json").stdout) for line in ("20.5", "20"))
+    assert half == whole
+    monkeypatch.setattr("evenbreak.cli.output.to_terminal", lambda: True)
+    text = run(*ask, "20.5").stdout
+    assert "  over 20.5: 21 or more " in text
+    assert "  not over 20.5: 20 or less " in text
 
 
 @pytest.mark.parametrize("line", ["--mean 24", "--p .9 --innings 20 --safety .8", "--mean 0"])
@@ -113,8 +125,12 @@ def test_plot(run, tmp_path, line, name):
         ("--mean nan", "balls an inning from 0 to 100000"),
         ("--p 2", "give a number from 0 to 1"),
         ("--mean 5 --safety 1.1", "give a number from 0 to 1"),
-        ("--mean 5 --innings 0", "1<=x<=1000"),
-        ("--mean 5 --at-least -1", "0<=x<=100000"),
+        ("--mean 5 --innings 0", "'0'; give a whole number from 1 to 1000"),
+        ("--mean 5 --at-least -1", "'-1'; give a whole number from 0 to 100000"),
+        ("--mean 5 --at-least x", "'x'; give a whole number from 0 to 100000"),
+        ("--mean 5 --over -1", "'-1'; give a number of balls from 0 to 100000"),
+        ("--mean 24,5", "(with a decimal point: 24.5)"),
+        ("--p 96%", "(96 % is 0.96)"),
         ("--mean 5 --between 9..7", "such as 50..75"),
         ("--mean 5 --between 9", "such as 50..75"),
         ("--mean 5 --between 0..999999", "such as 50..75"),

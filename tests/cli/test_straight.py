@@ -71,8 +71,23 @@ def test_a_match_that_never_ends(straight):
     answer = straight("0 0 --points 5")
     assert answer["p_never_ends"] == 1
     assert {answer[key] for key in QUANTITIES[-7:]} == {None}
-    alone = straight("0 5 --points 10")
-    assert (alone["p_win_a"], alone["p_never_ends"], alone["even_points_a"]) == (0, 0, 1)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "0 5 --points 100",
+        "100000 1 --points 1000",
+        "--p1 0.999 --p2 0.01 --points 50",
+        "9 4 --points 1:1",
+    ],
+)
+def test_no_spot_makes_it_even(run, straight, monkeypatch, line):
+    answer = straight(line)
+    assert answer["p_never_ends"] == 0
+    assert {answer[key] for key in QUANTITIES[-3:]} == {None}
+    monkeypatch.setattr("evenbreak.cli.straight.to_terminal", lambda: True)
+    assert run("straight", *line.split()).stdout.endswith("\nNo spot makes this match even.\n")
 
 
 def test_long_matches_are_no_trouble(straight):
@@ -97,7 +112,11 @@ def test_text_on_a_terminal(run, monkeypatch):
     assert "the match never ends" in text
     text = run("straight", "--p1", ".5", "--p2", ".6", "--points", "5", "--safety", ".5").stdout
     assert "the match never ends" not in text
-    assert text.startswith("A makes a shot with 0.5, B with 0.6, a first shot with 0.5 of")
+    assert text.splitlines()[:2] == [
+        "A makes a shot with 0.5, B with 0.6; A shoots first",
+        "the first shot of an inning: 0.5 of the chance of the others",
+    ]
+    assert max(map(len, text.splitlines())) <= 80
 
 
 @pytest.mark.parametrize("line", ["9 4 --points 100:80", "4 9 --points 1", "0 5 --points 10"])
@@ -120,9 +139,10 @@ def test_plot(run, tmp_path, line, name):
         ("9 4 --p1 .5 --points 5", "who plays is said twice"),
         ("9 x --points 5", "'x' is no average"),
         ("9 -4 --points 5", "'-4' is no average; give balls an inning from 0 to"),
+        ("24,5 19 --points 5", "(with a decimal point: 24.5)"),
         ("9 1e9 --points 5", "balls an inning from 0 to 100000"),
         ("9 4 --points 0", "whole number from 1 to 1000"),
-        ("9 4 --points 5:", "such as 100:80"),
+        ("9 4 --points 5:", "such as 7:5"),
         ("9 4 --points 2000:5", "whole number from 1 to 1000"),
         ("9 4 --points 5 --first c", "'a', 'b'"),
         ("9 4 --points 5 --safety 2", "give a number from 0 to 1"),

@@ -213,6 +213,19 @@ def test_who_never_wins_gets_the_smallest_spot():
     assert even_points(5, 0.5, 0).points_2 == 1
 
 
+@pytest.mark.parametrize(
+    ("points", "p1", "p2", "even"),
+    [(100, 0.9, 0.85, True), (150, 0.96, 0.95, True), (1, 0.9, 0.8, False), (5, 0, 0.5, False)],
+)
+def test_whether_any_number_of_points_makes_it_even(points, p1, p2, even):
+    found = even_points(points, p1, p2)
+    assert found.is_even is even
+    every = [
+        straight_pool_odds(StraightPool(points, n, p1, p2)).p_win_1 for n in range(1, 2 * points)
+    ]
+    assert any(0.4 <= win <= 0.6 for win in every) is even
+
+
 def test_arguments_may_be_averages():
     match = StraightPool(100, 100, RunLength.of_mean(9).p, RunLength.of_mean(4).p)
     assert straight_pool_odds(match) == straight_pool_odds(StraightPool(100, 100, 0.9, 0.8))

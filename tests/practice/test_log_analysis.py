@@ -182,6 +182,7 @@ def test_level_1_alone() -> None:
     analysis = analysed(DrillLog([1, 1, 1], [0, 0, 0]))
     assert (analysis.model, analysis.model_test, analysis.memory) == (None, None, None)
     assert analysis.practise_next is None
+    assert analysis.levels[0].p_best == 0.0
     assert (analysis.furthest_off_model, analysis.levels[0].p_model) == (None, None)
     assert analysis.implied.probability == (1.0,)
     assert analysis.difference.seen == 0.0
@@ -193,6 +194,16 @@ def test_levels_nobody_tried() -> None:
     assert [report.p for report in untried] == [None, None]
     assert [(report.p_low, report.p_high) for report in untried] == [(0.0, 1.0)] * 2
     assert [report.p_best for report in untried] == [0.0, 0.0]
+
+
+def test_nobody_is_sent_to_practise_a_level_never_missed() -> None:
+    faultless = analysed(DrillLog([1, 2, 2, 2], [1, 1, 1, 1]))
+    assert faultless.levels[1].lift_high > 0.0
+    assert [report.p_best for report in faultless.levels] == [0.0, 0.0]
+    assert faultless.practise_next is None
+    best = analysed(DrillLog([2, 1, 2, 3, 3], [0, 1, 1, 1, 1])).practise_next
+    assert best is not None
+    assert (best.level, best.p_best) == (2, 1.0)
 
 
 def test_one_attempt() -> None:

@@ -5,6 +5,7 @@ import math
 from collections import Counter
 from decimal import Decimal
 from fractions import Fraction
+from math import comb
 from pathlib import Path
 from statistics import NormalDist, mean, pstdev
 
@@ -18,7 +19,13 @@ from evenbreak.reports.published import (
     published_numbers,
 )
 from evenbreak.reports.section5.index import slips_of
-from evenbreak.reports.section5.numbers import ANSWERS, compute, findings, verdict_of
+from evenbreak.reports.section5.numbers import (
+    ANSWERS,
+    compute,
+    deciding_tolerance,
+    findings,
+    verdict_of,
+)
 
 SEED = Path(__file__).resolve().parents[3] / "shared" / "seed" / "section5_numbers.csv"
 NUMBERS = [*published_numbers(), *further_numbers()]
@@ -85,12 +92,10 @@ def test_what_is_right_in_place_of_a_wrong_number() -> None:
     units = (53 - mean(scores)) / sd - normal.inv_cdf(0.9) / math.sqrt(10)
     right = {
         ("P5.7", "p where W(p;2,1)=W(p;4,2)"): [crossing],
-        ("P5.7", "W where W(p;2,1)=W(p;4,2)"): [crossing**2],
         ("P5.10", "range low, normal"): [62.4 - normal.inv_cdf(0.975) * math.sqrt(62.4 * 0.48)],
         ("P5.17", "relative deviation"): [1 / math.sqrt(5 * 0.96)],
-        ("P5.19", "standard units of a 53 over the interval"): [units],
         ("P5.19", "chance of a score so far out"): [2 * normal.cdf(-units)],
-        ("P5.19", "confidence that it was no chance"): [1 - 2 * normal.cdf(-units)],
+        ("P5.19", "confidence, 1 less that chance"): [1 - 2 * normal.cdf(-units)],
         ("P5.22", "W infinite look-ahead"): [10 / 11],
         ("Table 5.4", "W winner breaks less 1/2"): [1 / 22],
         ("P5.25", "expected points per game"): [1 / 2, -1 / 14],
@@ -110,6 +115,24 @@ def test_verdict_of_a_wrong_number() -> None:
     assert verdict_of(erratum, 0.909) == "erratum"
     assert verdict_of(erratum, 0.904) == "agrees"
     assert verdict_of(row._replace(printed=None), 0.5) == "derived"
+    known = PublishedNumber("P", "q", "", Decimal("0.457"), Decimal("0.0006"), "erratum", "")
+    assert deciding_tolerance(known) == Decimal("0.0005")
+    assert verdict_of(known, 0.45644) == "erratum"
+    assert verdict_of(known, 0.4566) == "agrees"
+
+
+def test_w_of_p5_7_is_right_at_the_printed_p_alone() -> None:
+    at = {row.quantity: row for row in findings_of("P5.7") if row.inputs == "p=.641"}
+    assert at["W(p;2,1)"].printed == at["W(p;4,2)"].printed == Decimal("0.411")
+    for m, n in ((2, 1), (4, 2)):
+        p = Fraction("0.641")
+        win = float(sum(comb(m - 1 + k, k) * p**m * (1 - p) ** k for k in range(n)))
+        assert compute("P5.7", f"W(p;{m},{n})", "p=.641") == pytest.approx(win, rel=1e-12)
+        assert round(win, 3) == 0.411
+
+
+def findings_of(problem: str) -> list[PublishedNumber]:
+    return [row for row in NUMBERS if row.problem == problem]
 
 
 def test_order_is_that_of_the_text() -> None:

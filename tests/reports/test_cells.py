@@ -25,7 +25,8 @@ def told(table):
 
 
 @pytest.mark.parametrize(
-    ("text", "value"), [("7", 7), ("+7", 7), ("007", 7), ("7.0", 7), ("7.", 7), ("1000000", 10**6)]
+    ("text", "value"),
+    [("7", 7), ("+7", 7), ("007", 7), ("7.0", 7), ("7.", 7), ("7,0", 7), ("1000000", 10**6)],
 )
 def test_whole_numbers(text, value):
     table = table_of(text)
@@ -69,6 +70,12 @@ def test_the_least_whole_number_can_be_raised():
     assert told(table) == [
         "t.csv:2: x '0' is not a whole number from 1 to 1,000,000; write 0, 1, 2, ..."
     ]
+
+
+def test_the_greatest_whole_number_can_be_lowered():
+    table = table_of("7", "8")
+    assert whole_numbers(table, "x", at_most=7).good.tolist() == [True, False]
+    assert told(table) == ["t.csv:3: x '8' is not a whole number from 0 to 7; write 0, 1, 2, ..."]
 
 
 def test_empty_cells_may_be_allowed():

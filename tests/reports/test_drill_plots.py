@@ -24,6 +24,8 @@ def test_a_pair_of_bars_for_each_level_told_apart_without_colour():
     analysis = analyse_log(log, rng=np.random.default_rng(1), replicas=9)
     figure = log_figure(analysis)
     assert heights(figure) == pytest.approx([3 / 6, 2 / 6, 1 / 6, *analysis.implied.probability])
+    ends = next(line for line in figure.axes[0].lines if "interval" in str(line.get_label()))
+    assert ends.get_xdata() == pytest.approx([analysis.mean_low, analysis.mean_high])
     bars = figure.axes[0].patches
     assert {bar.get_hatch() for bar in bars[:3]} != {bar.get_hatch() for bar in bars[3:]}
 

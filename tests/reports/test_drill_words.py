@@ -36,16 +36,23 @@ def test_what_is_not_odd_is_told_as_such(analysis: LogAnalysis) -> None:
     plain = PlayedAgainTest(0.25, 0.2, 0.4)
     assert "Nothing odd (p = 0.4)" in told(analysis, difference=plain)
     assert "Perhaps" not in told(analysis, difference=plain)
-    assert "25 times in 100 more often" in told(analysis, memory=plain)
-    assert "No sign that one attempt weighs on the next (p = 0.4)" in told(analysis, memory=plain)
+    assert "25 times in 100 more often after a success than after a miss" in told(
+        analysis, memory=plain
+    )
+    assert "No sign of it (p = 0.4)" in told(analysis, memory=plain)
     assert "No level stands out from that (p = 0.4)" in told(analysis, model_test=plain)
 
 
 def test_a_memory_the_other_way_round(analysis: LogAnalysis) -> None:
     words = told(analysis, memory=PlayedAgainTest(-0.25, -0.02, 0.001))
     assert "25 times in 100 less often" in words
-    assert "chance alone makes that 2 less" in words
+    assert "by chance alone it would be 2 times in 100 less often." in words
     assert "a success seems to make the next attempt worse" in words
+
+
+def test_no_difference_is_told_as_none(analysis: LogAnalysis) -> None:
+    words = told(analysis, memory=PlayedAgainTest(0.004, -0.004, 0.9))
+    assert "as often after a success as after a miss; by chance alone it would be as often" in words
 
 
 def test_misses_at_level_1_are_told(analysis: LogAnalysis) -> None:
@@ -72,10 +79,19 @@ def test_a_level_hardly_missed_has_no_room_for_five_more() -> None:
     assert "five more" in drill_advice(drill_statistics(Drill([0.99, 0.98, 0.95])))
 
 
-def test_nobody_is_sure_of_the_only_level_tried() -> None:
-    words = told(analyse_log(DrillLog([4], [1]), rng=np.random.default_rng(1), replicas=9))
-    assert "It is the only level that you tried; log others too." in words
-    assert "sure" not in words
+@pytest.mark.parametrize(
+    ("log", "words"),
+    [
+        (DrillLog([1, 1, 1], [0, 0, 0]), "a drill of level 1 alone, there is nothing to climb"),
+        (DrillLog([1, 2, 2, 2], [1, 1, 1, 1]), "You never missed, so your log cannot tell yet"),
+        (DrillLog([2, 3], [1, 0]), "It is the only level that you missed."),
+        (DrillLog([1, 3], [1, 0], session=[1, 2]), "No level that you missed would lift"),
+    ],
+)
+def test_nobody_is_sure_of_what_a_log_cannot_tell(log: DrillLog, words: str) -> None:
+    shown = told(analyse_log(log, rng=np.random.default_rng(1), replicas=9))
+    assert words in shown
+    assert "sure" not in shown
 
 
 def test_a_level_that_nobody_tried_is_named(analysis: LogAnalysis) -> None:

@@ -76,7 +76,7 @@ def test_levels_of_the_drill(drill_file):
     assert "leads to level 3; it is a new start." in read_drill_log(path, levels=3).warnings[0]
     assert read_drill_log(path, levels=5).log.attempts.tolist() == [1, 2, 0, 0, 0]
     assert problems(path, levels=1) == [
-        f":{line}: level 2 is above 1, the most that the drill may have; correct it, or give the "
+        f":{line}: level '2' is not a whole number from 1 to 1; write 1, 2, 3, ..., or give the "
         "drill more levels"
         for line in (3, 4)
     ]
@@ -85,11 +85,12 @@ def test_levels_of_the_drill(drill_file):
 def test_all_problems_are_told_at_once(drill_file):
     path = drill_file("level,success\n0,yes\n1,maybe\n,no\n101,no\n2,\n3,no,no\n")
     assert problems(path) == [
-        ":2: level '0' is not a whole number from 1 to 1,000,000; write 1, 2, 3, ...",
-        ":3: success 'maybe' is not a word for a success or a miss; write yes or no",
+        ":2: level '0' is not a whole number from 1 to 100; write 1, 2, 3, ...",
+        ":3: success 'maybe' is not a word for a success or a miss; write yes or no, "
+        "and a row for each attempt",
         ":4: level is empty; write 1, 2, 3, ...",
-        ":5: level 101 is above 100, the most that the drill may have; correct it",
-        ":6: success is empty; write yes or no",
+        ":5: level '101' is not a whole number from 1 to 100; write 1, 2, 3, ...",
+        ":6: success is empty; write yes or no, and a row for each attempt",
         ":7: has 3 cells, but the header has 2; add what is missing, or quote cells that hold the "
         "separator",
     ]
@@ -99,6 +100,7 @@ def test_all_problems_are_told_at_once(drill_file):
     ("text", "words"),
     [
         ("level,success\n", "has no attempts below its header"),
+        ("1,yes\n2,no\n", "names of the columns, such as level,success"),
         ("level\n1\n", "there is no column 'success' among 'level'; add it"),
         ("", "is empty; write a header line"),
     ],

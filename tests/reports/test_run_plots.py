@@ -25,6 +25,30 @@ def test_scores_are_drawn_with_their_probabilities():
     assert axes.get_xlabel() == "balls made in 3 innings"
 
 
+def test_what_was_asked_is_shaded_and_named():
+    law = RunLength(0.96)
+    asked = [("20 to 20", 20, 20), ("over 30", 31, None), ("far", 5000, None)]
+    (axes,) = plot_score(law, asked=asked).axes
+    _, *shades = axes.collections
+    assert [shade.get_label() for shade in shades] == [
+        f"20 to 20 ({law.probability(20):.4f})",
+        f"over 30 ({law.at_least(31):.4f})",
+        "far (0.0000)",
+    ]
+    assert len({shade.get_hatch() for shade in shades}) == 3
+    one, above, far = (shade.get_paths() for shade in shades)
+    assert (one[0].get_extents().x0, one[0].get_extents().x1) == (19.5, 20.5)
+    assert above[0].get_extents().x0 == 30.5
+    assert not far
+
+
+def test_no_line_where_no_spot_is_even():
+    (axes,) = plot_spot(StraightPool(9, 9, 0, 0.8), weaker=1, even=None, title="who").axes
+    assert axes.get_title() == "who"
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == ["9 against 9"]
+
+
 @pytest.mark.parametrize(("weaker", "even"), [(2, 43), (1, 60)])
 def test_a_spot_is_worth_what_the_match_with_it_is(weaker, even):
     match = StraightPool(100, 80, 0.9, 0.8, first=2)

@@ -13,6 +13,7 @@ DAYS = np.array(["2024-09-03", "2024-09-10", "2024-09-17", "2024-09-24"], "M8[D]
 def test_scores_mean_band_and_the_new_one_after_them(days):
     interval = mean_interval(SCORES, 0.8)
     figure = plot_scores(ScoresFile(SCORES, days, "s.csv", ()), interval, new=53)
+    assert figure.axes[0].get_title() == "Practice scores of s.csv"
     points, mean, new = figure.axes[0].lines
     assert points.get_ydata().tolist() == SCORES.tolist()
     assert set(mean.get_ydata()) == {48.0}
@@ -35,10 +36,10 @@ def test_equal_scores_stand_beside_one_another():
     across = strip.get_xdata()
     assert len(set(np.round(across, 6))) == 100
     assert 0.69 < min(across) < max(across) < 1.31
-    assert "95 %" in figure.axes[0].get_title()
+    assert figure.axes[0].get_title() == "Practice scores, and their mean with its 95 % interval"
 
 
 def test_lists_without_intervals():
     figure = plot_two_lists(SCORES[:1], SCORES[1:2], ("old", "new"), (None, None))
-    assert figure.axes[0].get_title() == ""
+    assert figure.axes[0].get_title() == "Practice scores, and their mean"
     assert [text.get_text() for text in figure.axes[0].texts] == ["50.00", "44.00"]

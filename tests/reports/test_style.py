@@ -10,6 +10,16 @@ def test_no_two_lines_share_a_colour_or_a_dash() -> None:
     assert len({line.linestyle for line in LINES}) == len(LINES)
 
 
+def test_there_are_lines_for_the_nine_levels_of_a_drill() -> None:
+    assert len(LINES) >= 9
+
+
+def test_no_line_is_too_pale_to_be_read_in_grey() -> None:
+    for line in LINES:
+        red, green, blue = (int(line.color[i : i + 2], 16) / 255 for i in (1, 3, 5))
+        assert 0.299 * red + 0.587 * green + 0.114 * blue < 0.7, line
+
+
 def test_axes_carry_their_labels_and_title() -> None:
     figure, axes = new_axes("rack", "chance", title="Racks", size=(3.0, 2.0))
     assert figure.axes == [axes]

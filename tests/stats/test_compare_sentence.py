@@ -46,10 +46,16 @@ def test_lists_without_spread():
 
 
 def test_one_list_without_spread_is_warned_of():
+    found = compare([0.1, 0.1, 0.1], [11.0, 12.0, 13.0])
+    assert found.welch is not None
+    assert found.welch.p_value < 0.05
     assert any(
         line.startswith("all scores before are 0.1: their spread is not known")
-        for line in compare([0.1, 0.1, 0.1], [1.0, 2.0, 3.0]).warnings
+        for line in found.warnings
     )
+    assert "hard to tell, since one list has equal scores only" in found.sentence
+    assert "or more often" in found.sentence
+    assert "evidence" not in found.sentence
 
 
 @pytest.mark.parametrize(

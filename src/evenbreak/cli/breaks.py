@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import NUMBER, PlainCommand, chance, wants_json
+from evenbreak.cli.options import PlainCommand, chance, number, wants_json
 from evenbreak.cli.output import (
     SCHEMA_VERSION,
     chance_text,
+    paragraphs,
     print_json,
     print_table,
     to_terminal,
@@ -27,11 +28,11 @@ __all__ = ["breaks"]
 HEADINGS = {
     "breaks": "breaks",
     "share_a": "A wins",
-    "points_per_rack": "points a rack",
-    "sd_points": "swing",
-    "fair_win": "fair win",
-    "first_break_racks": "first break",
-    "memory": "memory",
+    "points_per_rack": "A's points\na rack",
+    "sd_points": "luck times\nroot racks",
+    "fair_win": "even if\nwin pays",
+    "first_break_racks": "first break\nis worth",
+    "memory": "left each\nrack",
 }
 """The columns, with what a terminal calls them."""
 
@@ -53,11 +54,8 @@ Examples:
 
 def _points(ctx: click.Context, param: click.Parameter, value: str) -> float:
     """Return the points of a stake."""
-    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    if not 0.0 <= number <= HIGHEST:
-        message = f"{value!r} is no stake; give a number from 0 to {HIGHEST}"
-        raise click.BadParameter(message, ctx=ctx, param=param)
-    return number
+    wanted = f" is no stake; give a number from 0 to {HIGHEST}"
+    return number(value, 0, HIGHEST, wanted, ctx=ctx, param=param)
 
 
 @click.command(cls=PlainCommand, epilog=EXAMPLES)
@@ -126,7 +124,7 @@ def breaks(
         left=1,
     )
     if to_terminal():
-        click.echo("\n" + advice(values))
+        click.echo("\n" + paragraphs(f"{luck(values)}\n{advice(values)}"))
 
 
 def _row(value: BreakFormatValue, lose: float) -> tuple[Any, ...]:
@@ -141,6 +139,19 @@ def _row(value: BreakFormatValue, lose: float) -> tuple[Any, ...]:
         value.first_break if head_start else None,
         value.memory,
     )
+
+
+def luck(values: Sequence[BreakFormatValue]) -> str:
+    """Return in words what the usual format that is best for A brings in a long session.
+
+    >>> from evenbreak.practice import compare_break_formats
+    >>> print(luck(compare_break_formats(Rack(0.9, 0.5), win=1, lose=2)))
+    In 100 racks with winner breaks A gets 50 points on average, give or take 17.
+    """
+    best = next(value for value in values if value.name in USUAL)
+    points = round(100 * best.points)
+    told = f"In 100 racks with {best.name} breaks A gets {points:,} points on average"
+    return f"{told}, give or take {10 * best.sd_points:,.0f}."
 
 
 def advice(values: Sequence[BreakFormatValue]) -> str:

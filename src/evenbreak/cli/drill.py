@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import NUMBER, chance, refuse, wants_json
+from evenbreak.cli.options import NUMBER, Whole, chance, refuse, wants_json
 from evenbreak.cli.output import (
     SCHEMA_VERSION,
     aligned,
@@ -47,9 +47,9 @@ LOG_COLUMNS = {
     "p_success": "success",
     "p_low": "from",
     "p_high": "to",
-    "p_model": "model",
+    "p_model": None,
     "visited": "so far",
-    "expected": "expected",
+    "expected": None,
     "long_run": "long run",
     "gain": None,
     "lift": "lift",
@@ -107,7 +107,7 @@ def _chances(
 @click.option("--log", metavar="LOG.csv", help="Instead: a log of attempts; - is stdin.")
 @click.option(
     "--levels",
-    type=click.IntRange(1, MOST_LEVELS),
+    type=Whole(1, MOST_LEVELS),
     metavar="N",
     help="How many levels.  [default: 9 with --p, the highest of the log with --log]",
 )
@@ -228,7 +228,7 @@ def _print_log(
             for row in rows
         ],
         headings=[LOG_COLUMNS[name] or "" for name in shown],
-        heading=_log_heading(file),
+        heading=_log_heading(file) + (_levels_taken(file) if levels is None else ""),
         text=_text,
     )
     from evenbreak.reports.drill_words import log_advice
@@ -282,6 +282,14 @@ def _log_heading(file: DrillLogFile) -> str:
     return (
         f"{file.source}: {attempts:,} attempt{'s' * (attempts > 1)} in {sessions:,} "
         f"session{'s' * (sessions > 1)}"
+    )
+
+
+def _levels_taken(file: DrillLogFile) -> str:
+    levels = len(file.log.attempts)
+    return (
+        f"\ntaken as a drill of {levels} level{'s' * (levels > 1)}, the most in the log; "
+        "--levels says otherwise"
     )
 
 

@@ -8,6 +8,7 @@ import click
 
 from evenbreak.cli.options import (
     PlainCommand,
+    Whole,
     chance,
     refuse,
     refuse_both,
@@ -46,7 +47,7 @@ Examples:
 )
 @click.option(
     "--top",
-    type=click.IntRange(1, MOST),
+    type=Whole(1, MOST),
     metavar="K",
     default=5,
     show_default=True,

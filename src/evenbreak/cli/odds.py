@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import LONGEST, PlainCommand, pair, refuse, score, wants_json
+from evenbreak.cli.options import LONGEST, PlainCommand, Whole, pair, refuse, score, wants_json
 from evenbreak.cli.output import chance_text, print_quantities
 from evenbreak.cli.players import Players, player_options
 from evenbreak.games.race import Race
@@ -22,11 +22,11 @@ WORDS = {
     "p_win_a": "A wins the match",
     "p_win_b": "B wins the match",
     "p_never_ends": "the match never ends",
-    "mean_games": "racks, mean",
-    "sd_games": "racks, standard deviation",
-    "games_p50": "racks, half of the matches within",
-    "games_p90": "racks, 9 of 10 matches within",
-    "p_hill_hill": "hill-hill: the last possible rack decides",
+    "mean_games": "games, mean",
+    "sd_games": "games, standard deviation",
+    "games_p50": "games, half of the matches within",
+    "games_p90": "games, 9 of 10 matches within",
+    "p_hill_hill": "hill-hill: the last possible game decides",
     "p_shutout_a": "A wins without losing a game",
     "p_shutout_b": "B wins without losing a game",
 }
@@ -35,8 +35,8 @@ WORDS = {
 MOST_SCORES = 10_000
 """Scores that a match other than the plain race may have, so that each answer takes seconds."""
 
-MANY_RACKS = 10**9
-"""From here on a terminal shows three digits of a number of racks."""
+MANY_GAMES = 10**9
+"""From here on a terminal shows three digits of a number of games."""
 
 EXAMPLES = """\b
 Examples:
@@ -49,19 +49,21 @@ Examples:
 
 @click.command(cls=PlainCommand, epilog=EXAMPLES)
 @player_options
-@click.option("--race", metavar="M:N", callback=pair, help="A needs M games, B needs N.")
-@click.option("--ahead", metavar="M:N", callback=pair, help="A needs to lead by M games, B by N.")
+@click.option(
+    "--race", metavar="N|M:N", callback=pair, help="A needs M games, B needs N; 7 means 7:7."
+)
+@click.option("--ahead", metavar="N|M:N", callback=pair, help="A needs to lead by M games, B by N.")
 @click.option(
     "--set",
     "set_",
-    metavar="M:N",
+    metavar="N|M:N",
     callback=pair,
     help="Play sets, each a race M:N; --race then counts sets.",
 )
 @click.option("--score", metavar="I:J", callback=score, help="The score already: I for A, J for B.")
 @click.option(
     "--win-by",
-    type=click.IntRange(1, LONGEST),
+    type=Whole(1, LONGEST),
     metavar="K",
     help="The race goes on until one leads by K, counted from what each needs.",
 )
@@ -101,7 +103,12 @@ def odds(
         "p_shutout_a": result.p_shutout_1,
         "p_shutout_b": result.p_shutout_2,
     }
-    shown = {key: name for key, name in WORDS.items() if key != "p_never_ends" or answer[key]}
+    begun = any(match.score)
+    shown = {
+        key: f"{name} from now on" if begun and key.startswith("p_shutout") else name
+        for key, name in WORDS.items()
+        if key != "p_never_ends" or answer[key]
+    }
     print_quantities(
         {**answer, "scale": players.scale.name if players.scale else None},
         words=shown,
@@ -170,12 +177,14 @@ def match_text(match: Match) -> str:
         text += f" in sets of {match.rack.m}:{match.rack.n}"
     if any(match.score):
         text += f", the score is {match.score[0]}:{match.score[1]}"
+    if (winner := match.decided(*match.score)) is not None:
+        text += f": {'AB'[winner - 1]} has won"
     return text
 
 
 def _text(key: str, value: float) -> str:
     if key.startswith("p_"):
         return chance_text(value)
-    if value >= MANY_RACKS:
+    if value >= MANY_GAMES:
         return f"{value:.3g}"
     return f"{value:.2f}" if isinstance(value, float) else str(value)

@@ -12,6 +12,7 @@ from evenbreak.cli.options import NUMBER, PlainCommand, chance, wants_json
 from evenbreak.cli.output import (
     SCHEMA_VERSION,
     chance_text,
+    paragraphs,
     print_json,
     print_table,
     to_terminal,
@@ -26,13 +27,13 @@ __all__ = ["oneball"]
 HEADINGS = {
     "shot": "shot",
     "kind": "kind",
-    "p1": "p1",
-    "p2": "p2",
-    "p_win_infinite": "wins",
-    "p_win_two_shots": "two shots",
-    "critical_p2": "even at p2",
-    "behind": "behind",
-    "turning_p2": "turns at p2",
+    "p1": "you\nmake",
+    "p2": "miss\nleaves",
+    "p_win_infinite": "you win,\nrepeated",
+    "p_win_two_shots": "you win,\n2 shots",
+    "critical_p2": "even\nat",
+    "behind": "behind\nbest",
+    "turning_p2": "best\nup to",
 }
 """The columns, with what a terminal calls them."""
 
@@ -126,7 +127,8 @@ def oneball(
         left=2,
     )
     if to_terminal():
-        click.echo("\n" + advice(ranked, compare_shots(shots, look_ahead=_other(ahead))))
+        otherwise = compare_shots(shots, look_ahead=_other(ahead))
+        click.echo("\n" + paragraphs(advice(ranked, otherwise)))
 
 
 def _row(one: RankedShot) -> tuple[Any, ...]:
@@ -147,8 +149,10 @@ def _row(one: RankedShot) -> tuple[Any, ...]:
 
 
 def _heading(look_ahead: str) -> str:
-    how = "the game is even after two misses" if look_ahead == "two shots" else "the shots repeat"
-    return f"you shoot first; ranked by what they win if {how}"
+    told = "You shoot first; 'even at' and 'best up to' are chances that a miss leaves.\n"
+    if look_ahead == "two shots":
+        return f"{told}Ranked by 2 shots: after two misses the game is even."
+    return f"{told}Ranked by what you win if the two shots are repeated until one is made."
 
 
 def _other(look_ahead: str) -> str:
@@ -166,7 +170,7 @@ def advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot]) -> str
     >>> from evenbreak.practice import Shot, compare_shots
     >>> shots = [Shot("1", 0.4, 0.8), Shot("2", 0.3, 0.3)]
     >>> print(advice(compare_shots(shots), compare_shots(shots, look_ahead="two shots")))
-    Take shot 2: it wins 0.1337 more than shot 1, and is the best while its p2 is below 0.5143.
+    Take shot 2: it wins 0.1337 more than shot 1, and is the best while it leaves less than 0.5143.
     """
     best = ranked[0]
     if best.shot.p1 == best.shot.p2 == best.win == 0.0:
@@ -180,9 +184,9 @@ def advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot]) -> str
     told = f"Take shot {best.shot.name}: it wins {chance_text(second.behind)} more than shot "
     told += second.shot.name
     if turn is None:
-        told += ", whatever its p2 is."
+        told += ", whatever it leaves."
     else:
-        told += f", and is the best while its p2 is below {turn:.4f}."
+        told += f", and is the best while it leaves less than {turn:.4f}."
     if next(one for one in otherwise if one.shot is best.shot).behind > SAME:
         told += f"\nThe other look-ahead prefers shot {otherwise[0].shot.name}."
     return told
@@ -199,7 +203,7 @@ def _alone(one: RankedShot) -> str:
     if abs(critical - one.shot.p2) < SAME:
         return "The game is even; a little less left makes you the favourite."
     verb = "are" if one.shot.p2 < critical else "would be"
-    return f"You {verb} the favourite with p2 below {critical:.4f}."
+    return f"You {verb} the favourite if a miss leaves less than {critical:.4f}."
 
 
 def _text(column: str, value: Any) -> str:

@@ -1,7 +1,7 @@
-"""What people type: pairs such as 7:5, spans such as 7..13, negative ratings.
+"""What people type: pairs such as 7:5, spans such as 7..13, chances, negative ratings.
 
-`pair`, `span` and `chance` are callbacks of click options: they read the text of an
-option and return its value, or None where the option is absent.
+`pair`, `score`, `span` and `chance` are callbacks of click options: they read the text of
+an option and return its value, or None where the option is absent.
 """
 
 from __future__ import annotations
@@ -18,7 +18,10 @@ __all__ = [
     "NUMBER",
     "Command",
     "PlainCommand",
+    "Whole",
     "chance",
+    "meant",
+    "number",
     "pair",
     "refuse",
     "refuse_both",
@@ -38,6 +41,18 @@ NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.AS
 """What reads as a finite number."""
 
 
+class Whole(click.IntRange):
+    """A whole number from `min` to `max`, refused in the words of the other refusals."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number that was typed."""
+        try:
+            return super().convert(value, param, ctx)
+        except click.BadParameter:
+            wanted = f"give a whole number from {self.min} to {self.max}"
+            self.fail(f"{str(value)!r}; {wanted}", param, ctx)
+
+
 class PlainCommand(click.Command):
     """A command that reads -20 as a number, where click alone sees an unknown option."""
 
@@ -54,28 +69,24 @@ class PlainCommand(click.Command):
             if word.startswith("-"):
                 known = [name for option in self.params for name in option.opts]
                 raise click.NoSuchOption(word.split("=")[0], possibilities=known, ctx=ctx)
-            refuse(f"{word!r} is not a rating; give two numbers, such as 612 521")
+            wanted = "give two numbers, such as 612 521"
+            refuse(f"{word!r} is not a rating; {wanted}{meant(word, -math.inf, math.inf)}")
         return rest
 
 
-def pair(
-    ctx: click.Context,
-    param: click.Parameter,
-    value: str | None,
-    *,
-    at_least: int = 1,
-) -> tuple[int, int] | None:
-    """Return the two whole numbers of a race or a lead, such as 7:5."""
+def pair(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
+    """Return what each player needs, such as 7:5; 7 alone is 7:7."""
     if value is None:
         return None
-    match = re.fullmatch(r"\s*(\d{1,9}):(\d{1,9})\s*", value, re.ASCII)
+    match = re.fullmatch(r"\s*(\d{1,9})(?::(\d{1,9}))?\s*", value, re.ASCII)
     if match:
-        m, n = int(match[1]), int(match[2])
-        if at_least <= min(m, n) and max(m, n) <= LONGEST:
+        m = int(match[1])
+        n = int(match[2] or m)
+        if min(m, n) >= 1 and max(m, n) <= LONGEST:
             return m, n
     raise click.BadParameter(
-        f"{value!r}; give two whole numbers from {at_least} to {LONGEST} "
-        "with a colon between them, such as 7:5",
+        f"{value!r}; give a whole number from 1 to {LONGEST}, such as 7, "
+        "or one for each player with a colon between them, such as 7:5",
         ctx=ctx,
         param=param,
     )
@@ -83,7 +94,17 @@ def pair(
 
 def score(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
     """Return the two whole numbers of a score, such as 3:0."""
-    return pair(ctx, param, value, at_least=0)
+    if value is None:
+        return None
+    match = re.fullmatch(r"\s*(\d{1,9}):(\d{1,9})\s*", value, re.ASCII)
+    if match and max(int(match[1]), int(match[2])) <= LONGEST:
+        return int(match[1]), int(match[2])
+    raise click.BadParameter(
+        f"{value!r}; give two whole numbers from 0 to {LONGEST} "
+        "with a colon between them, such as 3:0",
+        ctx=ctx,
+        param=param,
+    )
 
 
 def span(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
@@ -107,11 +128,46 @@ def chance(ctx: click.Context, param: click.Parameter, value: str | None) -> flo
     """Return a probability."""
     if value is None:
         return None
-    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    if not 0.0 <= number <= 1.0:
-        message = f"{value!r} is not a probability; give a number from 0 to 1"
-        raise click.BadParameter(message, ctx=ctx, param=param)
-    return number
+    wanted = " is not a probability; give a number from 0 to 1"
+    return number(value, 0.0, 1.0, wanted, ctx=ctx, param=param)
+
+
+def number(
+    value: str,
+    low: float,
+    high: float,
+    wanted: str,
+    *,
+    ctx: click.Context | None = None,
+    param: click.Parameter | None = None,
+) -> float:
+    """Return the number from `low` to `high` that a word is, or refuse it as not `wanted`."""
+    found = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
+    if not low <= found <= high:
+        raise click.BadParameter(
+            f"{value!r}{wanted}{meant(value, low, high)}",
+            ctx=ctx or click.get_current_context(silent=True),
+            param=param,
+        )
+    return found
+
+
+def meant(value: str, low: float, high: float) -> str:
+    """Return what to write where a decimal comma or percent was meant, else nothing.
+
+    >>> meant("80%", 0, 1), meant("95", 0, 1), meant("24,5", 0, 100), meant("half", 0, 1)
+    (' (80 % is 0.8)', ' (95 % is 0.95)', ' (with a decimal point: 24.5)', '')
+    """
+    text = value.strip().replace(",", ".")
+    plain = text.removesuffix("%").rstrip()
+    if not NUMBER.fullmatch(plain):
+        return ""
+    found = float(plain)
+    if (low, high) == (0.0, 1.0) and (plain != text or found > 1.0):
+        return f" ({found:.12g} % is {found / 100.0:.12g})" if 0.0 <= found <= 100.0 else ""
+    if "," in value and plain == text and low <= found <= high:
+        return f" (with a decimal point: {plain})"
+    return ""
 
 
 def refuse(message: str) -> NoReturn:
@@ -137,7 +193,7 @@ def which_races(command: Command) -> Command:
     """Add the options that say which races are offered: --games or --race-to."""
     command = click.option(
         "--race-to",
-        type=click.IntRange(1, LONGEST),
+        type=Whole(1, LONGEST),
         metavar="N",
         help="Races in which the stronger player needs N games.",
     )(command)

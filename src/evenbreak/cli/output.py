@@ -16,6 +16,7 @@ __all__ = [
     "aligned",
     "chance_text",
     "csv_text",
+    "paragraphs",
     "print_json",
     "print_quantities",
     "print_table",
@@ -23,6 +24,9 @@ __all__ = [
 ]
 
 SCHEMA_VERSION = 1
+
+WIDTH = 80
+"""Where sentences on a terminal are broken."""
 
 
 def to_terminal() -> bool:
@@ -86,7 +90,7 @@ def print_table(
     columns, rows
         the names and values of the CSV.
     headings
-        what a terminal calls the columns.
+        what a terminal calls the columns; a line break in one makes a second line of them.
     heading
         the lines above the table, on a terminal.
     text
@@ -104,7 +108,26 @@ def print_table(
         ]
         for row in rows
     ]
-    click.echo(f"{heading}\n\n{aligned([headings, *cells], left=left)}", nl=False)
+    click.echo(f"{heading}\n\n{aligned([*_lines(headings), *cells], left=left)}", nl=False)
+
+
+def _lines(headings: Sequence[str]) -> list[list[str]]:
+    r"""Return the lines of the headings, those of fewer lines at the bottom.
+
+    >>> _lines(["shot", "you\nmake"])
+    [['', 'you'], ['shot', 'make']]
+    """
+    parts = [heading.split("\n") for heading in headings]
+    tall = max(map(len, parts), default=1)
+    padded = [[""] * (tall - len(part)) + part for part in parts]
+    return [list(line) for line in zip(*padded, strict=True)]
+
+
+def paragraphs(text: str) -> str:
+    """Return text with each of its lines broken where a terminal of 80 columns ends."""
+    import textwrap
+
+    return "\n".join(textwrap.fill(line, WIDTH) for line in text.split("\n"))
 
 
 def csv_text(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:

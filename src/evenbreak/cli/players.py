@@ -21,6 +21,9 @@ FORMATS = {
     "a": BREAK_FORMATS["player 1"],
     "b": BREAK_FORMATS["player 2"],
 }
+USUAL = {"npl": (20, 130), "fargo": (200, 850)}
+"""From where to where most ratings of a scale lie."""
+
 MEND = "give two ratings A B, or --p, or --p1 and --p2 with --breaks"
 
 
@@ -76,6 +79,8 @@ class Players(NamedTuple):
         a, b = (float(rating) for rating in ratings)
         if not math.isfinite(a - b):
             refuse("the ratings are too far apart to count with; give two usual numbers")
+        if doubt := _doubt(scale, a, b):
+            click.echo(doubt, err=True)
         told = f"A rated {a:g}, B rated {b:g}, {scale_text(scale)}"
         return cls(Rack(scale.win_probability(a - b)), None, 1, scale, told)
 
@@ -87,6 +92,27 @@ def scale_text(scale: Scale) -> str:
     'on the fargo scale (100 points double the odds)'
     """
     return f"on the {scale.name} scale ({scale.points_per_doubling:.6g} points double the odds)"
+
+
+def _doubt(scale: Scale, a: float, b: float) -> str | None:
+    """Return a note where the ratings look like those of another scale.
+
+    Only the difference counts, so somebody may give it as one rating and 0 as the other.
+
+    >>> _doubt(scale_of("npl"), 612, 521)
+    'Note: most npl ratings are from 20 to 130; for fargo ratings add --scale fargo'
+    """
+    if scale.name == "npl" and max(a, b) > 200:
+        other = "fargo"
+    elif scale.name == "fargo" and 0 < min(a, b) <= max(a, b) < 150:
+        other = "npl"
+    else:
+        return None
+    low, high = USUAL[scale.name]
+    return (
+        f"Note: most {scale.name} ratings are from {low} to {high}; "
+        f"for {other} ratings add --scale {other}"
+    )
 
 
 def _format(breaks: str) -> str:

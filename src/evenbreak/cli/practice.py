@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import NUMBER, chance, refuse, wants_json
+from evenbreak.cli.options import chance, number, refuse, wants_json
 from evenbreak.cli.plot import plot_option, write_plot
 from evenbreak.cli.practice_words import (
     NEW_WORDS,
@@ -45,11 +44,8 @@ def _score(ctx: click.Context, param: click.Parameter, value: str | None) -> flo
 
     from evenbreak.stats.confidence import LARGEST
 
-    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    if not abs(number) <= LARGEST:
-        message = f"{value!r} is not a score; give a number, such as 53"
-        raise click.BadParameter(message, ctx=ctx, param=param)
-    return number
+    wanted = " is not a score; give a number, such as 53"
+    return number(value, -LARGEST, LARGEST, wanted, ctx=ctx, param=param)
 
 
 def _confidence(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
@@ -150,6 +146,8 @@ def _summary(file: ScoresFile, confidence: float, plot: str | None, as_json: boo
         told.append(
             "one score, or equal ones, show no spread: how far the true mean is off is not known"
         )
+    if line is None and own is not None and file.dates is not None:
+        told.append("a change with time shows with three scores or more, not all of one date")
     if line is not None and line.p_value < DRIFTS:
         told.append(
             "the scores seem to drift with time, but the interval takes the true mean for steady"

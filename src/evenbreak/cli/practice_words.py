@@ -22,7 +22,7 @@ __all__ = [
     "print_answer",
 ]
 
-WIDTH = 96
+WIDTH = 79
 
 SUMMARY_WORDS = {
     "mean": "mean",

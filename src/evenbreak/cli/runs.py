@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.cli.options import LONGEST, NUMBER, chance, refuse, wants_json
+from evenbreak.cli.options import LONGEST, Whole, chance, number, refuse, wants_json
 from evenbreak.cli.output import chance_text, print_quantities
 from evenbreak.cli.plot import plot_option, write_plot
 
@@ -22,12 +22,12 @@ MOST_BALLS = 100_000
 """The most balls that an option can name here."""
 
 WORDS = {
-    "p_make": "a shot is made",
-    "mean": "mean: fair at a price for each ball",
-    "median": "median: fair for over or under",
-    "mode": "mode: the best single number to name",
+    "p_make": "chance to make a shot",
+    "mean": "mean, fair line if every ball is paid",
+    "median": "median, at least half are this or less",
+    "mode": "mode, the likeliest number",
     "sd": "standard deviation",
-    "relative_sd": "standard deviation over mean",
+    "relative_sd": "standard deviation / mean",
     "median_estimate": "median, by the rule of thumb",
 }
 """What each quantity that is always answered is called on a terminal."""
@@ -45,14 +45,16 @@ def _average(ctx: click.Context, param: click.Parameter, value: str | None) -> f
     """Return a mean number of balls."""
     if value is None:
         return None
-    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    if not 0.0 <= number <= MOST_BALLS:
-        raise click.BadParameter(
-            f"{value!r}; give a number of balls an inning from 0 to {MOST_BALLS}",
-            ctx=ctx,
-            param=param,
-        )
-    return number
+    wanted = f"; give a number of balls an inning from 0 to {MOST_BALLS}"
+    return number(value, 0, MOST_BALLS, wanted, ctx=ctx, param=param)
+
+
+def _line(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+    """Return the line of a wager, such as 20 or 20.5."""
+    if value is None:
+        return None
+    wanted = f"; give a number of balls from 0 to {MOST_BALLS}, such as 20 or 20.5"
+    return number(value, 0, MOST_BALLS, wanted, ctx=ctx, param=param)
 
 
 def _balls(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
@@ -85,19 +87,15 @@ def _balls(ctx: click.Context, param: click.Parameter, value: str | None) -> tup
 )
 @click.option(
     "--innings",
-    type=click.IntRange(1, LONGEST),
+    type=Whole(1, LONGEST),
     metavar="M",
     default=1,
     show_default=True,
     help="How many innings are played.",
 )
-@click.option(
-    "--at-least", type=click.IntRange(0, MOST_BALLS), metavar="N", help="The chance of N or more."
-)
+@click.option("--at-least", type=Whole(0, MOST_BALLS), metavar="N", help="The chance of N or more.")
 @click.option("--between", metavar="LO..HI", callback=_balls, help="The chance of LO to HI.")
-@click.option(
-    "--over", type=click.IntRange(0, MOST_BALLS), metavar="N", help="The wager on more than N."
-)
+@click.option("--over", metavar="N", callback=_line, help="The wager on more than N; 20.5 is fine.")
 @plot_option
 @wants_json
 def runs(
@@ -107,7 +105,7 @@ def runs(
     innings: int,
     at_least: int | None,
     between: tuple[int, int] | None,
-    over: int | None,
+    over: float | None,
     plot: str | None,
     as_json: bool,
 ) -> None:
@@ -118,6 +116,7 @@ def runs(
     if (mean is None) == (p is None):
         refuse("give one of --mean and --p, and not both")
     law = _law(mean, p, safety, innings)
+    most = None if over is None else math.floor(over)  # what loses the wager on more
     answer = {
         "p_make": float(law.p),
         "safety": safety,
@@ -131,18 +130,16 @@ def runs(
         "median_estimate": law.median_estimate if innings == 1 or safety == 1 else None,
         "p_at_least": None if at_least is None else float(law.at_least(at_least)),
         "p_between": None if between is None else float(law.between(*between)),
-        "p_over": None if over is None else float(law.at_least(over + 1)),
-        "p_not_over": None if over is None else float(law.cumulative(over)),
+        "p_over": None if most is None else float(law.at_least(most + 1)),
+        "p_not_over": None if most is None else float(law.cumulative(most)),
     }
-    low, high = between or (0, 0)
+    asked = _asked(at_least, between, over)
     print_quantities(
         answer,
         words={
             **WORDS,
-            "p_at_least": f"{at_least} or more",
-            "p_between": f"{low} to {high}",
-            "p_over": f"over {over}",
-            "p_not_over": f"{over} or less",
+            **{key: name for key, (name, _, _) in asked.items()},
+            "p_not_over": "" if over is None else f"not over {over:.12g}: {most} or less",
         },
         heading=_heading(law, safety, innings),
         text=_text,
@@ -151,7 +148,22 @@ def runs(
     if plot is not None:
         from evenbreak.reports.run_plots import plot_score
 
-        write_plot(plot_score(law, innings), plot)
+        write_plot(plot_score(law, innings, asked=list(asked.values())), plot)
+
+
+def _asked(
+    at_least: int | None, between: tuple[int, int] | None, over: float | None
+) -> dict[str, tuple[str, int, int | None]]:
+    """Return the spans of scores that were asked for: a name, the fewest and the most."""
+    asked: dict[str, tuple[str, int, int | None]] = {}
+    if at_least is not None:
+        asked["p_at_least"] = (f"{at_least} or more", at_least, None)
+    if between is not None:
+        asked["p_between"] = (f"{between[0]} to {between[1]}", *between)
+    if over is not None:
+        fewest = math.floor(over) + 1
+        asked["p_over"] = (f"over {over:.12g}: {fewest} or more", fewest, None)
+    return asked
 
 
 def _law(
@@ -165,9 +177,9 @@ def _law(
 
 
 def _heading(law: RunLength | InningsScore, safety: float, innings: int) -> str:
-    played = "the run of an inning" if innings == 1 else f"the score of {innings} innings"
     first = "" if safety == 1 else f", but the first of an inning with {float(law.p) * safety:.4g}"
-    return f"{played}; each shot is made with {float(law.p):.4g}{first}"
+    played = "the run of an inning" if innings == 1 else f"the score of {innings} innings"
+    return f"each shot is made with {float(law.p):.4g}{first}\n{played}"
 
 
 def _text(key: str, value: float) -> str:

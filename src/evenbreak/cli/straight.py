@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from evenbreak.cli.options import LONGEST, NUMBER, PlainCommand, chance, refuse, wants_json
-from evenbreak.cli.output import chance_text, print_quantities
+from evenbreak.cli.options import PlainCommand, chance, number, pair, refuse, wants_json
+from evenbreak.cli.output import chance_text, print_quantities, to_terminal
 from evenbreak.cli.plot import plot_option, write_plot
 from evenbreak.cli.runs import MOST_BALLS
 
@@ -22,13 +21,13 @@ WORDS = {
     "p_win_a": "A wins the match",
     "p_win_b": "B wins the match",
     "p_never_ends": "the match never ends",
-    "mean_innings": "innings, mean",
-    "sd_innings": "innings, standard deviation",
-    "innings_p50": "innings, half of the matches within",
-    "innings_p90": "innings, 9 of 10 matches within",
+    "mean_innings": "the winner's innings, mean",
+    "sd_innings": "the winner's innings, standard deviation",
+    "innings_p50": "the winner's innings, half of the matches within",
+    "innings_p90": "the winner's innings, 9 of 10 matches within",
     "even_points_a": "nearest to even: A needs",
     "even_points_b": "nearest to even: B needs",
-    "p_win_a_even": "A wins then",
+    "p_win_a_even": "nearest to even: A wins the match",
 }
 """What each quantity is called on a terminal."""
 
@@ -41,22 +40,6 @@ Examples:
   evenbreak straight --p1 0.9 --p2 0.85 --points 100 --safety 0.8
   evenbreak straight 24 19 --points 150 --plot spot.png
 """
-
-
-def _points(ctx: click.Context, param: click.Parameter, value: str) -> tuple[int, int]:
-    """Return the points that A and B need, such as 100 or 100:80."""
-    match = re.fullmatch(r"\s*(\d{1,9})(?::(\d{1,9}))?\s*", value, re.ASCII)
-    if match:
-        a = int(match[1])
-        b = int(match[2] or a)
-        if min(a, b) >= 1 and max(a, b) <= LONGEST:
-            return a, b
-    raise click.BadParameter(
-        f"{value!r}; give a whole number from 1 to {LONGEST}, such as 100, "
-        "or one for each player, such as 100:80",
-        ctx=ctx,
-        param=param,
-    )
 
 
 class Shots(NamedTuple):
@@ -86,10 +69,8 @@ class Shots(NamedTuple):
             return cls(p1, p2, safety)
         if len(averages) != 2:
             refuse(f"{len(averages)} average(s) given, {', '.join(averages)}; {MEND}")
-        for word in averages:
-            if not NUMBER.fullmatch(word) or not 0.0 <= float(word) <= MOST_BALLS:
-                refuse(f"{word!r} is no average; give balls an inning from 0 to {MOST_BALLS}")
-        p_a, p_b = (shot_chance(float(word), safety) for word in averages)
+        wanted = f" is no average; give balls an inning from 0 to {MOST_BALLS}"
+        p_a, p_b = (shot_chance(number(word, 0, MOST_BALLS, wanted), safety) for word in averages)
         return cls(p_a, p_b, safety)
 
 
@@ -100,7 +81,7 @@ class Shots(NamedTuple):
 @click.option(
     "--points",
     metavar="N|M:N",
-    callback=_points,
+    callback=pair,
     required=True,
     help="The points that each needs; A needs M, B needs N.",
 )
@@ -141,8 +122,7 @@ def straight(
     odds = straight_pool_odds(_match(players, points, first))
     if plot is not None and odds.p_never_ends:
         refuse("nobody ever makes a ball, so there is nothing to draw; leave --plot out")
-    even = None if odds.p_never_ends else _even(players, points, first)
-    even_odds = even and straight_pool_odds(_match(players, even, first))
+    even, p_win_a_even = _even(players, points, first)
     print_quantities(
         {
             "p_make_a": float(players.p_a),
@@ -159,7 +139,7 @@ def straight(
             "innings_p90": odds.innings_p90,
             "even_points_a": even and even[0],
             "even_points_b": even and even[1],
-            "p_win_a_even": even_odds and even_odds.p_win_1,
+            "p_win_a_even": p_win_a_even,
         },
         words={
             key: name for key, name in WORDS.items() if key != "p_never_ends" or odds.p_never_ends
@@ -168,12 +148,19 @@ def straight(
         text=_text,
         as_json=as_json,
     )
-    if plot is not None and even is not None:
+    if even is None and not odds.p_never_ends and to_terminal():
+        click.echo("\nNo spot makes this match even.")
+    if plot is not None:
         from evenbreak.reports.run_plots import plot_spot
 
         weaker = 2 if players.a_is_stronger else 1
-        match = _match(players, points, first)
-        write_plot(plot_spot(match, weaker=weaker, even=even[weaker - 1]), plot)
+        figure = plot_spot(
+            _match(players, points, first),
+            weaker=weaker,
+            even=even and even[weaker - 1],
+            title=_who(averages, players),
+        )
+        write_plot(figure, plot)
 
 
 def _match(players: Shots, points: tuple[int, int], first: str) -> StraightPool:
@@ -185,8 +172,13 @@ def _match(players: Shots, points: tuple[int, int], first: str) -> StraightPool:
     )
 
 
-def _even(players: Shots, points: tuple[int, int], first: str) -> tuple[int, int]:
-    """Return what A and B need for an even match: the stronger what he needs now."""
+def _even(
+    players: Shots, points: tuple[int, int], first: str
+) -> tuple[tuple[int, int] | None, float | None]:
+    """Return what A and B need for an even match, the stronger what he needs now, and A's chance.
+
+    None where no spot makes it even.
+    """
     from evenbreak.matches.straight_pool import even_points
 
     p_a, p_b, safety = players
@@ -194,7 +186,7 @@ def _even(players: Shots, points: tuple[int, int], first: str) -> tuple[int, int
         strong, weak, needs, starts = p_a, p_b, points[0], first == "a"
     else:
         strong, weak, needs, starts = p_b, p_a, points[1], first == "b"
-    weaker_needs = even_points(
+    spot = even_points(
         needs,
         strong,
         weak,
@@ -202,18 +194,25 @@ def _even(players: Shots, points: tuple[int, int], first: str) -> tuple[int, int
         safety_2=safety,
         first=1 if starts else 2,
         most=needs,
-    ).points_2
-    return (needs, weaker_needs) if players.a_is_stronger else (weaker_needs, needs)
+    )
+    if not spot.is_even:
+        return None, None
+    if players.a_is_stronger:
+        return (needs, spot.points_2), spot.p_win_1
+    return (spot.points_2, needs), 1.0 - spot.p_win_1
+
+
+def _who(averages: tuple[str, ...], players: Shots) -> str:
+    if averages:
+        return f"A runs {float(averages[0]):g} balls an inning, B {float(averages[1]):g}"
+    return f"A makes a shot with {players.p_a:g}, B with {players.p_b:g}"
 
 
 def _heading(averages: tuple[str, ...], players: Shots, points: tuple[int, int], first: str) -> str:
-    if averages:
-        who = f"A runs {float(averages[0]):g} balls an inning, B {float(averages[1]):g}"
-    else:
-        who = f"A makes a shot with {players.p_a:g}, B with {players.p_b:g}"
+    told = f"{_who(averages, players)}; {first.upper()} shoots first\n"
     if players.safety != 1:
-        who += f", a first shot with {players.safety:g} of the chance of the others"
-    return f"{who}; {first.upper()} shoots first\nA needs {points[0]} points, B {points[1]}"
+        told += f"the first shot of an inning: {players.safety:g} of the chance of the others\n"
+    return f"{told}A needs {points[0]} points, B {points[1]}"
 
 
 def _text(key: str, value: float) -> str:

@@ -36,6 +36,9 @@ __all__ = ["EvenPoints", "StraightPool", "StraightPoolOdds", "even_points", "str
 _LONGEST = 10_000
 """The most innings, on average, that a player may need here."""
 
+_EVEN = (0.4, 0.6)
+"""A match in which a player wins with a chance from .4 to .6 is called even."""
+
 _TAIL = 60.0
 """Innings are left out from where exp(-60) of the largest chance is still to come."""
 
@@ -123,6 +126,18 @@ class EvenPoints(NamedTuple):
     p_win_1: float
     p_win_1_less: float | None
     p_win_1_more: float | None
+
+    @property
+    def is_even(self) -> bool:
+        """Whether each player wins with 0.4 or more; no points do that if these do not.
+
+        Where the points are few, or one player is far better, no number of points may come
+        anywhere near an even match.
+
+        >>> even_points(100, 0.9, 0.85).is_even, even_points(1, 0.9, 0.8).is_even
+        (True, False)
+        """
+        return _EVEN[0] <= self.p_win_1 <= _EVEN[1]
 
 
 def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:

@@ -55,7 +55,8 @@ class LevelReport(NamedTuple):
         higher, or 1 if it is above 0.95 already: the median over chances that fit the
         log, and the 95 % interval.
     p_best
-        how probable it is that no other attempted level has a greater lift.
+        how probable it is that this level has the greatest lift, above 0, of all that were
+        missed; a level not tried, or never missed, is nobody's to practise yet.
     """
 
     level: int
@@ -118,10 +119,9 @@ class LogAnalysis:
 
     @property
     def practise_next(self) -> LevelReport | None:
-        """The level that is most probably the one of the greatest lift; None if none lifts."""
-        if not any(report.lift_high for report in self.levels):
-            return None
-        return max(self.levels, key=lambda report: report.p_best)
+        """The level of the greatest `p_best`; None where no missed level would lift the mean."""
+        best = max(self.levels, key=lambda report: report.p_best)
+        return best if best.p_best else None
 
     @property
     def furthest_off_model(self) -> LevelReport | None:
@@ -209,8 +209,9 @@ def _reports(
 
     attempts, successes = log.attempts, log.successes
     low, lift, high = np.quantile(lifts, _QUANTILES, axis=0)
-    tried = np.where(attempts > 0, lifts, -1.0)
-    best = np.bincount(tried.argmax(1), minlength=len(attempts)) / len(lifts)
+    missed = np.where(attempts > successes, lifts, 0.0)
+    first = missed.argmax(1)[missed.any(1)]
+    best = np.bincount(first, minlength=len(attempts)) / len(lifts)
     expected = played.sum((2, 3)).mean(0) / len(log)
     reports = []
     for i, (n, won) in enumerate(zip(attempts.tolist(), successes.tolist(), strict=True)):

@@ -21,8 +21,11 @@ from evenbreak.reports.read_table import Table
 __all__ = ["Values", "dates", "numbers", "read_cells", "whole_numbers"]
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
-_WHOLE = re.compile(r"[+-]?[0-9]+(\.0*)?", re.ASCII)
-_DATE = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})([T ]\d{1,2}:\d{2}\S*)?", re.ASCII)
+# A comma before three noughts would group thousands.
+_WHOLE = re.compile(r"[+-]?[0-9]+(\.0*|,00?)?", re.ASCII)
+_TIME = r"([T ]\d{1,2}:\d{2}\S*)?"
+_YEAR_FIRST = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})" + _TIME, re.ASCII)
+_DAY_FIRST = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})" + _TIME, re.ASCII)
 _IN_NUMBERS = "0123456789+-.eE"
 _DECIMAL_COMMA = re.compile(r"[^.,]*,[^.,]*")
 LARGEST_WHOLE = 1_000_000
@@ -101,22 +104,23 @@ def whole_numbers(
     name: str,
     *,
     at_least: int = 0,
+    at_most: int = LARGEST_WHOLE,
     remedy: str = "write 0, 1, 2, ...",
     may_be_empty: bool = False,
 ) -> Values:
-    """Read a column of whole numbers from `at_least` to a million; empty cells are 0."""
+    """Read a column of whole numbers from `at_least` to `at_most`; empty cells are 0."""
 
     def meaning(text: str) -> int | None:
         if not _WHOLE.fullmatch(text) or len(text) > LONGEST_WHOLE:
             return None
-        number = int(text.partition(".")[0])
-        return number if at_least <= number <= LARGEST_WHOLE else None
+        number = int(re.split("[.,]", text)[0])
+        return number if at_least <= number <= at_most else None
 
     return read_cells(
         table,
         name,
         meaning,
-        wanted=f"a whole number from {at_least} to {LARGEST_WHOLE:,}",
+        wanted=f"a whole number from {at_least} to {at_most:,}",
         remedy=remedy,
         dtype=np.int64,
         empty=0,
@@ -143,13 +147,17 @@ def numbers(table: Table, name: str, *, remedy: str, may_be_empty: bool = False)
 
 
 def dates(table: Table, name: str) -> Values:
-    """Read a column of dates, year first; a time after one is ignored, empty cells are NaT."""
+    """Read a column of dates; a time after one is ignored, empty cells are NaT.
+
+    With dots the day comes first, else the year: of 9/3/2024 some would read the 9th of
+    March and others the 3rd of September.
+    """
     return read_cells(
         table,
         name,
         _date,
         wanted="a date",
-        remedy="write year-month-day, such as 2024-09-03, or leave it empty",
+        remedy="write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
         dtype="datetime64[D]",
         empty=np.datetime64("NaT"),
         may_be_empty=True,
@@ -157,9 +165,11 @@ def dates(table: Table, name: str) -> Values:
 
 
 def _date(text: str) -> np.datetime64 | None:
-    match = _DATE.fullmatch(text)
+    match, order = _YEAR_FIRST.fullmatch(text), (1, 2, 3)
+    if match is None:
+        match, order = _DAY_FIRST.fullmatch(text), (3, 2, 1)
     try:
-        return np.datetime64(date(*map(int, match.groups()[:3]))) if match else None
+        return np.datetime64(date(*map(int, match.group(*order)))) if match else None
     except ValueError:
         return None
 

@@ -70,19 +70,30 @@ def log_figure(analysis: LogAnalysis) -> Figure:
         label="long run",
     )
     _mark_mean(axes, analysis.visited.mean, f"mean so far {analysis.visited.mean:.2f}", "0.35")
-    _mark_mean(
-        axes, analysis.implied.mean, f"mean in the long run {analysis.implied.mean:.2f}", "white"
+    mean, low, high = analysis.implied.mean, analysis.mean_low, analysis.mean_high
+    height = _mark_mean(axes, mean, f"mean in the long run {mean:.2f}", "white", above=0.13)
+    axes.plot(
+        [low, high],
+        [height, height],
+        "|-",
+        color="black",
+        ms=9,
+        zorder=1,
+        label="its 95 % interval",
     )
     _finish(axes, levels.tolist())
     return figure
 
 
-def _mark_mean(axes: Axes, mean: float, label: str, color: str) -> None:
+def _mark_mean(axes: Axes, mean: float, label: str, color: str, *, above: float = 0.06) -> float:
     """Put a triangle above the highest bar, in the colour of the bars that it goes with."""
-    top = max(bar.get_height() for bar in axes.patches if isinstance(bar, Rectangle))
-    axes.plot(
-        [mean], [1.06 * top], "v", ms=9, label=label, markerfacecolor=color, markeredgecolor="black"
+    height = (1.0 + above) * max(
+        bar.get_height() for bar in axes.patches if isinstance(bar, Rectangle)
     )
+    axes.plot(
+        [mean], [height], "v", ms=9, label=label, markerfacecolor=color, markeredgecolor="black"
+    )
+    return height
 
 
 def _finish(axes: Axes, levels: Sequence[int]) -> None:
@@ -90,5 +101,5 @@ def _finish(axes: Axes, levels: Sequence[int]) -> None:
         axes.set_xticks(levels)
     axes.set_xlim(0.4, len(levels) + 0.6)
     # Room above the bars, so that the legend hides none.
-    axes.set_ylim(0.0, 1.2 * axes.get_ylim()[1])
+    axes.set_ylim(0.0, 1.24 * axes.get_ylim()[1])
     axes.legend(loc="upper right", frameon=False, ncols=2)

@@ -21,6 +21,8 @@ SPACE = "\u00a0"
 ODD = 0.05
 """A p-value below which chance is not blamed."""
 
+AS_OFTEN = "as often"
+
 SURE = 0.8
 """From this probability on, the second best level is not mentioned."""
 
@@ -48,9 +50,10 @@ def log_advice(analysis: LogAnalysis) -> Iterator[str]:
     yield _practise(analysis) + _untried(analysis)
     test = analysis.difference
     yield (
-        f"In the long run {100 * test.seen:.0f} of 100 attempts would be at another level than "
-        "they were so far; in sessions like yours, played by chance, it is "
-        f"{100 * test.by_chance:.0f}. {_verdict(test, 'That is more than', 'Nothing odd')}"
+        "Are you where your chances lead? If you went on for ever with the successes of this "
+        f"log, {100 * test.seen:.0f} attempts in 100 would be at other levels than so far. In "
+        f"sessions like yours, played by chance, that is {100 * test.by_chance:.0f} in 100. "
+        + _verdict(test, "That is more than", "Nothing odd")
         + (" Perhaps you stop when it goes well." if test.p_value < ODD else "")
     )
     if analysis.memory is not None:
@@ -60,15 +63,16 @@ def log_advice(analysis: LogAnalysis) -> Iterator[str]:
 
 def _practise(analysis: LogAnalysis) -> str:
     best = analysis.practise_next
+    missed = [report for report in analysis.levels if report.attempts > report.successes]
     if best is None:
-        return "A drill of one level has nothing to climb; log the higher levels too."
+        return _nothing_to_practise(levels=len(analysis.levels), missed=bool(missed))
     told = (
         f"Practise level {best.level} next: {_better(best.p or 0.0)} there "
         f"lift your mean level by {best.lift:.2f} ({best.lift_low:.2f} to {best.lift_high:.2f}). "
     )
-    others = [report for report in analysis.levels if report.attempts and report is not best]
+    others = [report for report in missed if report is not best]
     if not others:
-        return f"{told}It is the only level that you tried; log others too."
+        return f"{told}It is the only level that you missed."
     told += f"It is {_percent(best.p_best)} sure that no other level helps more"
     second = max(others, key=lambda report: report.p_best)
     if best.p_best >= SURE:
@@ -77,6 +81,20 @@ def _practise(analysis: LogAnalysis) -> str:
         f"{told}, and {_percent(second.p_best)} for level {second.level}; a longer log will tell "
         "them apart."
     )
+
+
+def _nothing_to_practise(*, levels: int, missed: bool) -> str:
+    if levels == 1:
+        return (
+            "Taken as a drill of level 1 alone, there is nothing to climb; say how many levels the "
+            "drill has."
+        )
+    if not missed:
+        return (
+            "You never missed, so your log cannot tell yet what to practise; log more attempts, "
+            "at higher levels if the drill has them."
+        )
+    return "No level that you missed would lift your mean level."
 
 
 def _untried(analysis: LogAnalysis) -> str:
@@ -115,13 +133,14 @@ def _verdict(test: PlayedAgainTest, odd: str, plain: str) -> str:
 
 
 def _memory(test: PlayedAgainTest) -> str:
-    often = "more" if test.seen >= 0 else "less"
+    often = _often(test.seen)
     told = (
-        f"At the same level you succeed {100 * abs(test.seen):.0f} times in 100 {often} often "
-        f"after a success than after a miss; chance alone makes that {_more(test.by_chance)}. "
+        f"Does one attempt weigh on the next? At the same level you succeed {often} after a "
+        f"success {'as' if often == AS_OFTEN else 'than'} after a miss; by chance alone it would "
+        f"be {_often(test.by_chance)}. "
     )
     if test.p_value >= ODD:
-        return told + f"No sign that one attempt weighs on the next {_p(test)}."
+        return told + f"No sign of it {_p(test)}."
     why = (
         "a miss seems to weigh on the next attempt"
         if test.seen > test.by_chance
@@ -130,9 +149,17 @@ def _memory(test: PlayedAgainTest) -> str:
     return told + f"More than chance explains {_p(test)}: {why}."
 
 
-def _more(difference: float) -> str:
+def _often(difference: float) -> str:
+    """Return a difference of two chances in words.
+
+    >>> _often(0.024), _often(-0.3), _often(0.004)
+    ('2 times in 100 more often', '30 times in 100 less often', 'as often')
+    """
     hundredths = round(100 * difference)
-    return f"{abs(hundredths)} {'less' if hundredths < 0 else 'more'}"
+    if not hundredths:
+        return AS_OFTEN
+    many = f"{abs(hundredths)} time{'s' * (abs(hundredths) > 1)} in 100"
+    return f"{many} {'more' if hundredths > 0 else 'less'} often"
 
 
 def _model(analysis: LogAnalysis) -> Iterator[str]:
@@ -141,8 +168,8 @@ def _model(analysis: LogAnalysis) -> Iterator[str]:
         yield "Without attempts above level 1 nothing can be said of a single shot."
         return
     told = (
-        f"If level i takes i - 1 good shots in a row, a shot succeeds with {model.p:.3f} "
-        f"({model.low:.3f} to {model.high:.3f})."
+        f"If level i takes i - 1 good shots in a row, a shot succeeds "
+        f"with {model.p:.3f} ({model.low:.3f} to {model.high:.3f})."
     )
     test = analysis.model_test
     if test is not None:

@@ -33,10 +33,11 @@ class PublishedNumber(NamedTuple):
     printed
         the number with the digits that are printed; None where nothing is.
     tolerance
-        how far a computed number may be from it.
+        how far a computed number may be from it. Of an erratum, how far what is computed
+        may be from what is known to be wrong: it does not make the number right.
     verdict
-        'agrees'; 'erratum' where the text is off, see the note; 'derived' where it
-        prints nothing, or nothing that can be read.
+        'agrees'; 'erratum' where the text is off by more than half its last place, see
+        the note; 'derived' where it prints nothing, or nothing that can be read.
     note
         what there is to say; '' for nothing.
     """
@@ -51,23 +52,27 @@ class PublishedNumber(NamedTuple):
 
 
 class Erratum(NamedTuple):
-    """A place where the text is wrong, loose or misread.
+    """A place where the text is wrong, where there is more to say, or where the copy is lacking.
 
     Parameters
     ----------
     where
         the problem, table or passage.
+    class_
+        'slip' where the text is wrong; 'remark' where it is right, and a reader may still
+        go astray; 'copy' for what is lost in the copy that was read.
     printed
         what it says, in short.
     correct
-        what it should say; '' where nothing is known to be wrong.
+        what it should say, or for a remark what holds; '' where nothing can be said.
     kind
-        what kind of slip it is, such as 'cut off' for digits that were not rounded.
+        what kind of slip or remark it is, such as 'cut off' for digits that were not rounded.
     why
         how it is known.
     """
 
     where: str
+    class_: str
     printed: str
     correct: str
     kind: str
@@ -103,10 +108,10 @@ def p5_6_tables() -> list[PublishedNumber]:
 
 
 def errata() -> list[Erratum]:
-    """Return the slips of section 5, in the order of the text.
+    """Return the slips of section 5, with remarks, in the order of the text.
 
-    >>> errata()[1].where, errata()[1].kind
-    ('P5.7', 'last digit')
+    >>> errata()[1].where, errata()[1].class_, errata()[1].kind
+    ('P5.7', 'slip', 'last digit')
     """
     return [Erratum(*row) for row in _rows("section5_errata.csv")]
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["OPTIONAL", "REQUIRED", "DrillLogFile", "read_drill_log"]
 
 REQUIRED = {
-    "level": ("difficulty", "step"),
+    "level": ("difficulty", "step", "balls"),
     "success": ("made", "made it", "succeeded", "result", "outcome"),
 }
 """The columns that a drill log must have, with their other names."""
@@ -89,32 +89,25 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
     table = read_table(path, REQUIRED, OPTIONAL)
     if not len(table) and not len(table.problems):
         table.problems.add(None, "has no attempts below its header; write one line for each")
-    level = whole_numbers(table, "level", at_least=1, remedy="write 1, 2, 3, ...").values
-    _refuse_high(table, level, levels)
+    level = whole_numbers(
+        table,
+        "level",
+        at_least=1,
+        at_most=MOST_LEVELS if levels is None else levels,
+        remedy="write 1, 2, 3, ..." + (", or give the drill more levels" if levels else ""),
+    ).values
     success = read_cells(
         table,
         "success",
         lambda text: WORDS.get(text.casefold()),
         wanted="a word for a success or a miss",
-        remedy="write yes or no",
+        remedy="write yes or no, and a row for each attempt",
         dtype=np.bool_,
         empty=False,
     ).values
     table.problems.raise_any()
     log = DrillLog(level, success, session=_sessions(table), levels=levels)
     return DrillLogFile(log, table.source, (*table.warnings, *_jump_warning(table, log)))
-
-
-def _refuse_high(table: Table, level: NDArray[np.int64], levels: int | None) -> None:
-    most = MOST_LEVELS if levels is None else levels
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero(level > most),
-        lambda row: (
-            f"level {level[row]} is above {most}, the most that the drill may have; "
-            "correct it" + (", or give the drill more levels" if levels else "")
-        ),
-    )
 
 
 def _sessions(table: Table) -> NDArray[np.int64]:

@@ -31,6 +31,9 @@ SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab"}
 _DECLARED = re.compile(rb'(?:\xef\xbb\xbf)?"?sep=([^\w\s"\x80-\xff]|\t)"?[ \t]*(?=[\r\n])', re.I)
 """The first line in which Excel says what separates the cells, such as sep=;"""
 
+_NUMBER = re.compile(r"[+-]?[0-9]+([.,][0-9]+)?", re.ASCII)
+"""What stands in a row of values, hardly in a header."""
+
 ROWS_AT_A_TIME = 1024  # few enough to stay in the processor's cache
 
 
@@ -163,6 +166,13 @@ def read_table(
         for name, groups in (instead or {}).items()
     }
     missing = [name for name in required if name not in places and not others_do.get(name)]
+    if not places and any(_NUMBER.fullmatch(title.strip()) for title in header):
+        problems.add(
+            header_line,
+            f"{_listed(header)} names no column; write a line above it with the names of the "
+            f"columns, such as {','.join(required)}",
+        )
+        missing = []
     for name in missing:
         others = " or ".join(map(quoted, required[name][:3]))
         problems.add(

@@ -61,7 +61,7 @@ def section_frames(found: Iterable[Finding]) -> Mapping[str, pd.DataFrame]:
         "npl_ladder": ladder_frame(found),
         **figure_frames(),
         "published": published_frame(found),
-        "errata": pd.DataFrame(errata(), dtype=object),
+        "errata": pd.DataFrame(errata(), dtype=object).rename(columns={"class_": "class"}),
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -19,11 +20,20 @@ __all__ = ["plot_score", "plot_spot"]
 _SHOWN = (0.001, 0.995)
 """The quantiles from which and up to which scores are drawn."""
 
+_COLORS = ("#CC79A7", "#009E73", "#E69F00")
+_HATCHES = ("////", "\\\\\\\\", "....")
+"""How the spans of scores that were asked for are shaded."""
+
 _POINTS = 150
 """How many numbers of points a curve is drawn through, at the most."""
 
 
-def plot_score(law: RunLength | InningsScore, innings: int = 1) -> Figure:
+def plot_score(
+    law: RunLength | InningsScore,
+    innings: int = 1,
+    *,
+    asked: Sequence[tuple[str, int, int | None]] = (),
+) -> Figure:
     """Return a figure of the probability of each score, with its mean, median and mode.
 
     Parameters
@@ -32,6 +42,8 @@ def plot_score(law: RunLength | InningsScore, innings: int = 1) -> Figure:
         the law of the score.
     innings
         in how many innings it is made, for the words beside the axes.
+    asked
+        spans of scores to shade, each with its name: the fewest balls and the most, or None.
 
     >>> from evenbreak.stats import RunLength
     >>> figure = plot_score(RunLength(0.9))
@@ -47,6 +59,19 @@ def plot_score(law: RunLength | InningsScore, innings: int = 1) -> Figure:
     figure, axes = new_axes(f"balls made in {played}", "probability")
     axes.fill_between(scores, chances, step="mid", color="0.85", linewidth=0)
     axes.step(scores, chances, where="mid", color="0.45", linewidth=1.0)
+    for color, hatch, (name, least, most) in zip(_COLORS, _HATCHES, asked, strict=False):
+        inside = (scores >= least) & (scores <= (high if most is None else most))
+        p = float(law.at_least(least) if most is None else law.between(least, most))
+        sides = np.add.outer(scores[inside], [-0.5, 0.5]).ravel()
+        axes.fill_between(
+            sides,
+            np.repeat(chances[inside], 2),
+            facecolor="none",
+            edgecolor=color,
+            hatch=hatch,
+            linewidth=0.0,
+            label=f"{name} ({p:.4f})",
+        )
     for line, (name, at) in zip(LINES, law.fair_line._asdict().items(), strict=False):
         axes.axvline(
             at, color=line.color, linestyle=line.linestyle, linewidth=1.6, label=f"{name} {at:.4g}"
@@ -57,7 +82,7 @@ def plot_score(law: RunLength | InningsScore, innings: int = 1) -> Figure:
     return figure
 
 
-def plot_spot(match: StraightPool, *, weaker: int, even: int) -> Figure:
+def plot_spot(match: StraightPool, *, weaker: int, even: int | None, title: str = "") -> Figure:
     """Return a figure of A's chance in straight pool against the points that the weaker needs.
 
     Parameters
@@ -67,7 +92,9 @@ def plot_spot(match: StraightPool, *, weaker: int, even: int) -> Figure:
     weaker
         the player whose points vary, 1 or 2.
     even
-        the points of that player that are nearest to even, a dashed line.
+        the points of that player that are nearest to even, a dashed line; None draws none.
+    title
+        who plays.
 
     >>> from evenbreak.matches import StraightPool
     >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8), weaker=2, even=21)
@@ -80,10 +107,12 @@ def plot_spot(match: StraightPool, *, weaker: int, even: int) -> Figure:
 
     name = f"points_{weaker}"
     now = getattr(match, name)
-    most = max(now, min(2 * even, match.points_1 + match.points_2 - now))
+    most = max(now, min(2 * (even or now), match.points_1 + match.points_2 - now))
     points = np.unique(np.linspace(1, most, _POINTS).round().astype(int)).tolist()
     wins = [straight_pool_odds(replace(match, **{name: n})).p_win_1 for n in points]
-    figure, axes = new_axes(f"points that {'AB'[weaker - 1]} needs", "P(A wins the match)")
+    figure, axes = new_axes(
+        f"points that {'AB'[weaker - 1]} needs", "P(A wins the match)", title=title
+    )
     curve, half = LINES[:2]
     axes.plot(points, wins, color=curve.color, linestyle=curve.linestyle)
     axes.plot(
@@ -94,7 +123,9 @@ def plot_spot(match: StraightPool, *, weaker: int, even: int) -> Figure:
         label=f"{match.points_1} against {match.points_2}",
     )
     axes.axhline(0.5, color="0.7", linewidth=0.8)
-    axes.axvline(even, color=half.color, linestyle=half.linestyle, label=f"nearest to even: {even}")
+    if even is not None:
+        told = f"nearest to even: {even}"
+        axes.axvline(even, color=half.color, linestyle=half.linestyle, label=told)
     axes.set_ylim(-0.02, 1.02)
     axes.margins(x=0.02)
     axes.legend(frameon=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -47,7 +48,11 @@ def plot_scores(
     >>> [text.get_text() for text in figure.legends[0].get_texts()]
     ['scores', 'mean 47.00']
     """
-    figure, axes = new_axes("number of the score" if file.dates is None else "date", "score")
+    figure, axes = new_axes(
+        "number of the score" if file.dates is None else "date",
+        "score",
+        title=f"Practice scores of {Path(file.source).name}",
+    )
     if file.dates is None:
         when: NDArray[np.float64] | NDArray[np.datetime64] = np.arange(1.0, len(file.scores) + 1)
         later: float | np.datetime64 = len(file.scores) + 1.0
@@ -94,7 +99,9 @@ def plot_two_lists(
     >>> [text.get_text() for text in figure.axes[0].get_xticklabels()]
     ['before\n2 scores', 'after\n1 score']
     """
-    figure, axes = new_axes("", "score")
+    shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
+    with_interval = f" with its {shares.pop()} % interval" if shares else ""
+    figure, axes = new_axes("", "score", title=f"Practice scores, and their mean{with_interval}")
     for place, (scores, interval) in enumerate(zip((before, after), intervals, strict=True)):
         _strip(axes, place, scores, interval)
     labels = [
@@ -102,9 +109,6 @@ def plot_two_lists(
         for name, scores in zip(names, (before, after), strict=True)
     ]
     axes.set_xticks([0, 1], labels)
-    shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
-    if shares:
-        axes.set_title(f"scores, and their mean with its {shares.pop()} % interval", fontsize=11)
     axes.set_xlim(-0.5, 1.75)
     return figure
 

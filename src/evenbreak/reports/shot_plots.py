@@ -18,15 +18,15 @@ if TYPE_CHECKING:
 __all__ = ["shots_figure"]
 
 _TITLES = {
-    "infinite": "P(player 1 wins), the shots repeated",
-    "two shots": "P(player 1 wins), even after two misses",
+    "infinite": "P(you win), the shots repeated",
+    "two shots": "P(you win), even after two misses",
 }
 
 
 def shots_figure(shots: Sequence[Shot], *, look_ahead: str = "infinite") -> Figure:
     """Draw P(player 1 wins the one-ball game) over (p1, p2), each shot a dot with its name.
 
-    The thick line is the critical one: below it player 1 is the favourite.
+    The thick line is the critical one: below it player 1, called you, is the favourite.
 
     Parameters
     ----------
@@ -46,15 +46,15 @@ def shots_figure(shots: Sequence[Shot], *, look_ahead: str = "infinite") -> Figu
 
     >>> figure = shots_figure([Shot("bank", 0.4, 0.8)])
     >>> figure.axes[0].get_title()
-    'P(player 1 wins), the shots repeated'
+    'P(you win), the shots repeated'
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
     figure, axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6))
     contour_axes(
         axes,
         partial(one_ball_win, look_ahead=look_ahead),
-        x="$p_1$ = P(player 1 makes the shot)",
-        y="$p_2$ = P(player 2 makes what a miss leaves)",
+        x="$p_1$ = P(you make the shot)",
+        y="$p_2$ = P(the opponent makes what a miss leaves)",
     )
     mark_points(axes, [(shot.p1, shot.p2, shot.name) for shot in shots])
     return figure

@@ -29,8 +29,10 @@ LINES = (
     LineStyle("#CC79A7", (0, (8, 2, 1, 2, 1, 2))),
     LineStyle("#56B4E9", (0, (3, 1, 3, 4))),
     LineStyle("#E69F00", (0, (1, 1))),
+    LineStyle("#882255", (0, (13, 3))),
+    LineStyle("#555555", (0, (1, 3))),
 )
-"""The lines of a plot in their order; the colours are those of Okabe and Ito (2008)."""
+"""The lines of a plot in their order; the first seven colours are those of Okabe and Ito (2008)."""
 
 _LABEL = 10
 """Size of a curve's name."""

@@ -24,18 +24,24 @@ STRENGTHS = (
 """What to call a p-value up to each bound."""
 
 
+ONE_FLAT = "hard to tell, since one list has equal scores only"
+"""What to call any p-value where one list shows no spread: it comes out too small."""
+
+
 def sentence_of(found: Comparison) -> str:
     """Return which way the scores went, how much, how sure that is, and by which test."""
     if found.welch is None or found.low is None or found.high is None:
         return _without_spread(found)
     p = found.welch.p_value
-    strength = next(words for bound, words in STRENGTHS if p <= bound)
+    strength, often = next(words for bound, words in STRENGTHS if p <= bound), how_often(p)
+    if 0.0 in (found.before.sd, found.after.sd):
+        strength, often = ONE_FLAT, f"{often} or more often"
     wins = 100 * found.effect.p_after_higher
     return (
         f"{_direction(found.difference)} "
         f"({100 * found.confidence:g} % interval {found.low:+.2f} to {found.high:+.2f}). "
         f"By Welch's t test this is {strength}; if nothing had changed, a difference so large, "
-        f"up or down, would come {how_often(p)}. "
+        f"up or down, would come {often}. "
         f"In {wins:.0f} of 100 pairs of these scores the one after is higher, a tie counting half."
     )
 
@@ -65,7 +71,7 @@ def warnings_of(
         if side.sd == 0.0 < other.sd:
             told.append(
                 f"all scores {name} are {side.mean:g}: their spread is not known, so take the "
-                "p-values as too small"
+                "p-values as too small and the intervals as too narrow"
             )
     if ties:
         told.append("some scores are equal: the Mann-Whitney p-value is an approximation")

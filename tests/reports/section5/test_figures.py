@@ -161,6 +161,13 @@ def test_the_drill_has_nine_shares_that_make_up_the_whole() -> None:
     assert [at(curve, 0.0) for curve in drawn] == [0.5, 0.5] + [0] * 7
 
 
+def test_no_two_levels_share_a_line() -> None:
+    lines = figure("figure_5_8").axes[0].lines
+    assert len({line.get_color() for line in lines}) == 9
+    dashes = {line._unscaled_dash_pattern for line in lines}
+    assert len({str(pattern) for pattern in dashes}) == 9
+
+
 def test_the_level_most_visited_goes_up_with_skill() -> None:
     drawn = curves(figure("figure_5_8").axes[0])
     peaks = [curve[np.argmax(curve[:, 1]), 0] for curve in drawn]

@@ -53,9 +53,12 @@ def test_figures_tables_and_problems_come_in_order(page):
 
 def test_every_slip_is_named_where_it_occurs_and_in_the_list(page):
     body, _, listed = page.partition("## Slips of the text")
-    assert listed.count("\n|") == len(errata()) + 2
+    parts = re.split(r"\n### .*\n", listed)
+    for part, class_ in zip(parts, ("slip", "remark", "copy"), strict=True):
+        of_class = [slip for slip in errata() if slip.class_ == class_]
+        assert part.count("\n|") == len(of_class) + 2
+        assert all(slip.why.replace("|", "&#124;") in part for slip in of_class)
     for slip in errata():
-        assert slip.why.replace("|", "&#124;") in listed
         assert slip.why in body, slip.where
 
 
@@ -70,7 +73,20 @@ def test_numbers_in_the_page_are_the_computed_ones(page):
     assert "| 10 | 0.95 | 0.94 | 0.545 (text: 0.54) | 0.503 | 0.505 |" in page
     assert "| 20 | 2 points | 3.668 | 3.697 |" in page
     assert "| p where W(p;2,1)=W(p;4,2) |  | 0.641 | 0.640388 | **erratum** |" in page
+    assert "| W(p;2,1) | p=.641 | 0.411 | 0.410881 | agrees |" in page
+    assert "| **4** | 1 | 4 | 6 | 4 | 1 |" in page
+    assert "| N=120 p=0.52 | 61.92 | 62 | 1 | 62.4 | 5.47284 |" in page
+    assert "| N=3 p=1/2 | 1 | 1 | 2 | 1.5 | 0.866025 |" in page
+    assert "the eigenvalues of M are 1.0000, 1.0000, 0.3464, −0.3464" in page
+    assert "| **S1** | 0 | 0 | q2 | 0 |" in page
     assert "| from S1: limit | 0.4545 | 0.0000 | 0.0000 | 0.5455 |" in page
+
+
+def test_remarks_are_not_called_slips(page):
+    assert "> **Remark: numerical trap.**" in page
+    assert "> **Remark: condition too narrow.**" in page
+    assert "> **Slip: last digit.**" in page
+    assert page.count("> **The copy used.**") == 2
 
 
 def test_page_is_the_same_each_time(page, frames):

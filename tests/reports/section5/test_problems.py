@@ -56,14 +56,39 @@ def test_quantity_and_inputs_name_a_row(frames):
 def test_published_frame_has_all_numbers_as_printed():
     frame = published_frame(findings())
     assert len(frame) == len(findings())
-    row = frame[frame.quantity == "W where W(p;2,1)=W(p;4,2)"].iloc[0]
-    assert str(row.printed) == "0.411"
-    assert str(row.computed) == "0.4100970508"
-    assert str(row.difference) == "-0.0009029492"
+    row = frame[frame.quantity == "p where W(p;2,1)=W(p;4,2)"].iloc[0]
+    assert str(row.printed) == "0.641"
+    assert str(row.computed) == "0.6403882032"
+    assert str(row.difference) == "-0.0006117968"
+    assert str(row.tolerance) == "0.0005"
     assert row.verdict == "erratum"
     derived = frame[frame.verdict == "derived"]
     assert derived.printed.isna().all()
     assert derived.difference.isna().all()
+
+
+def test_who_filters_by_the_tolerance_finds_the_errata_and_nothing_else():
+    frame = published_frame(findings())
+    printed = frame[frame.verdict != "derived"]
+    off = printed[printed.difference.map(abs) > printed.tolerance]
+    assert len(off) == 9
+    assert list(off.index) == list(frame[frame.verdict == "erratum"].index)
+
+
+def test_what_agrees_and_is_not_rounded_is_said_to_be_cut_off():
+    cut_off = [
+        (row.problem, str(row.printed))
+        for row, computed, verdict in findings()
+        if verdict == "agrees"
+        and abs(computed - float(row.printed)) > 0.51 * 10.0 ** row.printed.as_tuple().exponent
+    ]
+    noted = [
+        (row.problem, str(row.printed))
+        for row, _, verdict in findings()
+        if verdict == "agrees" and row.note.startswith("cut off")
+    ]
+    assert cut_off == noted
+    assert cut_off == [("Table 5.2", "15.9"), ("Table 5.2", "67.9"), ("Table 5.4", "0.54")]
 
 
 def test_choices_are_all_subsets(frames):
@@ -71,6 +96,15 @@ def test_choices_are_all_subsets(frames):
     chosen = [text for (quantity, _), text in found.items() if quantity.startswith("choice")]
     assert len(chosen) == len(set(chosen)) == 16
     assert {"{}", "{1 3}", "{1 2 3 4}"} <= set(chosen)
+
+
+def test_pascals_triangle_is_that_of_the_binomial_coefficients(frames):
+    found = answers(frames["problem_5_03"])
+    entries = {key: value for key, value in found.items() if key[0] == "Pascal's triangle"}
+    assert len(entries) == 66
+    for n in range(11):
+        for m in range(n + 1):
+            assert entries["Pascal's triangle", f"n={n} m={m}"] == math.comb(n, m)
 
 
 def test_orders_sum_to_the_score(frames):

@@ -11,6 +11,7 @@ from evenbreak.games.breaks import BREAK_FORMATS
 from evenbreak.games.rack import Rack
 from evenbreak.games.series import Series
 from evenbreak.practice.breaks import compare_break_formats, long_run_share
+from evenbreak.reports.section5.matrices import MATRICES, matrix_rows
 from evenbreak.reports.section5.rows import Answers, Derived, Inputs, Row
 
 __all__ = ["ANSWERS", "DERIVED", "EIGENVALUES", "FORMATS", "FORMULAS", "PAIRS"]
@@ -35,11 +36,7 @@ FORMULAS = {
     "alternate": "(1 + p1 - p2)/2",
 }
 """The fraction of racks that player 1 wins in the long run, by format."""
-EIGENVALUES = {
-    "winner": "1 and p1 + p2 - 1",
-    "loser": "1 and 1 - p1 - p2",
-    "alternate": "1 and -1",
-}
+EIGENVALUES = {name: " and ".join(MATRICES[f"M, {name} breaks"].eigenvalues) for name in FORMATS}
 """Of the chain of who breaks, by format."""
 
 
@@ -70,6 +67,7 @@ def _p5_24() -> Iterator[Row]:
     for name in FORMATS:
         yield Row("formula: W", f"{name} breaks", FORMULAS[name])
         yield Row("formula: eigenvalues", f"{name} breaks", EIGENVALUES[name])
+    yield from matrix_rows("P5.24")
     for p1, p2 in PAIRS:
         for name in FORMATS:
             series = Series(Rack(p1, p2), breaks=BREAK_FORMATS[name])

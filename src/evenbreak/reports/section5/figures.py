@@ -143,7 +143,7 @@ def _progressive_drill() -> Figure:
     )
     for level in levels:
         share = np.array([limit.get(level, 0.0) for limit in limits])
-        line = LINES[(level - 1) % len(LINES)]
+        line = LINES[level - 1]
         axes.plot(_P, share, **line._asdict(), lw=1.4)
         name = f"$v_{level}$"
         if level == 7:  # over its peak the last two curves cross

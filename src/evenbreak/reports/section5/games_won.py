@@ -13,9 +13,11 @@ from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.reports.section5.rows import Answers, Derived, Inputs, Row
 from evenbreak.stats.binomial import GamesWon, critical_value, score_probability
 
-__all__ = ["ANSWERS", "DERIVED", "match_probability"]
+__all__ = ["ANSWERS", "DERIVED", "EVENINGS", "match_probability"]
 
 _LONGEST = 10
+EVENINGS = ((4, "2/3"), (120, "0.52"), (3, "1/2"))
+"""Games N and chances p for which P5.9 is worked out."""
 
 
 def match_probability(p: Fraction, m: int, n: int) -> Fraction:
@@ -84,7 +86,8 @@ ANSWERS: Answers = {
     ("P5.6", "P(p;m,n)"): lambda i: score_probability(i.one("p"), int(i.one("m")), int(i.one("n"))),
     ("P5.6", "W(p;m,n)"): lambda i: match_probability(i.one("p"), int(i.one("m")), int(i.one("n"))),
     ("P5.7", "p where W(p;2,1)=W(p;4,2)"): lambda _: _crossing(1),
-    ("P5.7", "W where W(p;2,1)=W(p;4,2)"): lambda _: _win(_crossing(1), 2, 1),
+    ("P5.7", "W(p;2,1)"): lambda i: _win(float(i.one("p")), 2, 1),
+    ("P5.7", "W(p;4,2)"): lambda i: _win(float(i.one("p")), 4, 2),
     ("P5.7", "p where W(p;4,2)=1/2"): lambda _: _fair(2),
     ("P5.7", "W(1/2;n,n)"): lambda i: _win(0.5, int(i.one("n")), int(i.one("n"))),
     ("P5.8", "W(p;9,5)"): lambda i: _win(float(i.one("p")), 9, 5),
@@ -157,9 +160,10 @@ def _p5_9() -> Iterator[Row]:
     yield Row("formula: mode", "", "ceiling(N p - q)", "of two equal modes the smaller")
     yield Row("formula: mean", "", "N p")
     yield Row("formula: standard deviation", "", "sqrt(N p q)")
-    for games, p in ((4, "2/3"), (120, "0.52"), (3, "1/2")):
+    for games, p in EVENINGS:
         law = GamesWon(games, Fraction(p))
         inputs = f"N={games} p={p}"
+        yield Row("N p - q", inputs, (games + 1) * Fraction(p) - 1)
         yield Row("mode", inputs, law.mode)
         yield Row("number of modes", inputs, len(law.modes))
         yield Row("mean", inputs, law.mean)

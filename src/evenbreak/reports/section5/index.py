@@ -1,7 +1,7 @@
 """The page that shows and explains all of section 5: prose from `index.md`, numbers from here.
 
 In the prose `{{numbers P5.7}}` stands for the printed and computed numbers of a problem,
-`{{slips P5.7}}` for what is wrong in it, and the other names for tables.
+`{{slips P5.7}}` for what is wrong in it or to be remarked, and the other names for tables.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from evenbreak.reports.published import Erratum, PublishedNumber, errata
 from evenbreak.reports.section5 import page_tables
 from evenbreak.reports.section5.long_run import HANDICAPS, ahead_formula
 from evenbreak.reports.section5.markdown import markdown_table, short
+from evenbreak.reports.section5.matrices import matrix_table
 from evenbreak.reports.section5.numbers import Finding
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def index_page(found: Sequence[Finding], frames: Frames) -> str:
 
 
 def slips_of(place: str) -> list[Erratum]:
-    """Return the slips of the text at a problem, a table or a figure.
+    """Return the slips of the text at a problem, a table or a figure, and what else is said.
 
     >>> [slip.kind for slip in slips_of("P5.25")]
     ['rounded inputs']
@@ -65,6 +66,11 @@ def _blocks(found: Sequence[Finding], frames: Frames) -> Mapping[str, Callable[[
         "slips": _slips,
         "scores": lambda p: page_tables.score_table(frames[f"problem_5_06_scores_{_name(p)}"]),
         "matches": lambda p: page_tables.score_table(frames[f"problem_5_06_matches_{_name(p)}"]),
+        "triangle": lambda _: page_tables.triangle_table(),
+        "games": lambda _: page_tables.games_table(frames["problem_5_09"]),
+        "matrix": matrix_table,
+        "eigenvalues": page_tables.eigenvalues_table,
+        "values": lambda _: page_tables.eigenvalues(frames["problem_5_23"]),
         "table_5_1": lambda _: page_tables.table_5_1(frames["table_5_1"]),
         "table_5_2": lambda _: page_tables.table_5_2(frames["table_5_2"]),
         "table_5_3": lambda _: page_tables.table_5_3(frames["table_5_3"]),
@@ -78,9 +84,7 @@ def _blocks(found: Sequence[Finding], frames: Frames) -> Mapping[str, Callable[[
         "polynomials": lambda _: markdown_table(
             ["match", "W"], [[f"{m}:{n}", f"`{ahead_formula(m, n)}`"] for m, n in HANDICAPS]
         ),
-        "errata": lambda _: markdown_table(
-            ["where", "the text", "right", "kind", "why"], map(list, errata()), left=5
-        ),
+        "errata": _errata,
     }
 
 
@@ -139,11 +143,23 @@ def _given(inputs: str) -> str:
     return "both lists" if inputs == "as above" or inputs.startswith("N=5;5") else inputs
 
 
+def _errata(class_: str) -> str:
+    rows = [
+        [slip.where, slip.printed, slip.correct, slip.kind, slip.why]
+        for slip in errata()
+        if slip.class_ == class_
+    ]
+    right = "right" if class_ == "slip" else "what holds"
+    return markdown_table(["where", "the text", right, "kind", "why"], rows, left=5)
+
+
 def _slips(place: str) -> str:
     return "\n>\n".join(map(_slip, slips_of(place)))
 
 
 def _slip(slip: Erratum) -> str:
-    name = "The copy used" if slip.kind == "scan" else f"Slip: {slip.kind}"
-    right = f" Right: {slip.correct}." if slip.correct else ""
+    names = {"slip": "Slip", "remark": "Remark", "copy": "The copy used"}
+    name = names[slip.class_] + (f": {slip.kind}" if slip.class_ != "copy" else "")
+    label = "What holds" if slip.class_ == "remark" else "Right"
+    right = f" {label}: {slip.correct}." if slip.correct else ""
     return f"> **{name}.** The text: {slip.printed}.{right} {slip.why}"

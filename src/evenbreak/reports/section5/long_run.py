@@ -15,6 +15,7 @@ from evenbreak.handicaps.ladder import LadderLaw, autocorrelated_ladder, natural
 from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.practice.drills import DrillStatistics, drill_statistics
 from evenbreak.ratings.scale import SCALES
+from evenbreak.reports.section5.matrices import matrix_rows
 from evenbreak.reports.section5.rows import Answers, Derived, Inputs, Row
 
 __all__ = [
@@ -134,6 +135,12 @@ def _p5_26() -> Iterator[Row]:
 def _p5_27() -> Iterator[Row]:
     for m, n in HANDICAPS:
         yield Row("formula: W", f"{m}:{n}", ahead_formula(m, n), "q = 1 - p")
+    yield from matrix_rows("P5.27")
+    yield Row(
+        "formula: eigenvalues",
+        "six games between the ends",
+        "1, 1 and 2 sqrt(p q) cos(k pi/6), k = 1 ... 5",
+    )
     for m, n in HANDICAPS:
         for tenths in range(11):
             p = tenths / 10

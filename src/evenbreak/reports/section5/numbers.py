@@ -22,7 +22,16 @@ from evenbreak.reports.section5 import (
 )
 from evenbreak.reports.section5.rows import Answers, parse_inputs
 
-__all__ = ["ANSWERS", "PARTS", "Finding", "by_problem", "compute", "findings", "verdict_of"]
+__all__ = [
+    "ANSWERS",
+    "PARTS",
+    "Finding",
+    "by_problem",
+    "compute",
+    "deciding_tolerance",
+    "findings",
+    "verdict_of",
+]
 
 PARTS = (samples, games_won, innings, one_ball, break_formats, long_run)
 """The modules that answer the problems."""
@@ -66,24 +75,29 @@ def compute(problem: str, quantity: str, inputs: str) -> Any:
 def verdict_of(published: PublishedNumber, computed: float) -> str:
     """Return what comparing says: agrees, erratum, derived or differs.
 
-    A printed number agrees if it is within the tolerance. It is an erratum if the package
-    data call it one and it is not what rounding gives: wrong, truncated or rounded twice.
+    A printed number agrees if it is within `deciding_tolerance`. If it is not, it is an
+    erratum where the package data call it one, and otherwise it differs.
     """
     if published.printed is None:
         return "derived"
-    off = abs(computed - float(published.printed))
-    if published.verdict == "erratum" and off > _half_unit(published.printed):
-        return "erratum"
-    return "agrees" if off <= float(published.tolerance) else "differs"
+    if abs(computed - float(published.printed)) <= float(deciding_tolerance(published)):
+        return "agrees"
+    return "erratum" if published.verdict == "erratum" else "differs"
 
 
-def _half_unit(printed: Decimal) -> float:
-    """Return how far rounding can be off, half of the last printed place.
+def deciding_tolerance(published: PublishedNumber) -> Decimal:
+    """Return the largest difference with which a number still agrees.
 
-    >>> _half_unit(Decimal("0.90"))
-    0.005
+    That is the tolerance of the number; but a number known as an erratum is right only if
+    it is what rounding gives, within half of its last printed place.
+
+    >>> known = PublishedNumber("P5.17", "", "", Decimal("0.457"), Decimal("0.0006"), "erratum", "")
+    >>> deciding_tolerance(known), deciding_tolerance(known._replace(verdict="agrees"))
+    (Decimal('0.0005'), Decimal('0.0006'))
     """
-    return float(Decimal((0, (5,), int(printed.as_tuple().exponent) - 1)))
+    if published.verdict != "erratum" or published.printed is None:
+        return published.tolerance
+    return Decimal((0, (5,), int(published.printed.as_tuple().exponent) - 1))
 
 
 @cache

@@ -12,6 +12,7 @@ from evenbreak.chains.powers import propagate
 from evenbreak.chains.spectrum import spectrum
 from evenbreak.games.one_ball import OneBall
 from evenbreak.practice.shots import critical_p2, one_ball_win
+from evenbreak.reports.section5.matrices import MATRICES, matrix_rows
 from evenbreak.reports.section5.rows import Answers, Derived, Inputs, Row
 
 __all__ = ["ANSWERS", "DERIVED", "FORMULAS", "SHOTS", "TWO_SHOTS"]
@@ -103,7 +104,8 @@ def _p5_23() -> Iterator[Row]:
     values = sorted(spectrum(chain).values.tolist(), reverse=True)
     for number, value in enumerate(values, 1):
         yield Row(f"eigenvalue {number}", inputs, value)
-    yield Row("formula: eigenvalues", "", "1, 1, sqrt(q1 q2) and -sqrt(q1 q2)")
+    yield Row("formula: eigenvalues", "", ", ".join(MATRICES["M"].eigenvalues))
+    yield from matrix_rows("P5.23")
 
 
 DERIVED: Derived = {"P5.20": _p5_20, "P5.21": _p5_21, "P5.22": _p5_22, "P5.23": _p5_23}

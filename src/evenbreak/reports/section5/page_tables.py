@@ -9,12 +9,17 @@ from typing import TYPE_CHECKING, Any
 from evenbreak.reports.section5.innings import INNINGS
 from evenbreak.reports.section5.long_run import CHARTS, LEVELS
 from evenbreak.reports.section5.markdown import beside, markdown_table, rounded, short
+from evenbreak.reports.section5.matrices import MATRICES
 from evenbreak.reports.section5.numbers import Finding
+from evenbreak.reports.section5.samples import pascals_triangle
 
 if TYPE_CHECKING:
     import pandas as pd
 
 __all__ = [
+    "eigenvalues",
+    "eigenvalues_table",
+    "games_table",
     "ladder_table",
     "products_table",
     "score_table",
@@ -26,6 +31,7 @@ __all__ = [
     "table_5_5",
     "table_5_6",
     "table_5_22",
+    "triangle_table",
 ]
 
 _STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half and half"}
@@ -86,6 +92,54 @@ def table_5_3(frame: pd.DataFrame) -> str:
             for name, decimals in (("mode", 0), ("mean", 1), ("median", 0))
         ],
     )
+
+
+def triangle_table() -> str:
+    """Return Pascal's triangle, row n and column m."""
+    rows = pascals_triangle()
+    return markdown_table(
+        ["n \\ m", *range(len(rows))],
+        [[f"**{n}**", *row, *[""] * (len(rows) - len(row))] for n, row in enumerate(rows)],
+    )
+
+
+def games_table(frame: pd.DataFrame) -> str:
+    """Return what P5.9 gives for some numbers of games."""
+    names = ("N p - q", "mode", "number of modes", "mean", "standard deviation")
+    rows: dict[str, dict[str, Any]] = {}
+    for row in _records(frame):
+        rows.setdefault(row["inputs"], {})[row["quantity"]] = row["computed"]
+    return markdown_table(
+        ["games", *(name.replace("-", "−") for name in names)],
+        [
+            [inputs, *(short(found[name]) for name in names)]
+            for inputs, found in rows.items()
+            if inputs
+        ],
+    )
+
+
+def eigenvalues_table(problem: str) -> str:
+    """Return the eigenvalues of a problem's matrices in symbols."""
+    return markdown_table(
+        ["matrix", "eigenvalues"],
+        [
+            [name, f"`{', '.join(matrix.eigenvalues)}`"]
+            for name, matrix in MATRICES.items()
+            if matrix.problem == problem
+        ],
+        left=2,
+    )
+
+
+def eigenvalues(frame: pd.DataFrame) -> str:
+    """Return the eigenvalues of P5.23 for the shots of its table."""
+    values = [
+        rounded(row["computed"], 4)
+        for row in _records(frame)
+        if row["quantity"].startswith("eigenvalue ")
+    ]
+    return ", ".join(values).replace("-", "−")
 
 
 def products_table(found: Sequence[Finding]) -> str:

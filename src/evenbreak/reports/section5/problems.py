@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.reports.section5.numbers import PARTS, Finding, by_problem
+from evenbreak.reports.section5.numbers import PARTS, Finding, by_problem, deciding_tolerance
 from evenbreak.reports.section5.rows import Derived, Row, difference_cell, number_cell
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def _printed(finding: Finding) -> tuple[Any, ...]:
         printed,
         number_cell(finding.computed),
         None if printed is None else difference_cell(finding.computed, printed),
-        number_cell(published.tolerance),
+        number_cell(deciding_tolerance(published)),
         finding.verdict,
         published.note,
     )

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 
 from evenbreak.reports.section5.rows import Answers, Derived, Inputs, Row
 from evenbreak.stats.binomial import coverage_within
 from evenbreak.stats.confidence import mean_interval, sd_of_mean, was_it_luck
 from evenbreak.stats.summary import Distribution, Moments, merge
 
-__all__ = ["ANSWERS", "DERIVED"]
+__all__ = ["ANSWERS", "DERIVED", "pascals_triangle"]
 
 _FIRST, _SECOND = (0, 1, 1, 4, 5), (0, 1, 1, 8, 9)
 _SLIPS = (1, 2, 3, 4)
+_ROWS = 10
+"""Of Pascal's triangle, below its tip."""
 _POPULATION = (1, 2, 4, 5)
 _SCORES = (50, 44, 46, 52, 47, 51, 49, 45, 48, 50)
 _NEW = 53
@@ -79,10 +81,9 @@ ANSWERS: Answers = {
     ("P5.19", "a 53 less the interval's high end"): lambda i: _NEW - _high(i),
     ("P5.19", "standard units of a 53"): lambda i: was_it_luck(_scores(i), _NEW).normal.units,
     ("P5.19", "standard units of a 53 over 49.2"): lambda i: _units_over(i, 49.2),
-    ("P5.19", "standard units of a 53 over the interval"): _cautious_units,
     ("P5.19", "P(abs(z) < 1.51)"): lambda _: coverage_within(1.51),
     ("P5.19", "chance of a score so far out"): lambda i: 1.0 - coverage_within(_cautious_units(i)),
-    ("P5.19", "confidence that it was no chance"): lambda i: coverage_within(_cautious_units(i)),
+    ("P5.19", "confidence, 1 less that chance"): lambda i: coverage_within(_cautious_units(i)),
 }
 
 
@@ -110,12 +111,27 @@ def _p5_2() -> Iterator[Row]:
     yield Row("merged variance", of, together.variance, "from the values themselves")
 
 
+def pascals_triangle() -> list[list[int]]:
+    """Return Pascal's triangle: each entry is the sum of the two above it, C(n, m) in row n.
+
+    >>> pascals_triangle()[4]
+    [1, 4, 6, 4, 1]
+    """
+    rows = [[1]]
+    while len(rows) <= _ROWS:
+        rows.append([left + right for left, right in pairwise([0, *rows[-1], 0])])
+    return rows
+
+
 def _p5_3() -> Iterator[Row]:
     for size in range(len(_SLIPS) + 1):
         for number, chosen in enumerate(combinations(_SLIPS, size), 1):
             yield Row(f"choice {number} of {size}", "of 1 2 3 4", "{" + _listed(chosen) + "}")
         closed = math.comb(len(_SLIPS), size)
         yield Row("binomial coefficient", f"n=4 m={size}", closed, "N! / (m! (N - m)!)")
+    for n, row in enumerate(pascals_triangle()):
+        for m, entry in enumerate(row):
+            yield Row("Pascal's triangle", f"n={n} m={m}", entry, "C(n-1, m-1) + C(n-1, m)")
 
 
 def _p5_18() -> Iterator[Row]:
@@ -152,7 +168,7 @@ def _p5_19() -> Iterator[Row]:
         ("normal, over the 80% interval", luck.cautious),
     )
     for name, reading in readings:
-        yield Row(f"a 53, {name}: units from the mean", of, reading.units)
+        yield Row(f"a 53, {name}: standard units", of, reading.units)
         yield Row(f"a 53, {name}: chance of a score so far out", of, reading.as_far)
 
 
