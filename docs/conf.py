@@ -26,6 +26,8 @@ napoleon_attr_annotations = False
 # A docstring's words in single backquotes are code.
 default_role = "literal"
 nitpicky = False
+# Many classes have a field `games`: where one is named, no other is meant.
+suppress_warnings = ["ref.python"]
 
 html_theme = "furo"
 html_title = f"evenbreak {release}"

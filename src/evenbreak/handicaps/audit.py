@@ -67,7 +67,7 @@ class AuditRow:
         whole point), 1 where it ends; outside the band below 0 or above 1. None for a row
         that begins at 0 or has no end.
     unfairness
-        the largest |P - 1/2| of the band's ends.
+        the largest `|P - 1/2|` of the band's ends.
     monotone
         whether the race is harder for the stronger player than those of all earlier rows.
     """

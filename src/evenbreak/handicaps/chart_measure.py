@@ -28,7 +28,7 @@ class ChartMeasure:
     up_to
         the largest difference, in points.
     mean_unfairness, worst_unfairness
-        mean and largest |P(the stronger wins) - target|. At 0 neither is the stronger, and
+        mean and largest `|P(the stronger wins) - target|`. At 0 neither is the stronger, and
         that counts as no unfairness.
     worst_difference
         where it is largest.

@@ -40,7 +40,7 @@ class LevelCell:
         the difference in points between the ratings of the two levels; what lies between
         it and `even_difference` is what the chart gives to one of the two.
     unfairness
-        |p_win_middle - 1/2|; of two players of one level, 0.
+        `|p_win_middle - 1/2|`; of two players of one level, 0.
     monotone
         whether the race is harder for the higher level than that against the next higher
         opponent, and than that of the next lower level against the same opponent.
