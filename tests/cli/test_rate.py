@@ -143,9 +143,10 @@ def test_winners_alone(rate):
     assert "2 matches known by their winner alone" in result.stderr
 
 
-def test_a_break_that_the_file_does_not_tell_is_told(rate):
+@pytest.mark.parametrize("advantage", ["fit", "5"])
+def test_a_break_that_the_file_does_not_tell_is_told(rate, advantage):
     season = "player_a,player_b,score_a,score_b\nAnn,Bo,7,5\n"
-    result = rate("--break-advantage", "fit", season=season)
+    result = rate("--break-advantage", advantage, season=season)
     assert result.exit_code == 0
     assert "of no game the file says who broke" in result.stderr
 
@@ -164,7 +165,7 @@ def test_names_cannot_become_formulas(rate):
         (["--prior", "1e9"], 2, "on this scale give"),
         (["--half-life", "-3"], 2, "a number of days above 0"),
         (["--as-of", "31.1.2026"], 2, "such as 2026-01-31"),
-        (["--as-of", "2020-01-01"], 3, "no match in it was played"),
+        (["--as-of", "2020-01-01"], 3, "no match in it was played by 2020-01-01; give a later day"),
         (["--break-advantage", "nan"], 2, "a number of points, or fit"),
         (["--anchor", "high"], 2, "such as 80, or NAME=POINTS"),
         (["--anchor", "1", "--anchor", "2"], 2, "not both"),
@@ -175,6 +176,11 @@ def test_names_cannot_become_formulas(rate):
         (["--roster", "last.csv"], 2, "give --system npl too"),
         (["--system", "npl"], 2, "give --roster LAST.csv"),
         (["--system", "npl", "--roster", "x", "--prior", "best"], 2, "leave out --prior"),
+        (
+            ["--system", "npl", "--roster", "x", "--break-advantage", "0"],
+            2,
+            "leave out --break-advantage",
+        ),
         (["--scale", "0"], 2, "points that double the odds"),
     ],
 )

@@ -39,7 +39,7 @@ def test_words_tell_what_the_ratings_rest_on():
         "Before any result: standard deviation 30.0 points.",
         "Of 2 such deviations this one (the last tried) predicted 1,200 later results best.",
         "Anchored at A 90, B 80 on average.",
-        "A match counts half after 30 days.",
+        "A match counts half after 30 days: all that was played counts as 19.8 new games.",
         "The breaker plays +3.0 points better, as given.",
     ]
 

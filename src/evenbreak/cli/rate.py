@@ -149,7 +149,7 @@ def _day(ctx: click.Context, param: click.Parameter, value: str | None) -> str |
     "--chart",
     metavar="NAME|FILE.csv",
     help="With --system: by which chart they played, where the file states neither race nor "
-    "winner.",
+    "winner.  [default: the system's chart that all scores fit, if only one does]",
 )
 @wants_aliases
 @wants_json
@@ -170,7 +170,7 @@ def rate(
     are those of `evenbreak report`; - reads standard input.
     """
     if system is not None:
-        given = [FIT_ONLY[name] for name, value in asked.items() if value]
+        given = [FIT_ONLY[name] for name, value in asked.items() if value not in (None, ())]
         given += ["--scale"] if scale_name is not None else []
         if given:
             refuse(f"--system moves ratings by its own rule; leave out {', '.join(given)}")
@@ -221,10 +221,13 @@ def _rate(
         break_advantage=break_advantage,
     )
     if not ratings.matches:
-        raise DataError([f"{file.source}: no match in it was played; add matches with games"])
-    if break_advantage == "fit" and ratings.break_advantage is None:
+        why = "was played; add matches with games"
+        if ratings.later:
+            why = f"was played by {as_of}; give a later day to --as-of"
+        raise DataError([f"{file.source}: no match in it {why}"])
+    if break_advantage is not None and ratings.break_advantage is None:
         _say(
-            "Warning: of no game the file says who broke, so there is no break advantage to fit; "
+            "Warning: of no game the file says who broke, so --break-advantage changes nothing; "
             "give break_format and first_break, with races or racks"
         )
     chosen = [_pair(ratings, pair) for pair in pairs]
@@ -329,6 +332,7 @@ def _as_json(
             for width, loss in zip(choice.tried, choice.log_loss, strict=True)
         ],
         "half_life_days": ratings.half_life,
+        "played_by_weight": ratings.weight,
         "as_of": None if ratings.as_of is None else str(ratings.as_of),
         "break_advantage": ratings.break_advantage,
         "break_advantage_standard_error": ratings.break_error,

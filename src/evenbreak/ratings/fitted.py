@@ -93,6 +93,13 @@ class Ratings:
         """Which players have no result that counts: their rating is the prior's."""
         return np.asarray(self.games + self.races_won + self.races_lost == 0)
 
+    @property
+    def weight(self) -> float:
+        """The games, and the matches known by their winner alone, with a half-life by weight."""
+        if isinstance(self._played, PairCounts):
+            return float(self._played.games.sum())
+        return self._played.amount
+
     @cached_property
     def standard_error(self) -> Floats:
         """The posterior standard deviation of each rating, in points.

@@ -130,7 +130,7 @@ def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
     if undated:
         raise InputError(
             f"{undated:,} of {len(played):,} matches have no date, and a prior is chosen by what "
-            "it predicts of later days; add the dates, or give prior_sd"
+            "it predicts of later days; add the dates, or give the prior's width"
         )
     if len(played) == 0 or played.date is None or played.date.min() == played.date.max():
         raise InputError(

@@ -56,7 +56,11 @@ def rate_words(ratings: Ratings, choice: PriorChoice | None = None) -> list[str]
         who = ", ".join(f"{name} {points:g}" for name, points in ratings.named)
         lines.append(f"Anchored at {who}" + (" on average." if len(ratings.named) > 1 else "."))
     if ratings.half_life is not None:
-        lines.append(f"A match counts half after {ratings.half_life:g} days.")
+        what = " and ".join(["games"] * bool(games) + ["matches"] * bool(races))
+        lines.append(
+            f"A match counts half after {ratings.half_life:g} days: all that was played counts "
+            f"as {ratings.weight:,.1f} new {what}."
+        )
     if ratings.break_advantage is not None:
         error = ratings.break_error
         lines.append(
