@@ -184,6 +184,36 @@ def test_the_mode_is_the_one_that_scipy_finds(unscored, breaks):
         assert (ratings.break_advantage, ratings.break_error) == (None, None)
 
 
+def test_where_all_games_count_alike_both_ways_find_the_same():
+    results, _ = play(np.random.default_rng(6), 9, 60, unscored=0)
+    none = results.select(np.zeros(0, dtype=int))
+    evidence = module.evidence_of(results, none, (np.ones(60), np.zeros(0)), breaks=False)
+    quick = fit(results, prior_sd=0.5, **LOG_ODDS)
+    general = module.find_mixed_mode(evidence, 4.0)
+    np.testing.assert_allclose(general.skill, quick.rating, atol=1e-8)
+    assert evidence.amount == quick.weight
+
+
+@pytest.mark.parametrize("form", ["winner", "loser", "alternate"])
+def test_scores_alone_have_one_mode_along_the_break_advantage(form):
+    """The likelihood need not be concave in it; the mode found is the only one on a grid."""
+    rng = np.random.default_rng(14)
+    results, _ = play(rng, 8, 60, advantage=0.3, unscored=0)
+    results = replace(results, racks=None, break_format=np.full(60, FORMATS.index(form)))
+    none = results.select(np.zeros(0, dtype=int))
+    evidence = module.evidence_of(results, none, (np.ones(60), np.zeros(0)), breaks=True)
+
+    def cost(advantage):
+        skill = module.find_mixed_mode(evidence, 2.0, advantage=advantage).skill
+        prior = skill @ skill + 0.5 * BREAK_SD**-2 * advantage**2
+        return prior - evidence.log_likelihood(skill, advantage)
+
+    values = [cost(advantage) for advantage in np.linspace(-1.5, 1.5, 13)]
+    assert sum(np.diff(np.sign(np.diff(values))) != 0) == 1
+    found = module.find_mixed_mode(evidence, 2.0, break_precision=BREAK_SD**-2)
+    assert cost(found.advantage) <= min(values)
+
+
 def test_a_known_break_advantage_is_kept():
     results, _ = play(np.random.default_rng(6), 5, 25, advantage=0.4)
     fitted = fit(results, break_advantage="fit", **LOG_ODDS)
