@@ -256,8 +256,11 @@ def _text(course: list[tuple[Any, ...]], odds: LiveOdds) -> str:
         )
     most = max(range(len(odds.swings)), key=lambda i: abs(odds.swings[i]))
     swing, gap = odds.swings[most], "\n" if quantities else ""
+    text = quantities + gap + aligned(rows)
+    if not swing:
+        return text
     gained = f"{' AB'[odds.winners[most]]} gained {chance_text(abs(swing))} with it"
-    return f"{quantities}{gap}{aligned(rows)}\nRack {most + 1} moved the match most: {gained}.\n"
+    return f"{text}\nRack {most + 1} moved the match most: {gained}.\n"
 
 
 def _value(key: str, value: Any) -> str:
