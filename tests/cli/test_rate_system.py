@@ -22,7 +22,12 @@ LIST = (
 @pytest.fixture
 def rate(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    files = {"last.csv": LAST, "night.csv": NIGHT, "aliases.csv": "name,means\nAnnie,Ann\n"}
+    files = {
+        "last.csv": LAST,
+        "night.csv": NIGHT,
+        "open.csv": NIGHT.replace("5,3", "5,4"),  # the end of no chart's race, beside 6-2
+        "aliases.csv": "name,means\nAnnie,Ann\n",
+    }
     for name, text in files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
 
@@ -97,10 +102,19 @@ def test_a_race_beside_the_chart_is_warned_of(rate, tmp_path):
     assert "night.csv:2: 'Ann' - 'Cy' was a race 5:5; the chart npl_10 has 6:4" in result.stderr
 
 
+def test_without_a_chart_the_one_that_the_scores_tell_is_taken_and_named(rate):
+    result = rate("night.csv")
+    assert (result.exit_code, result.stdout) == (0, LIST)
+    assert (
+        "No --chart: npl_10 is taken, the only chart of the system whose races all scores end"
+        in result.stderr.splitlines()
+    )
+
+
 @pytest.mark.parametrize(
     ("words", "code", "remedy"),
     [
-        (["night.csv"], 3, "--chart NAME serves for all"),
+        (["open.csv"], 3, "--chart NAME serves for all"),
         (["night.csv", "--chart", "npl_8"], 3, "5-3 is no end of the race 4:3"),
         (["night.csv", "--chart", "npl_9"], 3, "no chart is called so"),
         (["night.csv", "--chart", "apa_8ball"], 2, "give one of rating differences"),

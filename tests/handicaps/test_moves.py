@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.chart import chart
-from evenbreak.handicaps.moves import apply_results, night_problems
+from evenbreak.handicaps.moves import apply_results, chart_of_night, night_problems
 from evenbreak.handicaps.systems import system_of
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import NOT_STATED, Roster
@@ -111,6 +111,28 @@ def test_a_score_that_the_charts_race_cannot_have():
             (1, "4-6", "4:6", "'Cy' and 'Ann'", "71 and 92"),
         )
     ]
+
+
+@pytest.mark.parametrize("name", NPL.charts)
+def test_scores_tell_the_chart_by_which_they_were_played(name):
+    played = chart(name)
+    ahead, behind = played.race(12), played.race(21)
+    scores = night(("Ann", "Bo", ahead[0], 0), ("Cy", "Ann", behind[1], behind[0] - 1))
+    assert chart_of_night(NPL, CLUB, scores).name == name
+
+
+@pytest.mark.parametrize(
+    ("results", "why"),
+    [
+        (night(("Ann", "Bo", 5, 3), winner=[1]), "the winner is stated"),
+        (night(("Ann", "Bo", 5, 3), race_a=[5], race_b=[4]), "the race is stated"),
+        (night(("Ann", "Bo", 5, 3), ("Bo", "Ann", 3, 4)), "5-3 ends npl_10's, 3-4 npl_8's"),
+        (night(("Ann", "Cy", 6, 2)), "npl_10 and npl_12 both have the race 6:4"),
+        (night(("Ann", "Boo", 5, 3)), "Boo is not on the list"),
+    ],
+)
+def test_no_chart_is_taken_where_none_is_needed_or_told(results, why):
+    assert chart_of_night(NPL, CLUB, results) is None, why
 
 
 def test_each_player_who_is_not_on_the_list_or_not_rated_is_told_once():

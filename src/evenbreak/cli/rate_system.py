@@ -36,12 +36,14 @@ def rate_by_system(
     roster
         the list with which the players came.
     chart
-        name or file of the chart by which they played; None: the results say who won.
+        name or file of the chart by which they played; None: the results say who won, or else
+        their scores which of the system's charts it was.
     aliases
         the file that says which names mean whom.
     as_json
         whether JSON was asked for.
     """
+    from evenbreak.handicaps.moves import chart_of_night
     from evenbreak.handicaps.systems import system_of
     from evenbreak.reports.moves_frame import moves_frame, moves_of_files, night_warnings
     from evenbreak.reports.read_results import read_results
@@ -55,6 +57,13 @@ def rate_by_system(
     tonight = read_results(path, aliases=aliases)
     for warning in (*last.warnings, *tonight.warnings):
         _say(f"Warning: {warning}")
+    if by_chart is None:
+        by_chart = chart_of_night(rule, last.roster, tonight.results)
+        if by_chart is not None:
+            _say(
+                f"No --chart: {by_chart.name} is taken, the only chart of the system whose races "
+                "all scores end"
+            )
     moves = moves_of_files(rule, last, tonight, chart=by_chart)
     if by_chart is not None:
         for warning in night_warnings(moves, tonight, by_chart):

@@ -20,7 +20,7 @@ __getattr__, __dir__, __all__ = attach(
         "ladder": ["LadderLaw", "RatingLadder", "autocorrelated_ladder", "natural_ladder"],
         "level_audit": ["LevelAudit", "LevelCell", "audit_levels"],
         "level_chart": ["LEVEL_CHARTS", "LevelChart", "level_chart"],
-        "moves": ["MatchMove", "Moves", "apply_results", "night_problems"],
+        "moves": ["MatchMove", "Moves", "apply_results", "chart_of_night", "night_problems"],
         "pareto": ["ParetoChart", "pareto"],
         "play": ["Play"],
         "race_limits": ["RaceLimits"],

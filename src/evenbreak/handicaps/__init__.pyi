@@ -28,6 +28,7 @@ from evenbreak.handicaps.level_chart import level_chart as level_chart
 from evenbreak.handicaps.moves import MatchMove as MatchMove
 from evenbreak.handicaps.moves import Moves as Moves
 from evenbreak.handicaps.moves import apply_results as apply_results
+from evenbreak.handicaps.moves import chart_of_night as chart_of_night
 from evenbreak.handicaps.moves import night_problems as night_problems
 from evenbreak.handicaps.pareto import ParetoChart as ParetoChart
 from evenbreak.handicaps.pareto import pareto as pareto

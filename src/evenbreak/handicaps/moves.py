@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.chart import Chart
+from evenbreak.handicaps.chart import chart as printed_chart
 from evenbreak.handicaps.systems import PlayedMatch, System
 from evenbreak.ratings.consistency import Problem, find_problems, who_won
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import NOT_STATED, Roster
 
-__all__ = ["MatchMove", "Moves", "apply_results", "night_problems"]
+__all__ = ["MatchMove", "Moves", "apply_results", "chart_of_night", "night_problems"]
 
 
 class MatchMove(NamedTuple):
@@ -177,6 +178,28 @@ def night_problems(
     return sorted(problems, key=lambda problem: problem.row)
 
 
+def chart_of_night(system: System, roster: Roster, results: Results) -> Chart | None:
+    """Return the system's chart by which a night must have been played, as its scores tell.
+
+    That is the only one whose race every score ends, for ratings rounded to whole points.
+    None where no chart is needed, since races or winners are stated, and where not just one
+    of the charts fits.
+
+    >>> from evenbreak.handicaps import system_of
+    >>> club = Roster(["Ann", "Bo"], [92, 80])
+    >>> chart_of_night(
+    ...     system_of("npl"), club, Results.from_names(["Ann"], ["Bo"], [5], [3])
+    ... ).name
+    'npl_10'
+    """
+    night = _night_of(roster, results, None)
+    if not (night.counted & night.rated & (night.winner == 0)).any():
+        return None
+    charts = [printed_chart(name) for name in system.charts]
+    fitting = [chart for chart in charts if _ended(_night_of(roster, results, chart))]
+    return fitting[0] if len(fitting) == 1 else None
+
+
 class _Night(NamedTuple):
     """A night's results beside the list: arrays with an entry for each row.
 
@@ -253,6 +276,11 @@ def _off_chart(night: _Night, problem: Problem) -> bool:
     """Tell whether a score is at odds with a race that only the chart says."""
     scores = problem.column in ("score_a", "score_b")
     return scores and bool(night.from_chart[problem.row] and night.chart_a[problem.row])
+
+
+def _ended(night: _Night) -> bool:
+    """Tell whether all scores end the races that only the chart says."""
+    return not any(_off_chart(night, problem) for problem in find_problems(night.results))
 
 
 def _no_end(roster: Roster, night: _Night, chart: Chart, row: int) -> str:
