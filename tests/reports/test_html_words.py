@@ -39,9 +39,7 @@ def test_many_players_without_games_are_cut():
 
 def test_who_is_not_paired_is_counted():
     season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 5])
-    assert told(season, [0, 1]) == {
-        "the races of 1 rated players": "they were not chosen to be paired"
-    }
+    assert told(season, [0, 1]) == {"the races of 1 rated player": "not chosen to be paired"}
 
 
 def test_groups_that_are_not_paired_are_told_too():

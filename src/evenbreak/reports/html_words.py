@@ -150,8 +150,8 @@ def _not_shown(
         )
     if players < len(rated):
         yield LeftOut(
-            f"the races of {len(rated) - players:,} rated players",
-            "they were not chosen to be paired",
+            f"the races of {count_of(len(rated) - players, 'rated player', 'rated players')}",
+            "not chosen to be paired",
         )
 
 
