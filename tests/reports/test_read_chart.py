@@ -126,6 +126,12 @@ def test_a_chart_is_found_by_its_file(write):
     assert problems_of(write("x"), find_chart) == problems_of(write("x"))
 
 
+def test_a_chart_is_called_as_its_file_in_letters_that_print(tmp_path):
+    path = tmp_path / "a\udcff\x1b.csv"
+    path.write_text(ROWS + "0,,5,5\n")
+    assert read_chart(path).name == r"a\udcff\x1b"
+
+
 @pytest.mark.parametrize("name", ["x" * 5000, "x\0y", "no/such", "x\ny"])
 def test_names_that_no_file_has(name):
     (told,) = problems_of(name, find_chart)

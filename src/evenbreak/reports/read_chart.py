@@ -13,7 +13,7 @@ from evenbreak.handicaps.chart import CHARTS, Chart, chart
 from evenbreak.handicaps.chart_rows import ChartDraft, ChartRow, row_faults
 from evenbreak.handicaps.level_chart import LEVEL_CHARTS, LevelChart, level_chart
 from evenbreak.reports.cells import whole_numbers
-from evenbreak.reports.problems import Problems, quoted
+from evenbreak.reports.problems import Problems, printable, quoted
 from evenbreak.reports.read_table import Table, read_table
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def read_chart_file(path: str | Path) -> ChartFile:
         whole numbers, rows that end before they begin; skill levels that make no chart.
     """
     table = read_table(path, {}, {**DIFFERENCES, **LEVELS})
-    name = "chart" if str(path) == "-" else Path(path).stem
+    name = "chart" if str(path) == "-" else printable(Path(path).stem)
     by_level = sum(column in table for column in LEVELS) > sum(
         column in table for column in DIFFERENCES
     )
