@@ -80,9 +80,8 @@ def test_even_gap_against_fractions():
 
 def test_chances_of_each_row_against_a_sum():
     row = audit(chart("npl_10"), scale="npl").rows[1]
-    assert (
-        row[:4] if isinstance(row, tuple) else (row.difference_from, row.difference_to) == (6, 14)
-    )
+    assert (row.difference_from, row.difference_to) == (6, 14)
+    assert (row.stronger_needs, row.weaker_needs) == (5, 4)
     for got, difference in [(row.p_win_low, 6), (row.p_win_middle, 10), (row.p_win_high, 14)]:
         assert got == pytest.approx(win(1 / (1 + 2 ** (-difference / 30)), 5, 4), rel=1e-13)
     assert row.unfairness == max(abs(row.p_win_low - 0.5), abs(row.p_win_high - 0.5))
