@@ -69,6 +69,14 @@ def test_the_grid_finds_what_the_polynomials_find(text_1, text_2):
     assert also == pytest.approx(seen, abs=1e-6)
 
 
+def test_what_is_better_is_told_where_chances_underflow():
+    """Below 1/2 the race is better; the chance of the lead underflows long before."""
+    found = crossings("1000:1000", "ahead 1000:1000")
+    assert [round(point.p1, 9) for point in found.points] == [0.5]
+    assert found.better == (1, 2)
+    assert crossings("ahead 1000:1000", "1000:1000").better == (2, 1)
+
+
 def test_grid_and_polynomials_agree_on_long_matches():
     exact, grid = crossings("100:60", "90:54"), crossings("300:180", "270:162")
     assert (exact.exact, grid.exact) == (True, False)

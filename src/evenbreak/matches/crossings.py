@@ -68,7 +68,7 @@ class Crossings(NamedTuple):
     exact
         whether the places were counted exactly: none is missed. If not, two that are
         nearer to each other than a hundredth in the log-odds of p1 may be missed, and so
-        may a touch without crossing.
+        may a touch without crossing, and a place where a chance is below 1e-308.
     """
 
     points: tuple[Crossing, ...]
@@ -129,7 +129,7 @@ def even_probability(
         one, two = win_forms(match)
         roots = form_roots([x - y for x, y in zip(one, two, strict=True)]) or []
     else:
-        roots = _changes_of_sign(partial(line.log_odds, match)) or []
+        roots, _ = _changes_of_sign(partial(line.log_odds, match))
     return tuple(line.point(match, p1) for p1 in roots)
 
 
@@ -171,16 +171,12 @@ def crossings(
     exact = not line.break_matters and degree_of(one) + degree_of(two) <= _HIGHEST_DEGREE
     if exact:
         form = _difference(one, two)
-        roots = form_roots(form)
-        difference: Callable[[Any], Any] = partial(sign_at, form)
+        roots = form_roots(form) or []
+        ends = [0.0, *roots, 1.0] if any(form) else []
+        signs = [sign_at(form, 0.5 * (low + high)) for low, high in pairwise(ends)]
     else:
-        difference = partial(line.difference, one, two)
-        roots = _changes_of_sign(difference)
-    if roots is None:
-        return Crossings((), (0,), exact)
-    ends = [0.0, *roots, 1.0]
-    middles = [0.5 * (low + high) for low, high in pairwise(ends)]
-    better = tuple(1 if difference(p1) > 0 else 2 for p1 in middles)
+        roots, signs = _changes_of_sign(partial(line.difference, one, two))
+    better = tuple(1 if sign > 0 else 2 for sign in signs) or (0,)
     return Crossings(tuple(line.point(one, p1) for p1 in roots), better, exact)
 
 
@@ -269,14 +265,18 @@ def _log_odds_on_grid(line: _Line, played: MatchFormat) -> Any:
     return line.log_odds(played, _P1.copy())
 
 
-def _changes_of_sign(function: Callable[[Any], Any]) -> list[float] | None:
-    """Return where a function of p1 changes its sign; None if it is nowhere but noise."""
+def _changes_of_sign(function: Callable[[Any], Any]) -> tuple[list[float], list[int]]:
+    """Return where a function of p1 changes its sign, and its signs between; none if all is noise.
+
+    The signs are those on the grid: halfway between two zeros both chances may underflow.
+    """
     values = function(_P1)
     known = np.abs(values) > _NOISE  # false for NaN too
     if not known.any():
-        return None
-    places, signs = _P1[known], values[known] > 0.0
-    return [
-        float(brentq(function, places[i], places[i + 1], xtol=1e-14, rtol=1e-14))
-        for i in np.flatnonzero(signs[1:] != signs[:-1])
+        return [], []
+    places, signs = _P1[known], np.sign(values[known]).astype(int)
+    turns = np.flatnonzero(signs[1:] != signs[:-1])
+    roots = [
+        float(brentq(function, places[i], places[i + 1], xtol=1e-14, rtol=1e-14)) for i in turns
     ]
+    return roots, [int(signs[0]), *signs[turns + 1].tolist()]
