@@ -54,7 +54,9 @@ def plot_course(odds: LiveOdds) -> Figure:
     told = f"{swing:+.2f}".replace("-", "\N{MINUS SIGN}")
     last = most >= len(odds.swings) - 2
     side: Literal["left", "right"] = "left" if last or (swing > 0 and most > 0) else "right"
-    label_beside(above, most + 0.5, wins[most] + 0.5 * swing, told, side)
+    label = label_beside(above, most + 0.5, wins[most] + 0.5 * swing, told, side)
+    # Where the line is flat it runs through the label.
+    label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 1.0})
     above.set(ylim=(-0.03, 1.03), ylabel="P(A wins the match)")
     above.legend(frameon=False, loc="best")
     leverages = [moment.leverage or 0.0 for moment in odds.course[:-1]]
