@@ -241,6 +241,7 @@ def test_warnings_go_to_stderr(run, tmp_path):
         ("--race-to", "0"),
         ("--games", "5..9", "--race-to", "5"),
         ("--top", "1"),
+        ("--top", "1001"),
         ("--top", "5", "--players", "Ann,Bo"),
         ("--players", "Ann"),
         ("--players", "Ann,Nobody"),

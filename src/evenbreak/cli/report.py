@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["report"]
 
-TOP = 10
+TOP, MOST_PAIRED = 10, 1000
 RACE_TO = 7
 
 EXAMPLES = """\b
@@ -58,9 +58,10 @@ Examples:
 )
 @click.option(
     "--top",
-    type=click.IntRange(2),
+    type=click.IntRange(2, MOST_PAIRED),
     metavar="N",
-    help=f"Pair the N players with the most games.  [default: {TOP}, without --players]",
+    help=f"Pair the N players with the most games, {MOST_PAIRED} at most.  [default: {TOP}, "
+    "without --players]",
 )
 @wants_aliases
 @click.option(
