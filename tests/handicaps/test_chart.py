@@ -62,7 +62,7 @@ def test_turning_the_players_round_turns_the_race_round(name, difference):
 @pytest.mark.parametrize("name", CHARTS)
 def test_charts_are_those_of_the_sheets(name):
     if not SHARED.is_dir():
-        pytest.skip("the sheets lie beside the repository only where it is developed")
+        pytest.skip("the sheets lie beside some checkouts only")
     header, *lines = (SHARED / f"{name}.csv").read_text(encoding="utf-8").splitlines()
     assert header == "difference_from,difference_to,stronger_needs,weaker_needs"
     rows = [tuple(int(cell) if cell else None for cell in line.split(",")) for line in lines]

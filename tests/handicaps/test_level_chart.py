@@ -21,7 +21,7 @@ def test_races_of_the_printed_chart(levels, race):
 
 def test_the_chart_is_that_of_the_sheet():
     if not SHARED.is_dir():
-        pytest.skip("the sheets lie beside the repository only where it is developed")
+        pytest.skip("the sheets lie beside some checkouts only")
     header, *lines = (SHARED / "apa_8ball.csv").read_text(encoding="utf-8").splitlines()
     assert header == "level,opponent_level,needs,opponent_needs"
     assert len(lines) == 36
