@@ -60,8 +60,7 @@ Examples:
     "--top",
     type=click.IntRange(2, MOST_PAIRED),
     metavar="N",
-    help=f"Pair the N players with the most games, {MOST_PAIRED} at most.  [default: {TOP}, "
-    "without --players]",
+    help=f"Pair the N players with the most games.  [default: {TOP}, without --players]",
 )
 @wants_aliases
 @click.option(
