@@ -114,6 +114,15 @@ def test_ratings_of_another_scale_are_doubted(run, roster):
     assert "Warning" not in run("matchups", roster(), *SURE).stderr
 
 
+@pytest.mark.parametrize(("scale", "doubted"), [("fargo", True), ("elo", True), ("npl", False)])
+def test_a_middle_far_from_all_ratings_is_no_starter(run, roster, scale, doubted):
+    path = roster("player,rating,games\nAnn,92,140\nBo,,0\n")
+    words = (path, *SURE, "--scale", scale)
+    warning = f"is the middle of the {scale} scale, and the ratings here go from 92 to 92"
+    assert (warning in run("matchups", *words).stderr) == doubted
+    assert "is the middle" not in run("matchups", *words, "--starter", "80").stderr
+
+
 def test_levels_need_a_scale(run, roster):
     path = roster("player,skill level\nAnn,5\nBo,3\n")
     result = run("matchups", path, "--chart", "apa_8ball")

@@ -136,7 +136,7 @@ def matchups(
     """
     refuse_both(games, race_to)
     if chart is None and games is None and race_to is None:
-        refuse("which races is missing; give --chart NAME, --games LO..HI or --race-to N")
+        refuse("say which races; give --chart NAME, --games LO..HI or --race-to N")
     if tables is not None and minutes_per_game is None:
         refuse("--tables needs to know how long a game takes; add --minutes-per-game, such as 8")
     if [roster, pairs, chart].count("-") > 1:
@@ -250,10 +250,23 @@ def _started(roster: Roster, scale: Scale, starter: float | None, sd: float | No
         (roster.games == 0) & ~unrated & unstated,
         f"No games yet, rating taken as right to ± {spread:g}",
     )
+    if starter is None and unrated.any() and not unrated.all():
+        _doubt_starter(start, roster.rating[~unrated], scale)
     silent = np.isnan(started.standard_error)
     if not silent.all():
         _say_of(roster, silent, "No standard_error, rating taken as right")
     return started
+
+
+def _doubt_starter(start: float, rated: NDArray[Any], scale: Scale) -> None:
+    """Warn of a starter that nobody asked for, a doubling of the odds from all who are rated."""
+    least, most = float(rated.min()), float(rated.max())
+    if not least - scale.points_per_doubling <= start <= most + scale.points_per_doubling:
+        _say(
+            f"Warning: {start:g} is the middle of the {scale.name} scale, and the ratings here go "
+            f"from {least:g} to {most:g}; say with --starter what a new player starts with, or "
+            "with --scale what the ratings mean"
+        )
 
 
 def _doubt_scale(roster: Roster, scale: Scale) -> None:
