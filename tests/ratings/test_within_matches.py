@@ -118,6 +118,16 @@ def test_the_advantage_of_the_breaker_is_found(breaks):
     assert found.low > 0.15
 
 
+@pytest.mark.parametrize("form", [0.0, 0.6])
+def test_who_breaks_because_he_is_the_stronger_gets_no_advantage_for_it(form):
+    """Winner breaks give the break to whoever is stronger on the day."""
+    told = walk_forward(played(np.random.default_rng(10), form=form, breaks=1), prior_sd=0.5)
+    found = break_advantage(told)
+    assert found is not None
+    assert found.low < 0.0 < found.high
+    assert found.high - found.low < 0.25
+
+
 def test_the_advantage_of_the_first_column_is_found():
     told = walk_forward(played(np.random.default_rng(7), side=0.3), prior_sd=0.5)
     found = side_advantage(told)

@@ -24,6 +24,7 @@ __all__ = [
     "calibration",
     "log_loss",
     "logistic_coefficient",
+    "with_error",
 ]
 
 Floats = NDArray[np.float64]
@@ -156,10 +157,11 @@ def logistic_coefficient(
         p = expit(offset + b * x)
         slope = float((x * (won - games * p)).sum())
         curvature = float((games * p * (1.0 - p) * x * x).sum())
-        if curvature < 1e-9:
+        if curvature <= 1e-9 * float((games * x * x).sum()):
             return None
         # A long step may leap over the maximum; a short one only takes longer.
-        step = max(-1.0, min(1.0, slope / curvature))
+        most = 1.0 / float(np.abs(x).max())
+        step = max(-most, min(most, slope / curvature))
         b += step
         if abs(step) < 1e-12 * max(1.0, abs(b)):
             break
@@ -171,7 +173,12 @@ def logistic_coefficient(
     if many < 2:
         return None
     error = math.sqrt(float((scores**2).sum()) * many / (many - 1)) / curvature
-    return Estimate(b, b - _Z * error, b + _Z * error)
+    return with_error(b, error)
+
+
+def with_error(value: float, error: float) -> Estimate:
+    """Return a figure with the 95 % interval that its standard error makes."""
+    return Estimate(value, value - _Z * error, value + _Z * error)
 
 
 def calibration(

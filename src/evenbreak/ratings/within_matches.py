@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import expit, ndtr
+from scipy.special import expit, log_expit, logit, logsumexp, ndtr
 
-from evenbreak.ratings.calibration import Estimate, logistic_coefficient
+from evenbreak.ratings.calibration import Estimate, logistic_coefficient, with_error
 from evenbreak.ratings.results import FORMATS
-from evenbreak.ratings.walk_forward import Forecasts
+from evenbreak.ratings.walk_forward import NODES, Forecasts
 
 __all__ = [
     "Dispersion",
@@ -35,6 +35,9 @@ Ints = NDArray[np.int64]
 
 REPLICAS = 300
 """Seasons that chance plays."""
+
+MOST_ADVANTAGE = 5.0
+"""How far the search for an advantage of the breaker goes, in log-odds."""
 
 
 class Dispersion(NamedTuple):
@@ -196,24 +199,58 @@ def first_breaks(told: Forecasts) -> FirstBreaks | None:
 def break_advantage(told: Forecasts) -> Estimate | None:
     """Return the advantage of the breaker in log-odds, where it is known who broke each rack.
 
-    None where no match states its racks, who broke first and who broke next.
+    None where no match states its racks, who broke first and who broke next, or where
+    the breaker won every rack, or none.
+
+    Notes
+    -----
+    Under winner breaks the stronger player breaks more often, by how much stronger he is
+    on the day. So the difference of each match is integrated out: normal about that of
+    the ratings, its variance theirs and that of good and bad days, which is estimated too.
+    The standard error is the sandwich's, a match a cluster.
     """
-    results = told.results
-    if results.racks is None or results.first_break is None or results.break_format is None:
+    from scipy.optimize import minimize
+
+    tally = _tally(told)
+    rows = tally.sum((1, 2)) > 0
+    if not rows.any():
         return None
-    rows, breaks, wins = [], [], []
+    won, lost = tally[rows, :, 0].T[:, :, None], tally[rows, :, 1].T[:, :, None]
+    points, weights = np.polynomial.hermite_e.hermegauss(NODES)
+    breaks = np.array([1.0, -1.0])[:, None, None]
+
+    def at(b: float, days: float) -> tuple[Floats, Floats]:
+        """Return the log-likelihood of each match and its slope in b."""
+        spread = np.sqrt(told.sd[rows] ** 2 + days**2)
+        x = told.difference[rows, None] + spread[:, None] * points + b * breaks
+        log = (won * log_expit(x) + lost * log_expit(-x)).sum(0) + np.log(weights)
+        whole = logsumexp(log, axis=1)
+        slope = (breaks * (won - (won + lost) * expit(x))).sum(0)
+        return whole, (np.exp(log - whole[:, None]) * slope).sum(1)
+
+    def loss(x: Floats) -> float:
+        return -float(at(x[0], x[1])[0].sum())
+
+    box = [(-MOST_ADVANTAGE, MOST_ADVANTAGE), (0.0, MOST_ADVANTAGE)]
+    b, days = map(float, minimize(loss, np.array([0.0, 0.1]), method="L-BFGS-B", bounds=box).x)
+    curvature = float((at(b - 1e-4, days)[1] - at(b + 1e-4, days)[1]).sum()) / 2e-4
+    if abs(b) > 0.99 * MOST_ADVANTAGE or curvature <= 0.0:
+        return None
+    return with_error(b, math.sqrt(float((at(b, days)[1] ** 2).sum())) / curvature)
+
+
+def _tally(told: Forecasts) -> Floats:
+    """Return the racks of each match, by who broke and who won: 0 for a, 1 for b."""
+    results = told.results
+    tally = np.zeros((len(told), 2, 2))
+    if results.racks is None or results.first_break is None or results.break_format is None:
+        return tally
     for row in np.flatnonzero((results.first_break > 0) & (results.break_format > 0)):
         text = results.racks[row]
         broke = _breakers(text, int(results.first_break[row]), FORMATS[results.break_format[row]])
-        rows += [row] * len(text)
-        breaks += broke
-        wins += [letter == "a" for letter in text]
-    if not rows:
-        return None
-    match = np.array(rows)
-    x = np.where(np.array(breaks) == 1, 1.0, -1.0)
-    won = np.array(wins, dtype=float)
-    return logistic_coefficient(x, won, np.ones(len(x)), match, offset=_log_odds(told)[match])
+        for breaker, letter in zip(broke, text, strict=True):
+            tally[row, breaker - 1, "ab".index(letter)] += 1.0
+    return tally
 
 
 def _breakers(racks: str, first: int, breaks: str) -> list[int]:
@@ -230,8 +267,7 @@ def _breakers(racks: str, first: int, breaks: str) -> list[int]:
 
 
 def _log_odds(told: Forecasts) -> Floats:
-    p = told.p_game_integrated
-    return np.asarray(np.log(p) - np.log1p(-p))
+    return np.asarray(logit(told.p_game_integrated.clip(1e-12, 1.0 - 1e-12)))
 
 
 def _two_sided(z: float) -> float:
