@@ -75,3 +75,13 @@ def test_a_given_prior_is_used_throughout():
 def test_one_date_is_refused():
     with pytest.raises(InputError, match="give two dates"):
         validate(season(0.6, matches=45))
+
+
+def test_a_chance_that_rounds_to_certainty_may_still_fail():
+    """With hardly a prior who has always won cannot lose, and then does."""
+    results = Results.from_names(
+        ["Ann"] * 4, ["Bo"] * 4, [9, 9, 9, 0], [0, 0, 0, 9],
+        date=[f"2024-09-0{day}" for day in range(1, 5)],
+    )  # fmt: skip
+    found = validate(results, prior_sd=100.0)
+    assert all(np.isfinite(row.log_loss).all() for row in found.scored)

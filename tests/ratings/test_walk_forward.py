@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.special import expit
@@ -164,6 +164,7 @@ def test_settings_out_of_range_are_refused(name, value):
 
 
 @given(st.integers(0, 10_000))
+@settings(max_examples=20)
 def test_which_player_is_called_a_does_not_matter(seed):
     results = season(seed, matches=20, days=4)
     turned = Results(

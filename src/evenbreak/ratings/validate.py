@@ -17,6 +17,8 @@ from evenbreak.ratings.calibration import (
     log_loss,
     logistic_coefficient,
 )
+from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.prior import WIDTHS
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.spots import SpotFairness, spot_fairness
 from evenbreak.ratings.walk_forward import Forecasts, walk_forward
@@ -35,13 +37,16 @@ __all__ = ["PRIORS", "Scored", "Validation", "validate"]
 
 Floats = NDArray[np.float64]
 
-PRIORS = tuple(float(0.1 * 10 ** (step / 5)) for step in range(7))
-"""The prior standard deviations that are tried, in log-odds: 0.1 to 1.58, five a decade."""
+PRIORS = WIDTHS[:9]
+"""The prior standard deviations that are tried, in log-odds: 0.09 to 1.39, `PRIOR_SD` too."""
 
 FEWEST_DATES = 10
 """Dates from which the bootstrap draws whole dates; with fewer it draws matches."""
 
 BINS = 10
+
+SUREST = 1e-12
+"""No chance is taken to be nearer to 0 or 1."""
 
 
 class Scored(NamedTuple):
@@ -241,21 +246,24 @@ def _as_it_went(walks: list[Forecasts], of: str, how: str) -> float:
         [np.bincount(date_of, log_loss(*_predictions(walk, of, how)), many) for walk in walks]
     )
     before = np.cumsum(by_date, axis=1) - by_date
-    # Without a date to judge by all are equal: then the prior in the middle speaks.
-    middle = len(walks) // 2
-    chosen = np.where((before == before[0]).all(0), middle, before.argmin(0))
+    # Without a date to judge by all are equal up to rounding: then the default speaks.
+    equal = np.ptp(before, axis=0) < 1e-9
+    chosen = np.where(equal, PRIORS.index(PRIOR_SD), before.argmin(0))
     return float(by_date[chosen, np.arange(many)].sum() / _predictions(walks[0], of, how)[2].sum())
 
 
 def _predictions(walk: Forecasts, of: str, how: str) -> tuple[Floats, Floats, Floats]:
     """Return the chances, wins and trials of all matches; none where there is no race."""
+    plain = how == "plug-in"
     if of == "game":
-        p = walk.p_game if how == "plug-in" else walk.p_game_integrated
-        return p, walk.results.score_a.astype(float), walk.games.astype(float)
-    raced = walk.race_a > 0
-    p = walk.p_match if how == "plug-in" else walk.p_match_integrated
-    won = np.where(raced, walk.won, 0.0)
-    return np.where(raced, p, 0.5), won, raced.astype(float)
+        p = walk.p_game if plain else walk.p_game_integrated
+        won, trials = walk.results.score_a.astype(float), walk.games.astype(float)
+    else:
+        raced = walk.race_a > 0
+        p = np.where(raced, walk.p_match if plain else walk.p_match_integrated, 0.5)
+        won, trials = np.where(raced, walk.won, 0.0), raced.astype(float)
+    # Nothing is certain: a chance that rounds to 1 would cost more than can be counted.
+    return np.clip(p, SUREST, 1.0 - SUREST), won, trials
 
 
 def _mean_loss(walk: Forecasts, of: str, how: str) -> float:

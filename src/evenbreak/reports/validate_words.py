@@ -6,11 +6,13 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.results import FORMATS
 
 if TYPE_CHECKING:
-    from evenbreak.ratings.calibration import Estimate
     from evenbreak.ratings.scale import Scale
+    from evenbreak.ratings.spots import SpotFairness
     from evenbreak.ratings.validate import Scored, Validation
     from evenbreak.ratings.within_matches import Dispersion, Streaks
 
@@ -43,13 +45,17 @@ def verdict(found: Validation) -> str:
 
 
 def misses(found: Validation) -> bool:
-    """Return whether anything speaks against the model."""
+    """Return whether anything speaks against the model, each test with p < `ODD`."""
     tests = [found.dispersion, found.streaks, found.first_breaks]
     odd = any(test is not None and test.p_value < ODD for test in tests)
-    tilted = bool(found.spots) and not found.spots[-1].low <= 0.5 <= found.spots[-1].high
-    slopes = [row.slope for row in found.scored if row.how == "integrated"]
-    sloped = any(one is not None and not one.low <= 1.0 <= one.high for one in slopes)
-    return odd or tilted or sloped or _sure(found.side) or _sure(found.breaker)
+    # A handicap that works leaves matches no favourites, whatever the ratings say.
+    judged = ["game"] if found.spots else ["game", "match"]
+    slopes = [row.slope for row in found.scored if row.how == "integrated" and row.of in judged]
+    sloped = any(slope is not None and _off(slope, 1.0) != 0 for slope in slopes)
+    tilted = bool(found.spots) and _off(_share(found.spots[-1]), 0.5) != 0
+    advantages = (found.side, found.breaker)
+    ahead = any(one is not None and _off(one, 0.0) != 0 for one in advantages)
+    return odd or sloped or tilted or ahead
 
 
 def findings(found: Validation, scale: Scale) -> Iterator[str]:
@@ -60,7 +66,7 @@ def findings(found: Validation, scale: Scale) -> Iterator[str]:
     yield _prior(found, scale)
     yield _integrated(found)
     if found.dispersion is not None:
-        yield _dispersion(found.dispersion, _winner_breaks(found))
+        yield _dispersion(found.dispersion, _winner_breaks(found), bool(found.spots))
     if found.streaks is not None:
         yield _streaks(found.streaks)
     yield from _advantages(found)
@@ -90,9 +96,10 @@ def _slope(found: Validation) -> str:
             "Whether chances are right cannot be told: there were no favourites, or they won all."
         )
     told = f"(slope {slope.value:.2f}, {slope.low:.2f} to {slope.high:.2f}; 1 is right)"
-    if slope.high < 1.0:
+    off = _off(slope, 1.0)
+    if off < 0:
         return f"Chances of games are too sure of themselves: the truth is nearer to even {told}."
-    if slope.low > 1.0:
+    if off > 0:
         return f"Chances of games are too timid: the truth is further from even {told}."
     if slope.high - slope.low > VAGUE:
         return f"Chances of games may be right, but the matches are too few to tell {told}."
@@ -100,24 +107,21 @@ def _slope(found: Validation) -> str:
 
 
 def _prior(found: Validation, scale: Scale) -> str:
-    points = found.prior_sd * scale.points_per_log_odds
+    points = f"{found.prior_sd * scale.points_per_log_odds:.3g} points on the scale {scale.name}"
+    log_odds = f"{found.prior_sd:.2g} in log-odds"
     if len(found.priors) == 1:
-        return f"The prior's standard deviation was given: {found.prior_sd:.3g} in log-odds."
+        return f"The prior's standard deviation was given: {points}, {log_odds}."
     edge = ""
     if found.prior_sd in (found.priors[0][0], found.priors[-1][0]):
         edge = " It is the last that was tried: a clear best there is not."
-    wide_sd, wide = found.priors[-1]
     best = _row(found, "game", "integrated")
-    cost = ""
-    if wide - best.log_loss.value > 5e-5:
-        cost = (
-            f"A weak prior of {wide_sd:.2f} would cost {wide - best.log_loss.value:.4f} of "
-            "log-loss a game. "
-        )
+    usual = PRIOR_SD * scale.points_per_log_odds
+    cost = dict(found.priors)[PRIOR_SD] - best.log_loss.value
     return (
-        f"The prior to use has a standard deviation of {found.prior_sd:.2f} in log-odds, "
-        f"{points:.3g} points on the scale {scale.name}.{edge} {cost}Had it been chosen as the "
-        f"season went, log-loss would have been {best.as_it_went:.4f}."
+        f"The prior to use has a standard deviation of {points} ({log_odds}): give it to "
+        f"evenbreak rate as --prior.{edge} The {usual:.3g} points that are used unless another is "
+        f"given cost {cost:.4f} more log-loss a game. Had the prior been chosen as the season "
+        f"went, log-loss would have been {best.as_it_went:.4f}."
     )
 
 
@@ -151,11 +155,11 @@ def _matches(found: Validation) -> Iterator[str]:
         )
     elif row.slope is None:
         yield f"Whether chances of matches are right cannot be told ({told})."
-    elif row.slope.low <= 1.0 <= row.slope.high:
+    elif not _off(row.slope, 1.0):
         few = row.slope.high - row.slope.low > VAGUE
         yield f"Chances of matches {'may be right, but are few' if few else 'are right'} ({told})."
     else:
-        wrong = "too sure" if row.slope.high < 1.0 else "too timid"
+        wrong = "too sure" if row.slope.value < 1.0 else "too timid"
         yield f"Chances of matches are {wrong} ({told})."
 
 
@@ -165,7 +169,7 @@ def _winner_breaks(found: Validation) -> bool:
     return breaks is not None and bool((breaks == FORMATS.index("winner")).any())
 
 
-def _dispersion(test: Dispersion, winner_breaks: bool) -> str:
+def _dispersion(test: Dispersion, winner_breaks: bool, handicaps: bool) -> str:
     told = (
         f"{test.seen:.2f} times as spread as those of known strengths, and the model, which "
         f"knows how unsure it is, says {test.by_chance:.2f} (p {_p(test.p_value)})"
@@ -173,10 +177,11 @@ def _dispersion(test: Dispersion, winner_breaks: bool) -> str:
     if test.p_value >= ODD:
         return f"Scores are spread as the model says: {told}."
     if test.seen > test.by_chance:
-        breaks = ", or the break is worth much and the winner breaks" if winner_breaks else ""
+        other = ", or the break is worth much and the winner breaks" if winner_breaks else ""
+        other += ", or the handicaps know more of the players than these ratings" * handicaps
         return (
             f"Scores are more spread than the model says: {told}. Players have good and bad "
-            f"days, or ratings lag behind{breaks}; chances of long races are then too sure."
+            f"days, or ratings lag behind{other}; chances of long races are then too sure."
         )
     return f"Scores are closer together than the model says: {told}."
 
@@ -209,7 +214,7 @@ def _advantages(found: Validation) -> Iterator[str]:
         yield _advantage(found.breaker, "The break", "the breaker")
     if found.side is not None:
         text = _advantage(found.side, "Standing in the first column", "player_a")
-        if _sure(found.side):
+        if _off(found.side, 0.0):
             text += (
                 " Where that is the home player, it is the home advantage; elsewhere the order of "
                 "the columns is not by chance."
@@ -219,12 +224,8 @@ def _advantages(found: Validation) -> Iterator[str]:
 
 def _advantage(estimate: Estimate, what: str, who: str) -> str:
     p, low, high = (1.0 / (1.0 + math.exp(-b)) for b in estimate)
-    told = f"{who} wins {p:.3f} of even games, {low:.3f} to {high:.3f}"
-    return f"{what} {'is an advantage' if low > 0.5 else _no(high)}: {told}."
-
-
-def _no(high: float) -> str:
-    return "is a disadvantage" if high < 0.5 else "is no sure advantage"
+    sure = ("is no sure advantage", "is an advantage", "is a disadvantage")[_off(estimate, 0.0)]
+    return f"{what} {sure}: {who} wins {p:.3f} of even games, {low:.3f} to {high:.3f}."
 
 
 def _spots(found: Validation) -> str:
@@ -234,9 +235,10 @@ def _spots(found: Validation) -> str:
         f"matches, {every.share:.3f} ({every.low:.3f} to {every.high:.3f}); these ratings say "
         f"{every.expected:.3f}"
     )
-    if every.low > 0.5:
+    off = _off(_share(every), 0.5)
+    if off > 0:
         return f"The chart gives too little: {told}."
-    if every.high < 0.5:
+    if off < 0:
         return f"The chart gives too much: {told}."
     return f"Nothing speaks against the chart: {told}."
 
@@ -245,12 +247,16 @@ def _row(found: Validation, of: str, how: str) -> Scored:
     return next(row for row in found.scored if (row.of, row.how) == (of, how))
 
 
-def _sure(estimate: Estimate | None) -> bool:
-    """Return whether the interval leaves 0 out by as much again as half of it: p < 0.01."""
-    if estimate is None:
-        return False
-    half = (estimate.high - estimate.low) / 2.0
-    return abs(estimate.value) > 1.32 * half
+def _off(estimate: Estimate, right: float) -> int:
+    """Return 1 or -1 where an estimate is surely above or below what is right, p < `ODD`."""
+    # The interval is of 95 %, that is 1.96 standard errors each way; 2.58 leave out 1 %.
+    far = (estimate.high - estimate.low) / 2.0 * 2.576 / 1.960
+    middle = (estimate.high + estimate.low) / 2.0
+    return int(middle - far > right) - int(middle + far < right)
+
+
+def _share(spot: SpotFairness) -> Estimate:
+    return Estimate(spot.share, spot.low, spot.high)
 
 
 def _p(value: float) -> str:
