@@ -14,7 +14,8 @@ from evenbreak import __version__
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.reports.frames import ratings_frame
-from evenbreak.reports.html_sheet import MOST_IN_TABLE, MOST_LISTED, sheet_html, shown_name
+from evenbreak.reports.html_page import shown_name
+from evenbreak.reports.html_sheet import MOST_IN_TABLE, MOST_LISTED, sheet_html
 from evenbreak.reports.matchups import RaceLimits, matchups_frame, most_active
 from evenbreak.reports.read_results import ResultsFile
 from evenbreak.reports.sheet_words import races_by_name

@@ -12,6 +12,7 @@ from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale
 from evenbreak.reports.matchups import RaceLimits, by_strength
 from evenbreak.reports.read_results import ResultsFile
+from evenbreak.reports.read_roster import RosterFile
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -104,8 +105,8 @@ def count_groups(ratings: Ratings) -> int:
     return len(np.unique(ratings.component[~ratings.idle]))
 
 
-def file_name(file: ResultsFile) -> str:
-    """Return the name of the results file without its folders."""
+def file_name(file: ResultsFile | RosterFile) -> str:
+    """Return the name of a file without its folders."""
     return file.source.replace("\\", "/").rpartition("/")[2]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from evenbreak.matches.win import race_win_probability
@@ -28,6 +28,7 @@ __all__ = [
     "player_lines",
     "race_blocks",
     "race_cards",
+    "roster_lines",
     "sure_pairs",
 ]
 
@@ -39,15 +40,18 @@ _ROOM, _FIGURE, _EDGE = 144.0, 1.5, 2.2
 
 
 class PlayerLine(NamedTuple):
-    """A line of the ratings; `low`, `middle` and `high` are per cent of the axis of the bars."""
+    """A line of the ratings; `low`, `middle` and `high` are per cent of the axis of the bars.
+
+    An error that is not stated is empty; games, won and lost are None where nobody says.
+    """
 
     place: int
     name: str
     rating: str
     error: str
-    games: int
-    won: int
-    lost: int
+    games: int | None
+    won: int | None
+    lost: int | None
     group: int | None
     low: float
     middle: float
@@ -105,13 +109,9 @@ class SurePair(NamedTuple):
 def player_lines(rated: pd.DataFrame, ratings: Ratings) -> list[PlayerLine]:
     """Return the lines of the ratings, in the order of `rated`; the index says the place."""
     decimals = decimals_of(ratings.scale)
-    low, high = _reach(rated)
     grouped = count_groups(ratings) > 1
+    along = _along(rated)
     rows: Any = rated.itertuples(index=True)
-
-    def along(points: float) -> float:
-        return round(100 * (points - low) / (high - low), 2)
-
     return [
         PlayerLine(
             row.Index + 1,
@@ -122,19 +122,59 @@ def player_lines(rated: pd.DataFrame, ratings: Ratings) -> list[PlayerLine]:
             row.won,
             row.lost,
             row.component if grouped else None,
-            along(row.rating - 2 * row.standard_error),
-            along(row.rating),
-            along(row.rating + 2 * row.standard_error),
+            *along(row.rating, row.standard_error),
         )
         for row in rows
     ]
 
 
+def roster_lines(rated: pd.DataFrame, scale: Scale) -> list[PlayerLine]:
+    """Return the lines of a roster's ratings, in the order of `rated`, as `player_lines` does.
+
+    `rated` has the columns player, rating, standard_error (NaN: not stated), games (below 0:
+    not stated) and component (0: not stated).
+    """
+    decimals = decimals_of(scale)
+    # A list of whole points is shown as the league knows it.
+    whole = bool((rated["rating"] % 1 == 0).all())
+    grouped = rated["component"].max() > 1
+    along = _along(rated)
+    rows: Any = rated.itertuples(index=True)
+    return [
+        PlayerLine(
+            row.Index + 1,
+            row.player,
+            f"{row.rating:.{0 if whole else decimals}f}",
+            "" if math.isnan(row.standard_error) else f"{row.standard_error:.{decimals}f}",
+            row.games if row.games >= 0 else None,
+            None,
+            None,
+            row.component if grouped else None,
+            *along(row.rating, row.standard_error),
+        )
+        for row in rows
+    ]
+
+
+def _along(rated: pd.DataFrame) -> Callable[[float, float], tuple[float, float, float]]:
+    """Return the ends and the middle of a bar, per cent of the axis, by rating and error."""
+    low, high = _reach(rated)
+
+    def along(rating: float, error: float) -> tuple[float, float, float]:
+        error = 0.0 if math.isnan(error) else error
+        ends = (rating - 2 * error, rating, rating + 2 * error)
+        first, middle, last = (round(100 * (end - low) / (high - low), 2) for end in ends)
+        return first, middle, last
+
+    return along
+
+
 def _reach(rated: pd.DataFrame) -> tuple[float, float]:
     """Return the ends of the axis of the bars, in points."""
-    low = float((rated["rating"] - 2 * rated["standard_error"]).min())
-    high = float((rated["rating"] + 2 * rated["standard_error"]).max())
-    edge = 0.04 * (high - low)
+    error = rated["standard_error"].fillna(0.0)
+    low = float((rated["rating"] - 2 * error).min())
+    high = float((rated["rating"] + 2 * error).max())
+    edge = 0.04 * (high - low) or 1.0
     return low - edge, high + edge
 
 

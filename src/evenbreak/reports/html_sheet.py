@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import base64
-import hashlib
-import unicodedata
-from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from evenbreak import __version__
 from evenbreak.ratings.fit import Ratings
 from evenbreak.reports import html_words as words
 from evenbreak.reports.frames import file_name
+from evenbreak.reports.html_page import html_page
 from evenbreak.reports.html_parts import (
     bar_ticks,
     chart_bands,
@@ -79,19 +75,6 @@ def sheet_html(
     >>> page[:15], "Fair races from season.csv" in page, "://" in page
     ('<!doctype html>', True, False)
     """
-    from jinja2 import Environment, FunctionLoader, StrictUndefined
-
-    environment = Environment(
-        autoescape=True,
-        loader=FunctionLoader(_template),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    environment.filters["name"] = shown_name
-    style = _template("sheet.css")
-    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
     listed = rated.head(MOST_LISTED)
     chosen = rated[rated["player"].isin({*paired["player_a"], *paired["player_b"]})]
     in_table = chosen.head(MOST_IN_TABLE)
@@ -102,9 +85,11 @@ def sheet_html(
     furthest = max((pair.difference for pair in sure), default=0.0)
     bands = chart_bands(limits, ratings.scale, furthest) if sure else []
     shown = len(listed), len(in_table)
-    page = environment.get_template("sheet.html").render(
-        style=style,
-        csp=f"default-src 'none'; style-src 'sha256-{digest}'; base-uri 'none'; form-action 'none'",
+    links = [("races", "Races"), ("ratings", "Ratings")]
+    links += [("chart", "How even")] if sure else []
+    return html_page(
+        "sheet.html",
+        links=[*links, ("sure", "How sure"), ("left-out", "Left out")],
         title=f"Fair races from {file_name(file)}",
         source=source_and_dates(file),
         played=played(ratings),
@@ -124,23 +109,6 @@ def sheet_html(
         sure=words.three_pairs(sure),
         left_out=list(words.left_out_and_why(file, ratings, rated, paired, shown)),
         model=words.about_model(ratings),
-        version=__version__,
+        made_of="results",
         file=file,
     )
-    return page.encode()
-
-
-def shown_name(name: str) -> str:
-    r"""Return a name with a mark for each control character, which HTML cannot hold.
-
-    >>> shown_name("Bo\x1b") == "Bo\ufffd"
-    True
-    """
-    return "".join(
-        "\N{REPLACEMENT CHARACTER}" if unicodedata.category(letter) == "Cc" else letter
-        for letter in name
-    )
-
-
-def _template(name: str) -> str:
-    return files("evenbreak.reports").joinpath("templates", name).read_text("utf-8")

@@ -11,12 +11,21 @@ from evenbreak.ratings.fit import Ratings
 from evenbreak.reports.frames import count_groups, file_name
 from evenbreak.reports.html_parts import SurePair
 from evenbreak.reports.read_results import ResultsFile
+from evenbreak.reports.read_roster import RosterFile
 from evenbreak.reports.sheet_words import count_of, decimals_of
 
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["LeftOut", "about_model", "how_sure", "left_out_and_why", "three_pairs"]
+__all__ = [
+    "LeftOut",
+    "about_model",
+    "how_sure",
+    "left_out_and_why",
+    "some_names",
+    "three_pairs",
+    "warnings_of",
+]
 
 
 class LeftOut(NamedTuple):
@@ -107,7 +116,7 @@ def left_out_and_why(
     idle = [name for name, none in zip(ratings.players, ratings.idle, strict=True) if none]
     if idle:
         yield LeftOut(
-            f"{count_of(len(idle), 'player', 'players')} without a result: {_some(idle)}",
+            f"{count_of(len(idle), 'player', 'players')} without a result: {some_names(idle)}",
             "rated in the middle for want of knowledge",
         )
     apart = int(paired["race_a"].isna().sum())
@@ -122,6 +131,11 @@ def left_out_and_why(
             "no chain of opponents links them; ratings compare only within a group",
         )
     yield from _not_shown(rated, paired, shown)
+    yield from warnings_of(file)
+
+
+def warnings_of(file: ResultsFile | RosterFile) -> Iterator[LeftOut]:
+    """Yield what a person should look at in a file, without the file's folder."""
     for warning in file.warnings:
         # Where the file lay on somebody's disk is nobody else's business.
         if not warning.startswith(f"{file.source}:"):
@@ -155,7 +169,7 @@ def _not_shown(
         )
 
 
-def _some(names: Sequence[str]) -> str:
+def some_names(names: Sequence[str]) -> str:
     """Return a few names of many."""
     # Isolated, so that a name from right to left leaves the sentence as it is.
     told = ", ".join(
