@@ -126,9 +126,10 @@ def _prior(found: Validation, scale: Scale) -> str:
 
 
 def _integrated(found: Validation) -> str:
-    of = "match" if "match" in found.gain else "game"
+    # Under handicaps chances of matches are mostly noise, so games are judged by.
+    of = "match" if "match" in found.gain and not found.spots else "game"
     gain = found.gain[of]
-    told = f"({gain.value:+.4f} of log-loss a {of}, {gain.low:+.4f} to {gain.high:+.4f})"
+    told = f"({gain.value:+z.4f} of log-loss a {of}, {gain.low:+z.4f} to {gain.high:+z.4f})"
     if gain.low > 0.0:
         return f"Integrating the uncertainty of ratings out predicts better {told}."
     if gain.high < 0.0:
