@@ -137,6 +137,17 @@ def test_the_advantage_of_the_first_column_is_found():
     assert found.low > 0.15
 
 
+def test_two_dates_do_not_make_a_first_column_matter():
+    """Two dates alone have hardly a spread that could be estimated."""
+    off = 0
+    for seed in range(40):
+        rng = np.random.default_rng([11, seed])
+        found = side_advantage(walk_forward(played(rng, matches=80), prior_sd=0.5))
+        assert found is not None
+        off += not found.low < 0.0 < found.high
+    assert off <= 6  # 5 % of 40 are 2
+
+
 def test_who_breaks_first_wins_more_when_the_break_is_worth_much():
     told = walk_forward(played(np.random.default_rng(8), advantage=0.8, breaks=3), prior_sd=0.5)
     found = first_breaks(told)

@@ -179,7 +179,9 @@ def side_advantage(told: Forecasts) -> Estimate | None:
     """
     ones = np.ones(len(told))
     won, games = told.results.score_a.astype(float), told.games.astype(float)
-    return logistic_coefficient(ones, won, games, told.date_of, offset=_log_odds(told))
+    # Each match a cluster: dates may be too few to tell how much they differ.
+    each = np.arange(len(told))
+    return logistic_coefficient(ones, won, games, each, offset=_log_odds(told))
 
 
 def first_breaks(told: Forecasts) -> FirstBreaks | None:
