@@ -33,8 +33,8 @@ def told(results: Results, **options: float) -> tuple[str, str]:
 
 def test_leagues_of_the_model_are_sound():
     verdicts = [told(season(seed), prior_sd=0.5)[0] for seed in range(10)]
-    # Four tests at 1 % each: two alarms in ten would be a rarity.
-    assert verdicts.count("The model holds for this league.") >= 9
+    # Four tests at 1 % each: three alarms in ten have a chance below 1 %.
+    assert verdicts.count("The model holds for this league.") >= 8
 
 
 def test_a_first_column_that_matters_is_found():
@@ -82,3 +82,12 @@ def test_the_prior_to_use_is_named_in_points_beside_the_usual_one(chosen):
     assert f"{points:.3g} points on the scale fargo" in words
     assert "as --prior" in words
     assert "The 100 points that are used unless another is given" in words
+
+
+def test_a_prior_at_the_edge_is_not_recommended():
+    results = Results.from_names(
+        ["A", "A"], ["B", "B"], [7, 7], [5, 0], date=["2024-09-03", "2024-09-04"]
+    )
+    words = told(results)[1]
+    assert "Which prior to use cannot be told" in words
+    assert "as --prior" not in words

@@ -111,15 +111,17 @@ def _prior(found: Validation, scale: Scale) -> str:
     log_odds = f"{found.prior_sd:.2g} in log-odds"
     if len(found.priors) == 1:
         return f"The prior's standard deviation was given: {points}, {log_odds}."
-    edge = ""
     if found.prior_sd in (found.priors[0][0], found.priors[-1][0]):
-        edge = " It is the last that was tried: a clear best there is not."
+        return (
+            f"Which prior to use cannot be told: the last that was tried, {points} ({log_odds}), "
+            "predicts best."
+        )
     best = _row(found, "game", "integrated")
     usual = PRIOR_SD * scale.points_per_log_odds
     cost = dict(found.priors)[PRIOR_SD] - best.log_loss.value
     return (
         f"The prior to use has a standard deviation of {points} ({log_odds}): give it to "
-        f"evenbreak rate as --prior.{edge} The {usual:.3g} points that are used unless another is "
+        f"evenbreak rate as --prior. The {usual:.3g} points that are used unless another is "
         f"given cost {cost:.4f} more log-loss a game. Had the prior been chosen as the season "
         f"went, log-loss would have been {best.as_it_went:.4f}."
     )
