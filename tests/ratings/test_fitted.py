@@ -1,6 +1,7 @@
 """Anchors, and the uncertainty of differences, against the whole inverse."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings import covariance as covariance_module
+from evenbreak.reports import read_results
 
 NAMES = tuple("ABCDEFGH")
 
@@ -74,6 +76,79 @@ def test_a_difference_is_surer_than_two_ratings_alone():
     ratings = fit(league(np.random.default_rng(3), 60))
     error = ratings.difference_error("A", "B")
     assert error < math.hypot(*ratings.standard_error[:2])
+
+
+def pairs_of(ratings):
+    """Return of all linked pairs the sum of the two quasi-variances, and the difference's."""
+    q = ratings.quasi_error**2
+    whole = ratings.covariance(ratings.players)
+    i, j = np.triu_indices(len(q), 1)
+    linked = ratings.component[i] == ratings.component[j]
+    i, j = i[linked], j[linked]
+    return q[i] + q[j], whole[i, i] + whole[j, j] - 2 * whole[i, j]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"prior_sd": 3.0},
+        {"break_advantage": "fit"},
+        {"anchor": {"C": 95}},
+        {"anchor": {"A": 60, "D": 120}, "break_advantage": "fit"},
+    ],
+)
+def test_quasi_variances_are_those_of_differences_on_average(options):
+    ratings = fit(league(np.random.default_rng(8)), **options)
+    assert ratings.component.max() == 1
+    quasi, true = pairs_of(ratings)
+    assert quasi.mean() == pytest.approx(true.mean(), rel=1e-10)
+
+
+def test_quasi_variances_with_decay_and_matches_known_by_their_winner():
+    rng = np.random.default_rng(9)
+    a = rng.integers(0, 6, 60)
+    b = (a + rng.integers(1, 6, 60)) % 6
+    bare = np.arange(60) % 3 == 0
+    results = Results(
+        NAMES[:6],
+        a,
+        b,
+        np.where(bare, 0, rng.integers(0, 8, 60)),
+        np.where(bare, 0, rng.integers(0, 8, 60)),
+        date=np.datetime64("2024-01-01") + rng.integers(0, 300, 60),
+        race_a=np.full(60, 7),
+        race_b=np.full(60, 5),
+        winner=rng.integers(1, 3, 60),
+        unscored=bare,
+    )
+    ratings = fit(results, half_life=90)
+    assert ratings.races_won.sum() == bare.sum()
+    quasi, true = pairs_of(ratings)
+    assert quasi.mean() == pytest.approx(true.mean(), rel=1e-10)
+
+
+def test_quasi_errors_of_a_pair_are_exact_and_of_one_alone_the_priors():
+    ratings = fit(Results.from_names(["A", "C"], ["B", "D"], [7, 0], [2, 0]))
+    assert ratings.component.tolist() == [1, 1, 2, 3]
+    assert math.hypot(*ratings.quasi_error[:2]) == pytest.approx(ratings.difference_error("A", "B"))
+    assert ratings.quasi_error[2:] == pytest.approx([30, 30])
+
+
+def test_quasi_errors_do_not_depend_on_the_anchor():
+    results = league(np.random.default_rng(10))
+    plain, named = fit(results), fit(results, anchor={"C": 95})
+    np.testing.assert_allclose(named.quasi_error, plain.quasi_error, rtol=1e-12)
+
+
+@pytest.mark.parametrize("options", [{}, {"prior_sd": 0.35}, {"half_life": 60}])
+def test_quasi_errors_tell_every_difference_of_the_demo_league_closely(options):
+    path = Path(__file__).resolve().parents[2] / "data" / "demo_league.csv"
+    ratings = fit(read_results(path).results, **options)
+    quasi, true = pairs_of(ratings)
+    assert np.abs(np.sqrt(quasi / true) - 1).max() < 0.05
+    plain = np.sqrt(2) * ratings.standard_error.mean()
+    assert plain > 1.1 * np.sqrt(true).mean()
 
 
 def test_a_named_player_stands_where_he_is_put():
