@@ -19,6 +19,7 @@ COLUMNS = [
     "player",
     "rating",
     "standard_error",
+    "quasi_error",
     "games",
     "won",
     "lost",

@@ -59,7 +59,7 @@ def test_the_demo_league_gives_its_files_and_a_sheet(demo):
 def test_the_columns_are_those_of_the_documentation(demo):
     _, folder = demo
     assert list(rows(folder, "ratings.csv")[0]) == (
-        ["player", "rating", "standard_error", "games", "won", "lost", "component"]
+        ["player", "rating", "standard_error", "quasi_error", "games", "won", "lost", "component"]
     )
     assert list(rows(folder, "matchups.csv")[0]) == (
         [

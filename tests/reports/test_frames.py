@@ -40,6 +40,7 @@ def test_everybody_is_rated_the_strongest_first(season):
         "player",
         "rating",
         "standard_error",
+        "quasi_error",
         "games",
         "won",
         "lost",

@@ -7,8 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.errors import DataError
+from evenbreak.ratings import Results, fit
 from evenbreak.ratings.roster import NOT_STATED
+from evenbreak.reports.rate_frames import rate_frame
 from evenbreak.reports.read_roster import OPTIONAL, REQUIRED, read_roster
+from evenbreak.reports.to_csv import to_csv
 
 
 @pytest.fixture(scope="session")
@@ -40,6 +43,27 @@ def test_all_columns(read):
     assert roster.component.tolist() == [1, 2]
     assert file.lines.tolist() == [2, 4]
     assert file.warnings == ()
+
+
+def test_a_quasi_error_is_taken_where_it_stands(read):
+    roster = read(
+        "player,rating,standard_error,quasi_error\nAnn,92,9,6\nBo,80,8,\nCy,70,,5\n"
+    ).roster
+    assert roster.standard_error.tolist() == [6.0, 8.0, 5.0]
+    text = "player,rating,quasi_error\nAnn,92,-1\n"
+    (told,) = problems_of(read, text)
+    assert told.startswith(":2: quasi_error -1 is not from 0")
+
+
+def test_a_list_of_ratings_is_a_roster_with_the_errors_of_differences(tmp_path):
+    season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
+    ratings = fit(season)
+    path = tmp_path / "ratings.csv"
+    path.write_bytes(to_csv(rate_frame(ratings)))
+    roster = read_roster(path).roster
+    at = [ratings.players.index(name) for name in roster.players]
+    np.testing.assert_allclose(roster.standard_error, ratings.quasi_error[at], atol=1e-6)
+    np.testing.assert_allclose(roster.rating, ratings.rating[at], atol=1e-6)
 
 
 def test_two_columns_suffice(read):

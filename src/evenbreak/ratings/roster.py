@@ -31,7 +31,9 @@ class Roster:
         points, one for each player; NaN for a new player who has none yet.
     standard_error
         how far a rating may be off, in points (one standard deviation); NaN where that is
-        not stated. None: stated for nobody.
+        not stated. None: stated for nobody. Pairs take the root of the sum of two squares for
+        the error of a difference, so what all ratings have in common should not be in it:
+        `Ratings.quasi_error` is meant for this.
     games
         the games that each rating rests on, 0 for a new player; `NOT_STATED` where the list
         does not say. None: stated for nobody.

@@ -40,14 +40,14 @@ def ratings_frame(ratings: Ratings) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        player; rating and standard_error in points of the scale; games, won and lost in
-        the matches that were used; component: players with the same number are linked by
-        a chain of opponents, and only their ratings can be compared.
+        player; rating, standard_error and quasi_error in points of the scale; games, won
+        and lost in the matches that were used; component: players with the same number are
+        linked by a chain of opponents, and only their ratings can be compared.
     """
     import pandas as pd
 
     order = by_strength(ratings, range(len(ratings.players)))
-    columns = ("rating", "standard_error", "games", "won", "lost", "component")
+    columns = ("rating", "standard_error", "quasi_error", "games", "won", "lost", "component")
     return pd.DataFrame(
         {
             "player": [ratings.players[k] for k in order],

@@ -29,6 +29,7 @@ REQUIRED = {
 
 OPTIONAL = {
     "standard_error": ("se", "sd", "error", "plus or minus", "uncertainty"),
+    "quasi_error": ("quasi standard error", "qse"),
     "games": ("games played", "racks", "robustness"),
     "component": ("group",),
 }
@@ -79,7 +80,8 @@ def read_roster(path: str | Path) -> RosterFile:
     r"""Read a list of rated players from a CSV file; '-' is standard input.
 
     A player without a rating is new; he may have played no games. An empty standard_error
-    is not stated, and so are empty games.
+    is not stated, and so are empty games. Where a quasi_error is stated it is taken in place
+    of the standard_error, for a roster's errors are used for differences of ratings.
 
     Raises
     ------
@@ -103,6 +105,8 @@ def read_roster(path: str | Path) -> RosterFile:
     rating = _points(table, "rating", remedy, least=-LARGEST)
     remedy = "write points such as 9.5, or leave it empty"
     error = _points(table, "standard_error", remedy, least=0.0)
+    quasi = _points(table, "quasi_error", remedy, least=0.0)
+    error = np.where(np.isnan(quasi), error, quasi)
     games, good_games = whole_numbers(table, "games", may_be_empty=True)
     stated = np.array([bool(text) for text in table.cells("games")], dtype=bool)
     games = np.where(stated & good_games, games, NOT_STATED)
