@@ -284,3 +284,42 @@ def test_no_roster_makes_a_traceback(run, rows):
     result = run("matchups", "-", *words, stdin=text.encode("utf-8", "replace"))
     assert result.exit_code in (0, 2, 3)
     assert bool(result.stdout) == (result.exit_code == 0)
+
+
+@pytest.mark.parametrize("words", [(), ("--json",)])
+def test_a_page_of_the_round_is_the_same_each_time(run, roster, tmp_path, words):
+    pairs = roster("a,b\nDi,Ann\nBo,Cy\n", "tonight.csv")
+    asked = ("matchups", roster(), *SURE, "--minutes-per-game", "8", "--tables", "1")
+    first, again = tmp_path / "new" / "a.html", tmp_path / "b.HTML"
+    plain = run(*asked, "--pairs", pairs, *words)
+    result = run(*asked, "--pairs", pairs, "--html", str(first), *words)
+    assert (result.exit_code, result.stdout) == (0, plain.stdout)
+    assert result.stderr.splitlines()[-1] == f"Wrote {first}"
+    assert run(*asked, "--pairs", pairs, "--html", str(again)).exit_code == 0
+    page = first.read_bytes()
+    assert page == again.read_bytes()
+    assert b"2 matches on 1 table take" in page
+    assert b"Who gives whom what" not in page
+    assert run(*asked, "--html", str(first)).exit_code == 0
+    assert b"Who gives whom what" in first.read_bytes()
+
+
+def test_a_terminal_has_the_page_written_too(terminal, roster, tmp_path):
+    page = tmp_path / "a.html"
+    assert terminal("matchups", roster(), *SURE, "--html", str(page)).exit_code == 0
+    assert page.read_bytes().startswith(b"<!doctype html>")
+
+
+def test_more_than_a_page_holds_is_refused_with_the_remedy(run, roster, tmp_path):
+    page = tmp_path / "a.html"
+    club = roster("player,rating\n" + "".join(f"P{k},{k}\n" for k in range(49)))
+    result = run("matchups", club, *SURE, "--html", str(page))
+    assert result.exit_code == 2
+    assert "all pairs of 48 at most; name those who meet with --pairs" in result.stderr
+    pairs = roster("a,b\n" + "P1,P2\n" * 501, "tonight.csv")
+    result = run("matchups", club, *SURE, "--pairs", pairs, "--html", str(page))
+    assert result.exit_code == 2
+    assert "make a list and a page for each part of the round" in result.stderr
+    result = run("matchups", club, *SURE, "--html", "page.txt")
+    assert "'page.txt'; name a file that ends in .html" in result.stderr
+    assert not page.exists()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.cli.matchups_html import html_option, refuse_page, write_page
 from evenbreak.cli.options import NUMBER, refuse, refuse_both, wants_json, which_races
 from evenbreak.cli.output import SCHEMA_VERSION, print_json, to_terminal
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from evenbreak.handicaps.level_chart import LevelChart
     from evenbreak.ratings.roster import Roster
     from evenbreak.ratings.scale import Scale
+    from evenbreak.reports.roster_matchups import RosterMatchups
 
 __all__ = ["matchups"]
 
@@ -39,7 +41,7 @@ LONGEST_GAME = 1440.0  # minutes: a day
 EXAMPLES = """\b
 Examples:
   evenbreak matchups roster.csv --chart npl_10
-  evenbreak matchups roster.csv --games 7..13 --pairs tonight.csv
+  evenbreak matchups roster.csv --games 7..13 --pairs tonight.csv --html tonight.html
   evenbreak matchups roster.csv --race-to 7 --minutes-per-game 8 --tables 4
 """
 
@@ -112,6 +114,7 @@ def _minutes(ctx: click.Context, param: click.Parameter, value: str | None) -> f
     metavar="N",
     help="For an evening that has to be played out by pseudo-random numbers.",
 )
+@html_option
 @wants_json
 def matchups(
     roster: str,
@@ -125,6 +128,7 @@ def matchups(
     minutes_per_game: float | None,
     tables: int | None,
     seed: int,
+    html: str | None,
     as_json: bool,
 ) -> None:
     """Tell which race each pair of players has tonight, and what it is worth.
@@ -160,33 +164,43 @@ def matchups(
         if not many:
             refuse(f"{file.source} has one player; it takes two for a match")
         _refuse_too_many(f"{len(players):,} players make {many:,} pairs", many, tables, as_json)
+        if html is not None:
+            refuse_page(len(players), None)
         meets = all_pairs(players)
     else:
         meets = _read_pairs(pairs, players)
         _refuse_too_many(f"{pairs} has {len(meets):,} pairs", len(meets), tables, as_json)
+        if html is not None:
+            refuse_page(len(players), len(meets))
     limits = None if games is None and race_to is None else RaceLimits(games, race_to)
     told = Told(players, points, table, limits, minutes_per_game)
-    _print(told, meets, tables, seed, as_json)
+    answer, ends = _print(told, meets, tables, seed, as_json)
+    if html is not None:  # of so few pairs that all of them were told at a time
+        write_page(html, file, told, answer, ends, listed=pairs is not None)
 
 
-def _print(told: Told, meets: NDArray[Any], tables: int | None, seed: int, as_json: bool) -> None:
-    """Print the table, and when the evening ends."""
+def _print(
+    told: Told, meets: NDArray[Any], tables: int | None, seed: int, as_json: bool
+) -> tuple[RosterMatchups, list[dict[str, Any]]]:
+    """Print the table, and when the evening ends; return those that were told last."""
     if not as_json and not to_terminal():
-        _stream(told, meets, tables, seed)
-        return
+        return _stream(told, meets, tables, seed)
     answer = told.matchups(meets)
     ends = [] if tables is None else told.evening(answer, meets, tables, seed)
     if as_json:
         frame = answer.frame.astype(object)  # so that a missing number can be None
         rows = frame.where(frame.notna(), None).to_dict("records")
         print_json({"pairs": rows, "evening": ends, "schema_version": SCHEMA_VERSION})
-        return
+        return answer, ends
     text = "\n".join([told.text(answer), *told.evening_lines(ends)]).rstrip("\n")
     # Names may have letters that the terminal's encoding lacks.
     click.echo(f"{text}\n".encode(sys.stdout.encoding or "utf-8", "replace"), nl=False)
+    return answer, ends
 
 
-def _stream(told: Told, meets: NDArray[Any], tables: int | None, seed: int) -> None:
+def _stream(
+    told: Told, meets: NDArray[Any], tables: int | None, seed: int
+) -> tuple[RosterMatchups, list[dict[str, Any]]]:
     """Write the table as CSV, so many pairs at a time that memory is no concern."""
     from evenbreak.reports.to_csv import to_csv
 
@@ -195,9 +209,11 @@ def _stream(told: Told, meets: NDArray[Any], tables: int | None, seed: int) -> N
         answer = told.matchups(meets[first : first + AT_A_TIME])
         rows = to_csv(answer.frame)
         click.echo(rows.partition(b"\n")[2] if first else rows, nl=False)
-        if tables is not None:  # an evening is never more pairs than are told at a time
-            for text in told.evening_lines(told.evening(answer, meets, tables, seed)):
-                _say(text.replace("\n", " "))
+        # An evening is never more pairs than are told at a time.
+        ends = [] if tables is None else told.evening(answer, meets, tables, seed)
+        for text in told.evening_lines(ends):
+            _say(text.replace("\n", " "))
+    return answer, ends
 
 
 def _chart(name: str) -> Chart | LevelChart:

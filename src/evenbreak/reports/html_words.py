@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from evenbreak.ratings.fit import Ratings
+from evenbreak.ratings.scale import Scale
 from evenbreak.reports.frames import count_groups, file_name
 from evenbreak.reports.html_parts import SurePair
 from evenbreak.reports.read_results import ResultsFile
@@ -18,8 +19,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 __all__ = [
-    "LeftOut",
+    "Remark",
     "about_model",
+    "game_chance",
     "how_sure",
     "left_out_and_why",
     "some_names",
@@ -28,8 +30,8 @@ __all__ = [
 ]
 
 
-class LeftOut(NamedTuple):
-    """What was left out, and why."""
+class Remark(NamedTuple):
+    """Something, and what there is to say of it."""
 
     what: str
     why: str
@@ -77,12 +79,18 @@ def about_model(ratings: Ratings) -> str:
     if ratings.break_advantage is not None:
         breaks = f"who breaks playing {ratings.break_advantage:.3g} points better"
     return (
-        f"Bradley\N{EN DASH}Terry on games{races}: a player who is rated d points higher wins a "
-        "game with the chance "
-        f"1/(1 + 2^(\N{MINUS SIGN}d/{scale.points_per_doubling:.6g})), every game "
+        f"Bradley\N{EN DASH}Terry on games{races}: {game_chance(scale)}, every game "
         f"independent of the others, {ages}, {breaks}. "
         f"Before any result a player is rated {ratings.anchor:g} ± {prior:.4g} (normal prior, one "
         "standard deviation)."
+    )
+
+
+def game_chance(scale: Scale) -> str:
+    """Return what a rating difference means, as a formula."""
+    return (
+        "a player who is rated d points higher wins a game with the chance "
+        f"1/(1 + 2^(\N{MINUS SIGN}d/{scale.points_per_doubling:.6g}))"
     )
 
 
@@ -92,7 +100,7 @@ def left_out_and_why(
     rated: pd.DataFrame,
     paired: pd.DataFrame,
     shown: tuple[int, int],
-) -> Iterator[LeftOut]:
+) -> Iterator[Remark]:
     """Yield what the numbers do not include, and what a person should look at.
 
     Parameters
@@ -105,28 +113,28 @@ def left_out_and_why(
         how many players the list of ratings and the table of races show.
     """
     if ratings.forfeits:
-        yield LeftOut(
+        yield Remark(
             count_of(ratings.forfeits, "forfeited match", "forfeited matches"),
             "nobody played, so it says nothing of strength",
         )
     if ratings.empty:
-        yield LeftOut(
+        yield Remark(
             count_of(ratings.empty, "match at 0-0", "matches at 0-0"), "no game was entered"
         )
     idle = [name for name, none in zip(ratings.players, ratings.idle, strict=True) if none]
     if idle:
-        yield LeftOut(
+        yield Remark(
             f"{count_of(len(idle), 'player', 'players')} without a result: {some_names(idle)}",
             "rated in the middle for want of knowledge",
         )
     apart = int(paired["race_a"].isna().sum())
     if apart:
-        yield LeftOut(
+        yield Remark(
             f"the races of {count_of(apart, 'pair', 'pairs')}",
             "no chain of opponents links the two players",
         )
     elif (groups := count_groups(ratings)) > 1:
-        yield LeftOut(
+        yield Remark(
             f"comparisons between {groups:,} groups of players",
             "no chain of opponents links them; ratings compare only within a group",
         )
@@ -134,36 +142,36 @@ def left_out_and_why(
     yield from warnings_of(file)
 
 
-def warnings_of(file: ResultsFile | RosterFile) -> Iterator[LeftOut]:
+def warnings_of(file: ResultsFile | RosterFile) -> Iterator[Remark]:
     """Yield what a person should look at in a file, without the file's folder."""
     for warning in file.warnings:
         # Where the file lay on somebody's disk is nobody else's business.
         if not warning.startswith(f"{file.source}:"):
-            yield LeftOut("a warning", warning)
+            yield Remark("a warning", warning)
             continue
         told = warning.removeprefix(f"{file.source}:")
         # After the name comes a blank, or the number of a line.
         told = told.lstrip() if told.startswith(" ") else f"line {told}"
-        yield LeftOut(f"a warning on {file_name(file)}", told)
+        yield Remark(f"a warning on {file_name(file)}", told)
 
 
 def _not_shown(
     rated: pd.DataFrame, paired: pd.DataFrame, shown: tuple[int, int]
-) -> Iterator[LeftOut]:
+) -> Iterator[Remark]:
     in_list, in_table = shown
     players = len(np.unique([*paired["player_a"], *paired["player_b"]]))
     if in_list < len(rated):
-        yield LeftOut(
+        yield Remark(
             f"{len(rated) - in_list:,} of {len(rated):,} rated players",
             f"the list ends with the {in_list:,} strongest; ratings.csv has all",
         )
     if in_table < players:
-        yield LeftOut(
+        yield Remark(
             f"the races of {players - in_table:,} of {players:,} paired players",
             f"the table holds the {in_table:,} strongest; matchups.csv has all",
         )
     if players < len(rated):
-        yield LeftOut(
+        yield Remark(
             f"the races of {count_of(len(rated) - players, 'rated player', 'rated players')}",
             "not chosen to be paired",
         )
