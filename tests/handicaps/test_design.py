@@ -78,6 +78,51 @@ def test_no_chart_of_all_is_fairer(limits, play, up_to, target, tilt):
             assert sum(ours) == pytest.approx(min(sum(c) for c in every if max(c) <= least))
 
 
+@pytest.mark.parametrize(("limits", "play", "up_to"), SMALL)
+@pytest.mark.parametrize("rows", [1, 2, 3, 9])
+def test_no_chart_of_so_few_rows_is_fairer(limits, play, up_to, rows):
+    every = [
+        losses(path, play) for path in all_charts(limits, play, up_to) if len(set(path)) <= rows
+    ]
+    for criterion, total in (("mean", sum), ("worst", max)):
+        made = design(play, limits, criterion=criterion, up_to=up_to, rows=rows)
+        assert len(made.rows) <= rows
+        ours = losses(races_of(made, range(up_to + 1)), play)
+        assert total(ours) == pytest.approx(min(map(total, every)), abs=1e-9)
+        if criterion == "worst":
+            least = min(map(max, every)) + 1e-9
+            assert sum(ours) == pytest.approx(min(sum(c) for c in every if max(c) <= least))
+
+
+def test_few_rows_and_a_budget():
+    limits, play, up_to = SMALL[1]
+    every = [
+        (np.mean(lengths(path, play)), sum(losses(path, play)))
+        for path in all_charts(limits, play, up_to)
+        if len(set(path)) <= 2
+    ]
+    made = design(play, limits, up_to=up_to, mean_games=2.7, rows=2)
+    ours = races_of(made, range(up_to + 1))
+    length = np.mean(lengths(ours, play))
+    assert len(made.rows) <= 2
+    assert length <= 2.7
+    assert sum(losses(ours, play)) == pytest.approx(
+        min(cost for games, cost in every if games <= length + 1e-12)
+    )
+
+
+def test_more_rows_are_never_less_fair():
+    limits, unfair = RaceLimits((7, 15), weaker_least=2), []
+    for rows in range(1, 30):
+        made = design("npl", limits, up_to=60, rows=rows)
+        unfair.append(measure_chart(made, "npl", up_to=60).mean_unfairness)
+    assert all(a >= b for a, b in pairwise(unfair))
+    assert unfair[0] > 1.5 * unfair[4]
+    free = design("npl", limits, up_to=60)
+    assert len(design("npl", limits, up_to=60, rows=len(free.rows)).rows) <= len(free.rows)
+    assert design("npl", limits, up_to=60, rows=10**9) == free
+
+
 @pytest.mark.parametrize("budget", [2.4, 2.7, 3.0])
 def test_no_chart_that_is_as_short_is_fairer(budget):
     limits, play, up_to = SMALL[1]
@@ -224,6 +269,11 @@ def test_a_limit_on_the_90_per_cent_length_holds_at_every_difference():
         ({"tilt": -1}, "tilt is -1"),
         ({"criterion": "best"}, "criterion is 'best'; give 'mean' or 'worst'"),
         ({"up_to": 0}, "up_to is 0"),
+        ({"rows": 0}, "rows is 0"),
+        (
+            {"limits": RaceLimits((1, 99)), "rows": 60, "up_to": 400},
+            "narrow games, lower rows or up_to",
+        ),
         ({"mean_games": 0}, "mean_games is 0; give a number above 0"),
         ({"mean_games": 2}, "the shortest chart that keeps the limits has a mean of"),
         ({"limits": RaceLimits((5, 7), games_p90=3)}, "at a difference of 0 no allowed race"),

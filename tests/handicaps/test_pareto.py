@@ -71,6 +71,14 @@ def test_matches_won_by_two_have_a_front_too():
     assert min(lengths) < max(lengths)
 
 
+def test_a_limit_on_rows_holds_for_every_chart_and_each_is_told_of():
+    told = []
+    charts = pareto("npl", RaceLimits((5, 9)), up_to=40, rows=4, watch=told.append)
+    assert max(len(one.chart.rows) for one in charts) == 4
+    assert told == list(range(1, len(told) + 1))
+    assert len(told) >= len(charts)
+
+
 def test_wrong_wishes_are_refused():
     with pytest.raises(InputError, match="give 'mean' or 'worst'"):
         pareto("npl", WIDE, criterion="best")

@@ -23,6 +23,7 @@ Floats = NDArray[np.float64]
 
 _TIE = 1e-12
 _MOST_CELLS = 5_000_000
+_MOST_CELLS_IN_ROWS = 20_000_000
 _MOST_ONE_BY_ONE = 400
 _HEAVIEST = 1e6
 """The weight that stands for 'never, unless no allowed race does better'."""
@@ -90,6 +91,7 @@ class Candidates:
         criterion: str = "mean",
         mean_games: float | None = None,
         games_p90: int | None = None,
+        rows: int | None = None,
         name: str = "design",
     ) -> Chart:
         """Return the fairest chart of these races, as `design` does.
@@ -104,14 +106,15 @@ class Candidates:
         target, tilt = number_probability(target, "target"), number_probability(tilt, "tilt")
         criterion = one_of(criterion, "criterion", ("mean", "worst"))
         budget = math.inf if mean_games is None else _above_0(mean_games, "mean_games")
+        rows = self._row_limit(rows)
         cost = self._cost(target, tilt)
         for most in {self.limits.games_p90, games_p90} - {None}:
             cost = np.where(self._short_enough(most), cost, np.inf)
         length = self.mean_games if budget < math.inf else np.zeros_like(cost)
         length = np.where(np.isfinite(cost), length, np.inf)
         if criterion == "worst":
-            cost = without_the_worst(cost, length, self.evens, budget)
-        return self._chart(cheapest_within(cost, length, self.evens, budget), name)
+            cost = without_the_worst(cost, length, self.evens, budget, rows)
+        return self._chart(cheapest_within(cost, length, self.evens, budget, rows), name)
 
     def nearest(self, name: str) -> Chart:
         """Return the chart of the race nearest 1/2 at each difference, as `nearest_chart` does."""
@@ -120,6 +123,21 @@ class Candidates:
         if self.limits.games_p90 is not None:
             cost = np.where(self._short_enough(self.limits.games_p90), cost, np.inf)
         return self._chart(cost.argmin(axis=0), name)
+
+    def _row_limit(self, rows: Any) -> int | None:
+        """Return the limit on the rows; None where no chart of these races has more."""
+        if rows is None:
+            return None
+        rows = whole(rows, "rows", at_least=1)
+        if rows >= min(self.points.size, self.m.size - self.evens + 1):
+            return None
+        cells = self.m.size * self.points.size
+        if rows * cells > _MOST_CELLS_IN_ROWS:
+            raise InputError(
+                f"rows is {rows}, and {self.m.size} races at {self.points.size} differences are "
+                "too many to go through for each number of rows; narrow games, lower rows or up_to"
+            )
+        return rows
 
     def _cost(self, target: float, tilt: float) -> Floats:
         above = self.wins - target

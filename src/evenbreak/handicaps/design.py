@@ -6,6 +6,8 @@ steps back as the difference grows. Each whole-point difference costs what the r
 misses the target by, so the best path follows by dynamic programming over the differences:
 
     best(d, r) = cost(d, r) + min over races r' no harder than r of best(d - 1, r')
+
+A limit on the rows is kept by a best total for each number of rows so far.
 """
 
 from __future__ import annotations
@@ -29,6 +31,7 @@ def design(
     criterion: str = "mean",
     up_to: int | None = None,
     mean_games: float | None = None,
+    rows: int | None = None,
     name: str = "design",
 ) -> Chart:
     """Return the fairest chart for a scale among all that the limits allow.
@@ -56,6 +59,9 @@ def design(
     mean_games
         the most that the mean length over those differences may be, in games. The chart is
         then the fairest of all no longer than itself, which may be shorter than this.
+    rows
+        the most rows it may have; None for any number. With a limit the chart is the best of
+        all charts of no more rows.
     name
         what the chart is called.
 
@@ -82,7 +88,12 @@ def design(
     """
     candidates = Candidates(play_of(play), limits, up_to)
     return candidates.fairest(
-        target=target, tilt=tilt, criterion=criterion, mean_games=mean_games, name=name
+        target=target,
+        tilt=tilt,
+        criterion=criterion,
+        mean_games=mean_games,
+        rows=rows,
+        name=name,
     )
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import count
 from typing import Any, NamedTuple
 
 from evenbreak.checks import one_of, whole
@@ -52,6 +53,8 @@ def pareto(
     criterion: str = "mean",
     target: float = 0.5,
     up_to: int | None = None,
+    rows: int | None = None,
+    watch: Callable[[int], object] | None = None,
 ) -> list[ParetoChart]:
     """Return what fairness costs in length: the fairest charts, by how long they may be.
 
@@ -67,6 +70,10 @@ def pareto(
     up_to
         the last difference that counts; None for the last at which every chart beside still
         favours the weaker (or, without one, the hardest allowed race).
+    rows
+        the most rows of a designed chart; None for any number.
+    watch
+        called after each chart designed, with how many there are so far.
 
     Returns
     -------
@@ -108,8 +115,13 @@ def pareto(
     def measured(chart: Chart) -> _Measured:
         return _Measured(chart, measure_chart(chart, play, up_to=last, target=target))
 
+    designed = count(1)
+
     def fairest(name: str = "fairest", **most: Any) -> _Measured:
-        return measured(candidates.fairest(target=target, criterion=criterion, name=name, **most))
+        one = candidates.fairest(target=target, criterion=criterion, rows=rows, name=name, **most)
+        if watch is not None:
+            watch(next(designed))
+        return measured(one)
 
     made = [fairest(), *_shorter_and_shorter(fairest)]
     printed = [measured(chart) for chart in beside]
