@@ -21,6 +21,11 @@ def ask(run):
     return asked
 
 
+@pytest.fixture
+def terminal(monkeypatch):
+    monkeypatch.setattr("evenbreak.cli.chart_design.to_terminal", lambda: True)
+
+
 def rows_of(answer):
     return [tuple(row.values()) for row in answer["rows"]]
 
@@ -51,6 +56,7 @@ def test_the_rule_of_the_nearest_race(ask):
         ("--games 5..9 --scale fargo --tilt 0", "fargo", RaceLimits((5, 9)), {"tilt": 0.0}),
         ("--games 5..9 --rule worst", "npl", RaceLimits((5, 9)), {"criterion": "worst"}),
         ("--games 5..9 --target 0.6", "npl", RaceLimits((5, 9)), {"target": 0.6}),
+        ("--games 5..9 --rows 3", "npl", RaceLimits((5, 9)), {"rows": 3}),
         ("--games 5..9 --mean-games 5", "npl", RaceLimits((5, 9)), {"mean_games": 5}),
         ("--games 5..9 --games-p90 8", "npl", RaceLimits((5, 9), games_p90=8), {}),
         (
@@ -98,6 +104,28 @@ def test_pareto(run, ask, tmp_path):
     assert (tmp_path / "front.svg").read_text(encoding="utf-8").startswith("<?xml")
 
 
+def test_a_pareto_list_has_no_more_rows_than_asked_for(ask):
+    answer = ask("--games 5..9 --pareto --rows 4")
+    assert max(one["races"] for one in answer["charts"]) == 4
+
+
+@pytest.mark.usefixtures("terminal")
+def test_a_person_sees_the_first_of_many_other_races(run):
+    line = "--games 17..41 --least 2:2 --rows 10 --beside npl_20"
+    shown = run("chart", "design", *line.split()).stdout.splitlines()
+    assert shown[-1].startswith("  and ")
+    assert shown[-1].endswith(" more; --json lists them all")
+    assert len(shown) < 35
+    assert max(map(len, shown)) <= 80
+
+
+@pytest.mark.usefixtures("terminal")
+def test_nothing_beats_a_design_where_no_chart_is_beside(run):
+    line = ("chart", "design", "--games", "5..7", "--pareto")
+    assert "beaten by" not in run(*line).stdout
+    assert "beaten by" in run(*line, "--beside", "npl_8").stdout
+
+
 def test_plot(run, tmp_path):
     for beside in ([], ["--beside", "npl_10"]):
         path = tmp_path / f"design{len(beside)}.png"
@@ -111,7 +139,7 @@ def test_plot(run, tmp_path):
     [
         ("", "Missing option '--games'"),
         ("--games 7", "such as 7..13"),
-        ("--games 7..9 --least 2", "such as 7:5"),
+        ("--games 7..9 --least 2:", "such as 7:5"),
         ("--games 7..9 --beside apa_8ball", "name one of rating differences"),
         ("--games 7..9 --minutes 60", "give both"),
         ("--games 7..9 --minutes 5 --minutes-per-game 8", "less than a game takes"),
@@ -121,10 +149,25 @@ def test_plot(run, tmp_path):
         ),
         ("--games 7..9 --breaks winner", "give both, or leave both out"),
         ("--games 7..9 --break-points 5", "give both, or leave both out"),
-        ("--games 7..9 --rule nearest --tilt 0", "leave --mean-games, --target, --tilt out"),
+        (
+            "--games 7..9 --rule nearest --tilt 0",
+            "leave --mean-games, --rows, --target, --tilt out",
+        ),
         ("--games 7..9 --pareto --mean-games 5", "leave --mean-games"),
         ("--games 7..9 --win-by 2 --plot x.png", "draws plain races"),
         ("--games 7..9 --mean-games -1", "give a number above 0"),
+        ("--games 7..9 --rule nearest --rows 5", "leave --mean-games, --rows,"),
+        ("--games 7..9 --rows 0", "--rows"),
+        ("--games 7..9 --mean-games 2", "--mean-games is 2, and the shortest chart"),
+        ("--games 7..9 --games-p90 3", "--games-p90 is 3, and at a difference of 0"),
+        (
+            "--games 7..9 --minutes 24 --minutes-per-game 8",
+            "Error: --minutes allows 3 games, and at a difference of 0",
+        ),
+        ("--games 900..1000", "narrow --games, raise --least, or lower --up-to"),
+        ("--games 1..99 --rows 60 --up-to 400", "narrow --games, lower --rows or --up-to"),
+        ("--games 1..2 --least 5:5", "--games is 1..2, and no even race"),
+        ("--games 7..9 --scale odd", "--scale is 'odd'; give npl"),
         ("--games 7..9 --tilt 2", "number from 0 to 1"),
     ],
 )

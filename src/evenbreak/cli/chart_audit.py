@@ -11,7 +11,7 @@ import click
 from evenbreak.cli.chart_show import span_text
 from evenbreak.cli.options import refuse, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, aligned, csv_text, print_json, to_terminal
-from evenbreak.cli.plot import plot_option, write_plot
+from evenbreak.cli.plot import plot_option_for, write_plot
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.audit import AuditRow, ChartAudit
@@ -44,7 +44,7 @@ Examples:
     "chart best; npl for a chart of skill levels]",
 )
 @click.option("--beside", metavar="NAME_OR_FILE", help="Another chart for the picture.")
-@plot_option
+@plot_option_for("not of a chart of skill levels")
 @wants_json
 def chart_audit(
     chart: str, scale: str | None, beside: str | None, plot: str | None, as_json: bool

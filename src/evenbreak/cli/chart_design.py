@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from itertools import groupby
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from evenbreak.cli.chart_show import ROWS, span_text
-from evenbreak.cli.design_wish import RULES, Wish, limit_options, wish_of
+from evenbreak.cli.design_wish import RULES, Wish, limit_options, options_named, wish_of
 from evenbreak.cli.options import chance, refuse, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, aligned, csv_text, print_json, to_terminal
 from evenbreak.cli.plot import plot_option, write_plot
+from evenbreak.cli.progress import Progress
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.chart import Chart
@@ -25,12 +27,19 @@ __all__ = ["chart_design"]
 MEASURES = ("mean_unfairness", "worst_unfairness", "mean_games", "games_p90")
 MEASURE_HEADINGS = ("unfair, mean", "worst", "games, mean", "9 of 10 within")
 
+_WIDTH = 80
+"""Of a terminal, in characters."""
+
+_MOST_LISTED = 10
+"""Spans of other races than those of a chart beside that a person is shown."""
+
 OTHER_RACES = ("difference_from", "difference_to", "design", "beside")
 
 EXAMPLES = """\b
 Examples:
   evenbreak chart design --games 7..9 --least 5:2 --beside npl_10
   evenbreak chart design --games 5..15 --scale fargo --tilt 0 > ours.csv
+  evenbreak chart design --games 17..41 --rows 10
   evenbreak chart design --games 5..19 --least 2:2 --pareto --beside npl_10
 """
 
@@ -93,10 +102,11 @@ def chart_design(pareto: bool, plot: str | None, as_json: bool, **wishes: Any) -
     Unfairness is how far the stronger player's chance W is from the target. Into a pipe or a
     file goes the chart as a CSV file that the other commands read.
     """
-    wish = wish_of(**wishes)
-    if pareto:
-        _print_pareto(wish, plot, as_json)
-        return
+    with options_named(in_minutes=wishes["minutes"] is not None):
+        (_print_pareto if pareto else _print_design)(wish_of(**wishes), plot, as_json)
+
+
+def _print_design(wish: Wish, plot: str | None, as_json: bool) -> None:
     from evenbreak.handicaps.candidates import Candidates
     from evenbreak.handicaps.chart_measure import last_difference, measure_chart
 
@@ -109,7 +119,11 @@ def chart_design(pareto: bool, plot: str | None, as_json: bool, **wishes: Any) -
         made = candidates.nearest("design")
     else:
         made = candidates.fairest(
-            target=wish.target, tilt=wish.tilt, criterion=wish.rule, mean_games=wish.mean_games
+            target=wish.target,
+            tilt=wish.tilt,
+            criterion=wish.rule,
+            mean_games=wish.mean_games,
+            rows=wish.rows,
         )
     charts = [made, *wish.beside]
     told = [measure_chart(one, wish.play, up_to=up_to, target=wish.target) for one in charts]
@@ -149,13 +163,13 @@ def _heading(wish: Wish, up_to: int) -> str:
         said.append(f"the break worth {play.break_points:g} points")
     if wish.limits.games_p90 is not None:
         said.append(f"9 of 10 within {wish.limits.games_p90} games")
+    if wish.rows is not None:
+        said.append("1 row" if wish.rows == 1 else f"{wish.rows} rows at most")
     goal = RULES[wish.rule]
     if (wish.target, wish.tilt) != (0.5, 0.5):
         goal += f" (target {wish.target:g}, tilt {wish.tilt:g})"
-    return (
-        f"{', '.join(said)}; {play.points:.4g} points double the odds.\n"
-        f"{goal[0].upper()}{goal[1:]}, differences 0 to {up_to}."
-    )
+    what = f"{', '.join(said)}; {play.points:.4g} points double the odds."
+    return f"{fill(what, _WIDTH)}\n{goal[0].upper()}{goal[1:]}, differences 0 to {up_to}."
 
 
 def _rows_text(wish: Wish, made: Chart, up_to: int) -> str:
@@ -207,9 +221,14 @@ def _comparison(made: Chart, beside: Sequence[Chart], up_to: int) -> Iterator[st
         if not count:
             yield f"\nThe same races as {other.name} at all differences from 0 to {up_to}."
             continue
-        rows = [[span_text(first, last), ours, theirs] for first, last, ours, theirs in differing]
+        rows = [
+            [span_text(first, last), ours, theirs]
+            for first, last, ours, theirs in differing[:_MOST_LISTED]
+        ]
         yield f"\nOther races than {other.name} at {count} of {up_to + 1} differences:"
         yield aligned([["difference", "design", other.name], *rows]).rstrip("\n")
+        if len(differing) > _MOST_LISTED:
+            yield f"  and {len(differing) - _MOST_LISTED} more; --json lists them all"
 
 
 def _as_json(wish: Wish, charts: Sequence[Chart], told: Sequence[ChartMeasure]) -> dict[str, Any]:
@@ -240,14 +259,17 @@ def _print_pareto(wish: Wish, plot: str | None, as_json: bool) -> None:
         refuse(
             "--pareto goes through all lengths; leave --mean-games, --tilt and --rule nearest out"
         )
-    charts = pareto(
-        wish.play,
-        wish.limits,
-        beside=wish.beside,
-        criterion=wish.rule,
-        target=wish.target,
-        up_to=wish.up_to,
-    )
+    with Progress("charts designed") as progress:
+        charts = pareto(
+            wish.play,
+            wish.limits,
+            beside=wish.beside,
+            criterion=wish.rule,
+            target=wish.target,
+            up_to=wish.up_to,
+            rows=wish.rows,
+            watch=progress,
+        )
     if plot is not None:
         from evenbreak.reports.pareto_plot import pareto_figure
 
@@ -267,6 +289,8 @@ def _print_pareto(wish: Wish, plot: str | None, as_json: bool) -> None:
         for one in charts
     ]
     headings = ["chart", "unfair", "worst", "games", "9 of 10 in", "races", "beaten by"]
+    if not wish.beside:  # of designed charts none here is beaten
+        headings, lines = headings[:-1], [line[:-1] for line in lines]
     click.echo(f"{_heading(wish, up_to)}\n\n{aligned([headings, *lines])}", nl=False)
 
 

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
 from evenbreak.cli.options import NUMBER, Command, pair, refuse, span
+from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.chart import Chart
     from evenbreak.handicaps.play import Play
     from evenbreak.handicaps.race_limits import RaceLimits
 
-__all__ = ["RULES", "Wish", "limit_options", "wish_of"]
+__all__ = ["RULES", "Wish", "limit_options", "options_named", "wish_of"]
 
 RULES = {
     "mean": "the least mean unfairness",
@@ -21,6 +25,13 @@ RULES = {
     "nearest": "the race with W nearest 0.5 at each difference",
 }
 """What is made best, in words."""
+
+
+_PARAMETER = re.compile(
+    r"\b(mean_games|games_p90|up_to|rows|games|scale|break_points|target|tilt)\b"
+    r"(?= (?:is|are)\b)|(?<=\bnarrow )games\b|(?<=\blower )(?:rows|up_to)\b|(?<=\bor )up_to\b"
+)
+"""Where a message of the library names a parameter."""
 
 
 class Wish(NamedTuple):
@@ -33,6 +44,7 @@ class Wish(NamedTuple):
     tilt: float
     up_to: int | None
     mean_games: float | None
+    rows: int | None
     beside: tuple[Chart, ...]
 
 
@@ -87,6 +99,12 @@ def limit_options(command: Command) -> Command:
             help="Let 9 of 10 matches end within K games, at every difference.",
         ),
         click.option(
+            "--rows",
+            type=click.IntRange(1),
+            metavar="N",
+            help="Let the chart have N rows at the most.",
+        ),
+        click.option(
             "--mean-games",
             metavar="G",
             callback=_above_0,
@@ -110,6 +128,23 @@ def limit_options(command: Command) -> Command:
     ):
         command = add(command)
     return command
+
+
+@contextmanager
+def options_named(*, in_minutes: bool) -> Iterator[None]:
+    """Name in an error of the design the options in place of the library's parameters.
+
+    Where the limit on the length was given in minutes, no --games-p90 was.
+    """
+    try:
+        yield
+    except InputError as error:
+        text = re.sub(r"\bgames is \((\d+), (\d+)\)", r"games is \1..\2", str(error))
+        text = text.replace("raise the fewest games of the weaker player", "raise --least")
+        if in_minutes:
+            text = re.sub(r"\bgames_p90 is (\d+)", r"--minutes allows \1 games", text)
+        named = _PARAMETER.sub(lambda found: "--" + found[0].replace("_", "-"), text)
+        raise InputError(named) from error
 
 
 def wish_of(
@@ -142,13 +177,11 @@ def wish_of(
             refuse("--minutes is less than a game takes; give more")
     if (breaks is None) != (break_points == 0.0):
         refuse("--breaks and --break-points go together; give both, or leave both out")
-    if rule == "nearest" and (others["mean_games"], others["target"], others["tilt"]) != (
-        None,
-        0.5,
-        0.5,
-    ):
+    wishes = (others["mean_games"], others["rows"], others["target"], others["tilt"])
+    if rule == "nearest" and wishes != (None, None, 0.5, 0.5):
         refuse(
-            "--rule nearest takes the race nearest 0.5; leave --mean-games, --target, --tilt out"
+            "--rule nearest takes the race nearest 0.5; leave --mean-games, --rows, --target, "
+            "--tilt out"
         )
     play = Play(scale, win_by, None if breaks is None else BREAK_FORMATS[breaks], break_points)
     limits = RaceLimits(games, *least, games_p90)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,9 @@ import click
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["plot_option", "write_plot"]
+    from evenbreak.cli.options import Command
+
+__all__ = ["plot_option", "plot_option_for", "write_plot"]
 
 KINDS = (".png", ".svg")
 
@@ -23,10 +26,14 @@ def _picture(ctx: click.Context, param: click.Parameter, value: str | None) -> s
     return value
 
 
-plot_option = click.option(
-    "--plot", metavar="FILE", callback=_picture, help="Write a picture to FILE, .png or .svg."
-)
-"""The option --plot of every command that draws."""
+def plot_option_for(only: str = "") -> Callable[[Command], Command]:
+    """Return the option --plot; `only` says of what there is a picture, where not of all."""
+    text = f"Write a picture to FILE, .png or .svg{only and '; ' + only}."
+    return click.option("--plot", metavar="FILE", callback=_picture, help=text)
+
+
+plot_option = plot_option_for()
+"""The option --plot of the commands that draw whatever they answer."""
 
 
 def write_plot(figure: Figure, path: str) -> None:
