@@ -181,6 +181,8 @@ def test_pairs_that_cannot_be_compared_or_made_even_are_told():
     text, _ = made(apart, pairs=[[0, 1]])
     assert Tables(text, "matches").rows[1][2:4] == ["-", "-"]
     assert "no chain of opponents" in text
+    assert "no chain of opponents" in made(apart)[0]
+    assert "(A)" not in made(apart, chart=None, limits=RaceLimits(race_to=7))[0]
     far = Roster([f"P{k}" for k in range(8)], [300 - 40 * k for k in range(8)])
     text, _ = made(far, chart=None, limits=RaceLimits(race_to=3))
     assert text.count("no race allowed is fair") == 8

@@ -163,7 +163,7 @@ def round_html(made_of: Round, answer: RosterMatchups) -> bytes:
         source=file_name(made_of.file),
         links=[*links, ("assumed", "What was assumed")],
         evening=made_of.evening,
-        which_races=" ".join(
+        which_races=" Beside them: ".join(
             about_races(way, races_of(frame, prefix)) for prefix, way in made_of.kinds.items()
         ),
         matches=matches,
@@ -224,7 +224,8 @@ def _kind(made_of: Round, frame: pd.DataFrame, prefix: str, lines: Sequence[Play
         how_to_read(paired),
         race_blocks(lines, paired),
         race_cards(lines, paired),
-        [*remarks(paired), *([] if prefix else notes_of(frame))],
+        # Of pairs without a race the remarks tell already.
+        [*remarks(paired), *([] if prefix else notes_of(frame[frame["difference"].notna()]))],
     )
 
 
