@@ -165,15 +165,15 @@ def test_names_cannot_become_formulas(rate):
         (["--prior", "wide"], 2, "a number of points above 0, or best"),
         (["--prior", "1e9"], 2, "on this scale give"),
         (["--half-life", "-3"], 2, "a number of days above 0"),
-        (["--as-of", "31.1.2026"], 2, "such as 2026-01-31"),
+        (["--as-of", "3/1/2026"], 2, "such as 2026-01-31 or 31.1.2026"),
         (["--as-of", "2020-01-01"], 3, "no match in it was played by 2020-01-01; give a later day"),
         (["--break-advantage", "nan"], 2, "a number of points, or fit"),
         (["--anchor", "high"], 2, "such as 80, or NAME=POINTS"),
         (["--anchor", "1", "--anchor", "2"], 2, "not both"),
         (["--anchor", "1", "--anchor", "Cy=2"], 2, "not both"),
-        (["--anchor", "Cyy=2"], 2, "did you mean 'Cy'"),
+        (["--anchor", "Cyy=2"], 2, "--anchor: not in the results: 'Cyy' (did you mean 'Cy'"),
         (["--pair", "Cy", "Cy"], 2, "names one player twice"),
-        (["--pair", "Cy", "An"], 2, "did you mean"),
+        (["--pair", "Cy", "An"], 2, "--pair: not in the results: 'An' (did you mean"),
         (["--roster", "last.csv"], 2, "give --system npl too"),
         (["--system", "npl"], 2, "give --roster LAST.csv"),
         (["--system", "npl", "--roster", "x", "--prior", "best"], 2, "leave out --prior"),
@@ -190,6 +190,11 @@ def test_wrong_use_says_how_to_mend_it(rate, words, code, remedy):
     assert (result.exit_code, result.stdout) == (code, "")
     assert remedy in result.stderr
     assert "Traceback" not in result.stderr
+
+
+def test_a_day_is_read_as_results_files_write_it(rate):
+    by_dots, by_dashes = (rate("--as-of", day).stdout for day in ("20.1.2026", "2026-01-20"))
+    assert by_dots == by_dashes != rate().stdout
 
 
 def test_dates_are_needed_for_what_goes_by_dates(rate):

@@ -120,7 +120,7 @@ def test_without_a_chart_the_one_that_the_scores_tell_is_taken_and_named(rate):
         (["night.csv", "--chart", "apa_8ball"], 2, "give one of rating differences"),
         (["none.csv", "--chart", "npl_10"], 3, "there is no such file"),
         (["night.csv", "--roster", "none.csv"], 3, "there is no such file"),
-        (["night.csv", "--system", "fide"], 2, "give one of npl"),
+        (["night.csv", "--system", "fide"], 2, "--system is 'fide'; give npl"),
         (["-", "--roster", "-"], 2, "which only one file can be"),
         (["night.csv", "--roster", "night.csv"], 3, "there is no column 'player'"),
         (["night.csv", "--aliases", "last.csv"], 3, "there is no column 'name'"),

@@ -212,8 +212,57 @@ def test_without_xlsxwriter_a_workbook_is_refused_before_any_work(run, tmp_path,
     assert result.exit_code == 2
     assert result.stderr == (
         "Error: a workbook needs XlsxWriter, which is not installed; install it with: "
-        "pip install XlsxWriter, or ask for CSV files\n"
+        "pip install XlsxWriter (the extra evenbreak[excel]), or ask for CSV files\n"
     )
+    assert not (tmp_path / "sheet").exists()
+
+
+def test_the_prior_is_said_on_the_sheet_the_page_and_in_the_summary(run, tmp_path):
+    words = ("--prior", "15", "--half-life", "90", "--as-of", "10.9.2024", "--html")
+    result = run("report", "-", "--out", str(tmp_path), *words, stdin=SMALL)
+    assert result.exit_code == 0
+    sheet = " ".join(result.stdout.split())
+    assert "Prior: standard deviation 15 points" in sheet
+    assert "half after 90 days, as of 2024-09-10." in sheet
+    assert "2024-09-03 to 2024-09-10" in sheet
+    assert "Left out: 1 after 2024-09-10." in sheet
+    page = (tmp_path / "sheet.html").read_text(encoding="utf-8")
+    assert "rated 80 ± 15 (normal prior" in page
+    assert "90 days old counting half, as of 2024-09-10" in page
+    assert "1 later match" in page
+    told = summary(tmp_path)
+    assert float(told["prior_sd_points"]) == pytest.approx(15)
+    assert (float(told["half_life_days"]), told["as_of"]) == (90, "2024-09-10")
+    assert (told["matches_used"], told["later_left_out"]) == ("2", "1")
+    assert told["last_date"] == "2024-09-10"
+
+
+def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
+    words = ("--prior", "best", "--half-life", "180", "--as-of", "2025-03-01")
+    result = run("report", str(DEMO), "--out", str(tmp_path), *words)
+    assert "Of 12 such deviations this one predicted 1,944 later results best." in result.stderr
+    listed = list(csv.DictReader(io.StringIO(run("rate", str(DEMO), *words).stdout)))
+    told = ("player", "rating", "standard_error")
+    assert [[row[name] for name in told] for row in listed] == (
+        [[row[name] for name in told] for row in rows(tmp_path, "ratings.csv")]
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "remedy"),
+    [
+        (["--prior", "0"], 2, "a number of points above 0, or best"),
+        (["--prior", "1e9"], 2, "on this scale give"),
+        (["--half-life", "0"], 2, "a number of days above 0"),
+        (["--as-of", "yesterday"], 2, "such as 2026-01-31 or 31.1.2026"),
+        (["--as-of", "2020-01-01"], 3, "give a later day to --as-of"),
+        (["--players", "Ann,Boo"], 2, "--players: not in the results: 'Boo'"),
+    ],
+)
+def test_wrong_words_on_how_to_rate_write_nothing(run, tmp_path, words, code, remedy):
+    result = run("report", "-", "--out", str(tmp_path / "sheet"), *words, stdin=SMALL)
+    assert (result.exit_code, result.stdout) == (code, "")
+    assert remedy in result.stderr
     assert not (tmp_path / "sheet").exists()
 
 

@@ -48,7 +48,7 @@ def test_a_small_league_to_the_letter():
         "\n"
         "3 matches of 3 players, 33 games.\n"
         "Ratings on a Fargo-like scale (100 points double the odds of a game), mean 500.\n"
-        "They are nobody's official ratings.\n"
+        "They are nobody's official ratings. Prior: standard deviation 144.3 points.\n"
         "\n"
         "#  player  rating   ±  games  won  lost\n"
         "1  Ann        559  93     21   14     7\n"

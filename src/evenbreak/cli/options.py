@@ -78,7 +78,7 @@ def pair(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
     """Return what each player needs, such as 7:5; 7 alone is 7:7."""
     if value is None:
         return None
-    match = re.fullmatch(r"\s*(\d{1,9})(?::(\d{1,9}))?\s*", value, re.ASCII)
+    match = re.fullmatch(r"\s*(\d{1,9})(?:\s*:\s*(\d{1,9}))?\s*", value, re.ASCII)
     if match:
         m = int(match[1])
         n = int(match[2] or m)
@@ -96,7 +96,7 @@ def score(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
     """Return the two whole numbers of a score, such as 3:0."""
     if value is None:
         return None
-    match = re.fullmatch(r"\s*(\d{1,9}):(\d{1,9})\s*", value, re.ASCII)
+    match = re.fullmatch(r"\s*(\d{1,9})\s*:\s*(\d{1,9})\s*", value, re.ASCII)
     if match and max(int(match[1]), int(match[2])) <= LONGEST:
         return int(match[1]), int(match[2])
     raise click.BadParameter(
@@ -111,7 +111,7 @@ def span(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
     """Return the two whole numbers of a span, such as 7..13."""
     if value is None:
         return None
-    match = re.fullmatch(r"\s*(\d{1,9})\.\.(\d{1,9})\s*", value, re.ASCII)
+    match = re.fullmatch(r"\s*(\d{1,9})\s*\.\.\s*(\d{1,9})\s*", value, re.ASCII)
     if match:
         low, high = int(match[1]), int(match[2])
         if 1 <= low <= high <= LONGEST:

@@ -12,14 +12,13 @@ import click
 
 from evenbreak.cli.options import NUMBER, refuse, wants_aliases, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, aligned, print_json, to_terminal
-from evenbreak.errors import DataError
+from evenbreak.cli.rate_options import how_to_rate, points, rated
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from evenbreak.ratings.fit import Ratings
     from evenbreak.ratings.prior import PriorChoice
-    from evenbreak.ratings.scale import Scale
     from evenbreak.reports.read_results import ResultsFile
 
 __all__ = ["rate"]
@@ -46,44 +45,6 @@ Examples:
 """
 
 
-def _points(ctx: click.Context, param: click.Parameter, value: str | None) -> Any:
-    """Return a number of points above 0, or the option's word; None where it is absent."""
-    word = "best" if param.name == "prior" else "fit"
-    if value is None or value.strip().lower() == word:
-        return None if value is None else word
-    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    if math.isfinite(number) and (word == "fit" or number > 0):
-        return number
-    least = " above 0" if word == "best" else ""
-    raise click.BadParameter(
-        f"{value!r}; give a number of points{least}, or {word}", ctx=ctx, param=param
-    )
-
-
-def _days(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
-    if value is None:
-        return None
-    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    if math.isfinite(number) and number > 0:
-        return number
-    raise click.BadParameter(
-        f"{value!r}; give a number of days above 0, such as 180", ctx=ctx, param=param
-    )
-
-
-def _day(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    if value is None:
-        return None
-    import datetime as dt
-
-    try:
-        return dt.date.fromisoformat(value.strip()).isoformat()
-    except ValueError:
-        raise click.BadParameter(
-            f"{value!r}; give a day, such as 2026-01-31", ctx=ctx, param=param
-        ) from None
-
-
 @click.command(epilog=EXAMPLES)
 @click.argument("results", metavar="RESULTS.csv")
 @click.option(
@@ -101,29 +62,11 @@ def _day(ctx: click.Context, param: click.Parameter, value: str | None) -> str |
     help="The mean rating; or the rating of a named player, and may be given again: the named "
     "have these ratings on average.  [default: the scale's middle]",
 )
-@click.option(
-    "--prior",
-    metavar="POINTS|best",
-    callback=_points,
-    help="How far players are apart, before any result: the standard deviation; best: the one "
-    "that predicts later days best.  [default: what doubles the odds]",
-)
-@click.option(
-    "--half-life",
-    metavar="DAYS",
-    callback=_days,
-    help="A match counts half after so many days.  [default: always whole]",
-)
-@click.option(
-    "--as-of",
-    metavar="DATE",
-    callback=_day,
-    help="Rate as of this day: leave later matches out.  [default: the last date]",
-)
+@how_to_rate
 @click.option(
     "--break-advantage",
     metavar="POINTS|fit",
-    callback=_points,
+    callback=points,
     help="By how much the breaker of a rack plays better; fit: estimate it, where the file says "
     "who broke.  [default: the break does not matter]",
 )
@@ -202,29 +145,21 @@ def _rate(
     break_advantage: float | str | None,
     pairs: Sequence[tuple[str, str]],
 ) -> None:
-    from evenbreak.ratings.fit import fit
     from evenbreak.ratings.scale import scale_of
     from evenbreak.reports.rate_frames import pairs_frame, rate_frame
     from evenbreak.reports.rate_words import connection_words, pair_rows, rate_rows, rate_words
 
     scale = scale_of(scale_name)
     file = _read(path, aliases)
-    anchor = _anchor(file, anchors)
-    prior_sd, choice = _prior(file, prior, scale, half_life, as_of, break_advantage)
-    ratings = fit(
-        file.results,
-        prior_sd=prior_sd,
-        scale=scale,
-        anchor=anchor,
+    ratings, choice = rated(
+        file,
+        scale,
+        prior=prior,
         half_life=half_life,
         as_of=as_of,
+        anchor=_anchor(file, anchors),
         break_advantage=break_advantage,
     )
-    if not ratings.matches:
-        why = "was played; add matches with games"
-        if ratings.later:
-            why = f"was played by {as_of}; give a later day to --as-of"
-        raise DataError([f"{file.source}: no match in it {why}"])
     if break_advantage is not None and ratings.break_advantage is None:
         _say(
             "Warning: of no game the file says who broke, so --break-advantage changes nothing; "
@@ -267,7 +202,7 @@ def _anchor(file: ResultsFile, texts: Sequence[str]) -> float | dict[str, float]
         if not NUMBER.fullmatch(number.strip()) or not math.isfinite(float(number)):
             refuse(f"--anchor is {text!r}; give points, such as 80, or NAME=POINTS")
         if name.strip():
-            (place,) = find_players(file.results, [name])
+            (place,) = find_players(file.results, [name], said="--anchor")
             named[file.results.players[place]] = float(number)
         else:
             means.append(float(number))
@@ -276,39 +211,10 @@ def _anchor(file: ResultsFile, texts: Sequence[str]) -> float | dict[str, float]
     return named or (means[0] if means else None)
 
 
-def _prior(
-    file: ResultsFile,
-    prior: float | str | None,
-    scale: Scale,
-    half_life: float | None,
-    as_of: str | None,
-    break_advantage: float | str | None,
-) -> tuple[float, PriorChoice | None]:
-    """Return the standard deviation of the prior in log-odds, and how it was chosen."""
-    from evenbreak.ratings.fit import NARROWEST, PRIOR_SD, WIDEST
-
-    if prior is None:
-        return PRIOR_SD, None
-    if prior != "best":
-        width = float(scale.log_odds(float(prior)))
-        if not NARROWEST <= width <= WIDEST:
-            least, most = scale.points(NARROWEST), scale.points(WIDEST)
-            refuse(f"--prior is {prior:g} points; on this scale give {least:.2g} to {most:.4g}")
-        return width, None
-    from evenbreak.ratings.decay import day_of, until
-    from evenbreak.ratings.prior import best_prior
-
-    results = file.results
-    if as_of is not None:
-        results = results.select(until(results, day_of(as_of)))
-    choice = best_prior(results, half_life=half_life, break_advantage=break_advantage, scale=scale)
-    return choice.prior_sd, choice
-
-
 def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
     from evenbreak.reports.matchups import find_players
 
-    found = find_players(ratings, names)
+    found = find_players(ratings, names, said="--pair")
     if len(found) < 2:
         refuse(f"--pair names one player twice, {names[0]!r}; name two")
     return found[0], found[1]

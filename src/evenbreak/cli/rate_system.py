@@ -44,13 +44,15 @@ def rate_by_system(
         whether JSON was asked for.
     """
     from evenbreak.handicaps.moves import chart_of_night
-    from evenbreak.handicaps.systems import system_of
+    from evenbreak.handicaps.systems import SYSTEMS, system_of
     from evenbreak.reports.moves_frame import moves_frame, moves_of_files, night_warnings
     from evenbreak.reports.read_results import read_results
     from evenbreak.reports.read_roster import read_roster
 
     if [path, roster, chart, aliases].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
+    if system.strip().lower() not in SYSTEMS:
+        refuse(f"--system is {system!r}; give {' or '.join(SYSTEMS)}")
     rule = system_of(system)
     by_chart = None if chart is None else _chart(chart)
     last = read_roster(roster)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from evenbreak.cli.options import refuse, refuse_both, wants_aliases, which_races
-from evenbreak.errors import DataError
+from evenbreak.cli.rate_options import how_to_rate, rated
 
 if TYPE_CHECKING:
     from evenbreak.ratings.fit import Ratings
@@ -29,6 +29,7 @@ Examples:
   evenbreak report season.csv --out sheet --scale fargo --race-to 9
   evenbreak report season.csv --out sheet --games 7..13 --players "Ann Lee,Bo Diaz"
   evenbreak report season.csv --out sheet --top 24 --html --excel
+  evenbreak report season.csv --out sheet --prior best --half-life 365
 """
 
 
@@ -49,6 +50,7 @@ Examples:
     metavar="npl|fargo|elo|POINTS",
     help="The scale of the ratings: POINTS of difference double the odds of a game.",
 )
+@how_to_rate
 @which_races
 @click.option(
     "--players",
@@ -74,6 +76,9 @@ def report(
     results: str,
     out: str,
     scale_name: str,
+    prior: float | str | None,
+    half_life: float | None,
+    as_of: str | None,
     games: tuple[int, int] | None,
     race_to: int | None,
     players: tuple[str, ...],
@@ -101,9 +106,9 @@ def report(
         from evenbreak.reports.workbook import check_workbook
 
         check_workbook()
-    from evenbreak.ratings.fit import fit
     from evenbreak.ratings.scale import scale_of
     from evenbreak.reports.matchups import RaceLimits, find_players, most_active
+    from evenbreak.reports.rate_words import prior_words
     from evenbreak.reports.read_results import read_results
     from evenbreak.reports.write_files import write_files
 
@@ -118,11 +123,11 @@ def report(
         told = [text.replace(aliases, PurePath(aliases).name) for text in file.warnings]
         file = replace(file, warnings=tuple(told))
     _say(f"Rating {len(file.results.players):,} players")
-    ratings = fit(file.results, scale=scale)
-    if not ratings.matches:
-        raise DataError([f"{file.source}: no match in it was played; add matches with games"])
+    ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of)
+    if choice is not None:
+        _say(prior_words(ratings, choice)[-1])
     if players:
-        chosen = find_players(ratings, _names(players, ratings.players))
+        chosen = find_players(ratings, _names(players, ratings.players), said="--players")
     else:
         chosen = most_active(ratings, TOP if top is None else top)
     if len(chosen) < 2:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from evenbreak.reports.problems import quoted
 from evenbreak.reports.read_table import Table
 
-__all__ = ["Values", "dates", "numbers", "read_cells", "whole_numbers"]
+__all__ = ["Values", "dates", "numbers", "read_cells", "read_date", "whole_numbers"]
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
 # A comma before three noughts would group thousands.
@@ -155,7 +155,7 @@ def dates(table: Table, name: str) -> Values:
     return read_cells(
         table,
         name,
-        _date,
+        read_date,
         wanted="a date",
         remedy="write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
         dtype="datetime64[D]",
@@ -164,7 +164,12 @@ def dates(table: Table, name: str) -> Values:
     )
 
 
-def _date(text: str) -> np.datetime64 | None:
+def read_date(text: str) -> np.datetime64 | None:
+    """Return the date that a text says, as `dates` reads it; None where it says none.
+
+    >>> read_date("3.9.2024"), read_date("3/9/2024")
+    (np.datetime64('2024-09-03'), None)
+    """
     match, order = _YEAR_FIRST.fullmatch(text), (1, 2, 3)
     if match is None:
         match, order = _DAY_FIRST.fullmatch(text), (3, 2, 1)

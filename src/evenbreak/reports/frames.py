@@ -68,7 +68,7 @@ def summary_frame(
     import pandas as pd
 
     scale = ratings.scale
-    first, last = dates_of(file.results)
+    first, last = dates_of(file.results, ratings.as_of)
     rows: dict[str, object] = {
         "results_file": file_name(file),
         "results_sha256": file.sha256,
@@ -76,6 +76,7 @@ def summary_frame(
         "matches_used": ratings.matches,
         "forfeits_left_out": ratings.forfeits,
         "empty_left_out": ratings.empty,
+        "later_left_out": ratings.later,
         "first_date": first,
         "last_date": last,
         "games": int(ratings.won.sum()),
@@ -88,6 +89,8 @@ def summary_frame(
         "anchor": ratings.anchor,
         "prior_sd_log_odds": ratings.prior_sd,
         "prior_sd_points": float(scale.points(ratings.prior_sd)),
+        "half_life_days": ratings.half_life,
+        "as_of": None if ratings.as_of is None else str(ratings.as_of),
         "race_to": limits.race_to,
         "games_lo": limits.games[0] if limits.games else None,
         "games_hi": limits.games[1] if limits.games else None,
@@ -110,10 +113,10 @@ def file_name(file: ResultsFile | RosterFile) -> str:
     return file.source.replace("\\", "/").rpartition("/")[2]
 
 
-def dates_of(results: Results) -> tuple[str, str]:
-    """Return the first and the last day on which a match was played, '' where none is stated."""
+def dates_of(results: Results, as_of: np.datetime64 | None = None) -> tuple[str, str]:
+    """Return the first and the last day, up to `as_of`, on which a match was played, '' if none."""
     counted = results.played().results, results.won_only()
     stated = [part.date for part in counted if part.date is not None]
     days = np.concatenate(stated) if stated else np.zeros(0, "datetime64[D]")
-    days = days[~np.isnat(days)]
+    days = days[~np.isnat(days) if as_of is None else days <= as_of]
     return (str(days.min()), str(days.max())) if len(days) else ("", "")

@@ -91,7 +91,7 @@ def sheet_html(
         "sheet.html",
         links=[*links, ("sure", "How sure"), ("left-out", "Left out")],
         title=f"Fair races from {file_name(file)}",
-        source=source_and_dates(file),
+        source=source_and_dates(file, ratings),
         played=played(ratings),
         which_races=list(which_races(pairs, limits)),
         how_to_read=how_to_read(pairs),

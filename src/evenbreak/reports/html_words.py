@@ -72,6 +72,8 @@ def about_model(ratings: Ratings) -> str:
     ages = "early and late matches of the file alike"
     if ratings.half_life is not None:
         ages = f"a match that is {ratings.half_life:g} days old counting half"
+    if ratings.as_of is not None:
+        ages += f", as of {ratings.as_of}"
     races = ", and on the chance of a race where only its winner is known"
     if not ratings.races_won.any():
         races = ""
@@ -120,6 +122,11 @@ def left_out_and_why(
     if ratings.empty:
         yield Remark(
             count_of(ratings.empty, "match at 0-0", "matches at 0-0"), "no game was entered"
+        )
+    if ratings.later:
+        yield Remark(
+            count_of(ratings.later, "later match", "later matches"),
+            f"the ratings are as of {ratings.as_of}",
         )
     idle = [name for name, none in zip(ratings.players, ratings.idle, strict=True) if none]
     if idle:

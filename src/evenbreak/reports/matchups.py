@@ -81,8 +81,19 @@ def by_strength(ratings: Ratings, players: Iterable[int]) -> list[int]:
     return sorted(players, key=lambda k: (-strength[k], k))
 
 
-def find_players(ratings: Ratings | Results, names: Sequence[str]) -> list[int]:
+def find_players(
+    ratings: Ratings | Results, names: Sequence[str], *, said: str = "players"
+) -> list[int]:
     """Return the positions of the named players, each once; upper and lower case may differ.
+
+    Parameters
+    ----------
+    ratings
+        those among whom they are looked for.
+    names
+        as a person typed them.
+    said
+        the parameter or option that named them, for the error.
 
     Raises
     ------
@@ -106,7 +117,7 @@ def find_players(ratings: Ratings | Results, names: Sequence[str]) -> list[int]:
             unknown[f"{name!r}{hint}"] = None
     if unknown:
         raise InputError(
-            f"players: not in the results: {', '.join(unknown)}; write names as the results do"
+            f"{said}: not in the results: {', '.join(unknown)}; write names as the results do"
         )
     return list(found)
 

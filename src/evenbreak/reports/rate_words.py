@@ -13,7 +13,7 @@ from evenbreak.reports.frames import scale_text
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["connection_words", "pair_rows", "rate_rows", "rate_words"]
+__all__ = ["connection_words", "pair_rows", "prior_words", "rate_rows", "rate_words"]
 
 SIZES = 6
 """How many groups of players are told by their sizes."""
@@ -50,7 +50,7 @@ def rate_words(ratings: Ratings, choice: PriorChoice | None = None) -> list[str]
         f"{len(ratings.players):,} players, {', of these '.join(made)}"
         + (f"; left out: {', '.join(left_out)}." if left_out else "."),
         f"On {scale_text(ratings.scale)}.",
-        *_prior_words(ratings, choice),
+        *prior_words(ratings, choice),
     ]
     if ratings.named:
         who = ", ".join(f"{name} {points:g}" for name, points in ratings.named)
@@ -70,7 +70,8 @@ def rate_words(ratings: Ratings, choice: PriorChoice | None = None) -> list[str]
     return lines
 
 
-def _prior_words(ratings: Ratings, choice: PriorChoice | None) -> list[str]:
+def prior_words(ratings: Ratings, choice: PriorChoice | None) -> list[str]:
+    """Return how wide the prior was, and how that was chosen if it was, a line each."""
     points = ratings.scale.points(ratings.prior_sd)
     mean = "" if ratings.named else f"mean {ratings.anchor:g}, "
     lines = [f"Before any result: {mean}standard deviation {points:.1f} points."]

@@ -19,6 +19,7 @@ from evenbreak.reports.sheet_words import (
     NO_RACE,
     count_of,
     decimals_of,
+    how_rated,
     how_to_read,
     left_out,
     pairs_of,
@@ -72,10 +73,10 @@ def sheet_text(
 
 
 def _heading(file: ResultsFile, ratings: Ratings) -> Iterator[str]:
-    yield f"FAIR RACES from {source_and_dates(file)}"
+    yield f"FAIR RACES from {source_and_dates(file, ratings)}"
     yield ""
     yield " ".join([played(ratings), *left_out(ratings), *unlike_others(ratings)])
-    yield scale_sentences(ratings)
+    yield f"{scale_sentences(ratings)} {how_rated(ratings)}"
 
 
 def _tables(
@@ -101,7 +102,8 @@ def _tables(
         yield f"{more} paired in matchups.csv."
     if len(rated) > listed.sum():
         more = count_of(len(rated) - listed.sum(), "more player is", "more players are")
-        yield f"{more} rated in ratings.csv; --top and --players say whom to pair."
+        yield f"{more} rated in ratings.csv."
+        yield "--top N pairs those with the most games, --players whom you name."
 
 
 def _table() -> Table:

@@ -26,6 +26,7 @@ from evenbreak.reports.read_results import ResultsFile
 from evenbreak.reports.sheet_words import (
     NO_RACE,
     decimals_of,
+    how_rated,
     how_to_read,
     left_out,
     pairs_of,
@@ -117,10 +118,14 @@ def sheet_pages(
         )
         for row in rows
     ]
-    head = [f"{source_and_dates(file)}. {played(ratings)}", " ".join(which_races(pairs, limits))]
+    head = [
+        f"{source_and_dates(file, ratings)}. {played(ratings)}",
+        " ".join(which_races(pairs, limits)),
+    ]
     foot = [
         " ".join([scale_sentences(ratings), *left_out(ratings)]),
-        f"evenbreak {__version__}, from results with the SHA-256 {file.sha256[:12]}…",
+        f"{how_rated(ratings)} evenbreak {__version__}, from results with the SHA-256 "
+        f"{file.sha256[:12]}…",
     ]
     told = [" ".join(remarks(pairs)), " ".join(unlike_others(ratings))]
     notes = _broken([*told, *_about_names(players, len(listed), len(rated))], SMALL)

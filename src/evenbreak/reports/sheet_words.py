@@ -19,6 +19,7 @@ __all__ = [
     "NO_RACE",
     "count_of",
     "decimals_of",
+    "how_rated",
     "how_to_read",
     "left_out",
     "pairs_of",
@@ -48,9 +49,9 @@ def decimals_of(scale: Scale) -> int:
     return max(0, 2 - math.floor(math.log10(scale.points_per_doubling)))
 
 
-def source_and_dates(file: ResultsFile) -> str:
-    """Return the name of the results file and the days of its first and last match."""
-    first, last = dates_of(file.results)
+def source_and_dates(file: ResultsFile, ratings: Ratings) -> str:
+    """Return the name of the results file and the days of the first and last match rated."""
+    first, last = dates_of(file.results, ratings.as_of)
     days = f", {first}" if first else ""
     days += f" to {last}" if last != first else ""
     return f"{file_name(file)}{days}"
@@ -67,10 +68,15 @@ def played(ratings: Ratings) -> str:
 
 def left_out(ratings: Ratings) -> Iterator[str]:
     """Yield what was left out of the ratings, if anything was."""
-    counts = ((ratings.forfeits, "forfeited"), (ratings.empty, "at 0-0"))
+    counts = (
+        (ratings.forfeits, "forfeited"),
+        (ratings.empty, "at 0-0"),
+        (ratings.later, f"after {ratings.as_of}"),
+    )
     told = [f"{count:,} {what}" for count, what in counts if count]
     if told:
-        yield f"Left out: {' and '.join(told)}."
+        *most, last = told
+        yield f"Left out: {', '.join(most)}{' and ' if most else ''}{last}."
 
 
 def unlike_others(ratings: Ratings) -> Iterator[str]:
@@ -90,6 +96,22 @@ def scale_sentences(ratings: Ratings) -> str:
         f"Ratings on {scale_text(ratings.scale)}, mean {ratings.anchor:g}. "
         "They are nobody's official ratings."
     )
+
+
+def how_rated(ratings: Ratings) -> str:
+    """Return by which prior, and with what weight of old matches, the ratings were made.
+
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2026-01-31"])
+    >>> how_rated(fit(season, half_life=180, as_of="2026-02-01"))
+    'Prior: standard deviation 30 points; a match counts half after 180 days, as of 2026-02-01.'
+    """
+    told = f"Prior: standard deviation {ratings.scale.points(ratings.prior_sd):.4g} points"
+    if ratings.half_life is not None:
+        told += f"; a match counts half after {ratings.half_life:g} days"
+    if ratings.as_of is not None:
+        told += f", as of {ratings.as_of}"
+    return f"{told}."
 
 
 def pairs_of(paired: pd.DataFrame, names: set[str]) -> pd.DataFrame:

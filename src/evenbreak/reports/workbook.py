@@ -51,7 +51,7 @@ def _xlsxwriter() -> Any:
     except ModuleNotFoundError as error:
         raise InputError(
             "a workbook needs XlsxWriter, which is not installed; install it with: "
-            "pip install XlsxWriter, or ask for CSV files"
+            "pip install XlsxWriter (the extra evenbreak[excel]), or ask for CSV files"
         ) from error
     return xlsxwriter
 
