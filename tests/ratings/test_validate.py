@@ -1,10 +1,13 @@
 """A validated season: the best priors, and what holds of all figures together."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.ratings import Results, validate
+from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.validate import PRIORS
 
 
@@ -57,6 +60,37 @@ def test_bins_hold_every_game_with_a_favourite(found):
     assert (
         sum(row.games for row in found.games) == told.games[np.abs(told.p_game - 0.5) > 1e-9].sum()
     )
+
+
+def test_matches_without_a_favourite_are_counted(found):
+    told = found.forecasts
+    even = np.abs(told.p_game - 0.5) <= 1e-9
+    assert found.toss_ups["game"] == even.sum() > 0
+    assert sum(row.matches for row in found.games) + even.sum() == len(told)
+
+
+def test_the_usual_prior_is_judged_beside_the_best(found):
+    assert [(row.of, row.prior_sd) for row in found.usual] == [
+        ("game", PRIOR_SD),
+        ("match", PRIOR_SD),
+    ]
+    losses = dict(found.priors)
+    assert found.usual[0].log_loss.value == losses[PRIOR_SD]
+
+
+def test_a_slope_of_a_few_matches_is_withheld():
+    results = season(0.6, matches=12)
+    found = validate(
+        dataclasses.replace(results, date=np.datetime64("2024-09-03") + np.arange(12) // 3),
+        prior_sd=0.1,
+    )
+    assert all(row.slope is None for row in found.scored)
+
+
+def test_what_is_done_next_is_told():
+    said = []
+    validate(season(0.6, matches=90), prior_sd=0.8, progress=said.append)
+    assert [words.split()[0] for words in said] == ["Predicting", "Comparing"]
 
 
 def test_the_same_seed_gives_the_same_figures(found):

@@ -13,7 +13,8 @@ from evenbreak.cli.plot import plot_option, write_plot
 
 if TYPE_CHECKING:
     from evenbreak.ratings.calibration import CalibrationBin, Estimate
-    from evenbreak.ratings.validate import Validation
+    from evenbreak.ratings.scale import Scale
+    from evenbreak.ratings.validate import Scored, Validation
     from evenbreak.reports.read_results import ResultsFile
 
 __all__ = ["validate"]
@@ -30,11 +31,12 @@ Examples:
 
 
 def _positive(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
-    if value is None:
+    if value is None or (param.name == "prior" and value.strip().lower() == "best"):
         return None
     number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
     if not 0.01 <= number <= 1e6:
-        message = f"{value!r}; give a number from 0.01 to 1,000,000"
+        word = ", or best" if param.name == "prior" else ""
+        message = f"{value!r}; give a number from 0.01 to 1,000,000{word}"
         raise click.BadParameter(message, ctx=ctx, param=param)
     return number
 
@@ -43,9 +45,10 @@ def _positive(ctx: click.Context, param: click.Parameter, value: str | None) -> 
 @click.argument("results", metavar="RESULTS.csv")
 @click.option(
     "--prior",
-    metavar="POINTS",
+    metavar="POINTS|best",
     callback=_positive,
-    help="The prior's standard deviation in points.  [default: the one that predicts best]",
+    help="The prior's standard deviation in points; best: that which predicts best.  "
+    "[default: best]",
 )
 @click.option(
     "--half-life",
@@ -102,11 +105,13 @@ def validate(
     for warning in file.warnings:
         click.echo(printable(f"Warning: {warning}"), err=True)
     try:
-        found = validated(file.results, prior_sd=prior_sd, half_life=half_life, seed=seed)
+        found = validated(
+            file.results, prior_sd=prior_sd, half_life=half_life, seed=seed, progress=_say
+        )
     except InputError as error:  # of the options nothing is wrong any more
         raise DataError([f"{file.source}: {error}"]) from None
     if as_json:
-        print_json(_answer(found, seed))
+        print_json(_answer(found, scale, seed))
     elif to_terminal():
         _print(file, found, scale)
     else:
@@ -117,7 +122,11 @@ def validate(
         write_plot(calibration_figure(found), plot)
 
 
-def _print(file: ResultsFile, found: Validation, scale: Any) -> None:
+def _say(message: str) -> None:
+    click.echo(message, err=True)
+
+
+def _print(file: ResultsFile, found: Validation, scale: Scale) -> None:
     import textwrap
 
     from evenbreak.reports.problems import printable
@@ -129,17 +138,17 @@ def _print(file: ResultsFile, found: Validation, scale: Any) -> None:
 
     say(printable(_heading(file, found)))
     click.echo()
-    say(verdict(found))
+    say(verdict(found, scale))
     click.echo(
-        "\nHow good predictions were, with 95 % intervals (a coin: 0.6931, 0.25)\n\n"
-        f"{_scored(found)}"
+        "\nHow good predictions were, with 95 % intervals (a coin: 0.6931, 0.25);\n"
+        f"the prior in points on the scale {scale.name}\n\n{_scored(found, scale)}"
     )
-    for title, bins in (
-        ("Games that the favourite won", found.games),
-        ("Matches that the favourite won", found.matches),
+    for title, of, bins in (
+        ("Games that the favourite won", "game", found.games),
+        ("Matches that the favourite won", "match", found.matches),
     ):
         if bins:
-            click.echo(f"{title}\n\n{_bins(bins)}")
+            click.echo(f"{title}\n\n{_bins(bins)}{_no_favourite(found.toss_ups[of])}")
     if found.spots:
         click.echo(f"Matches that the player with the longer race won\n\n{_spots(found)}")
     for paragraph in findings(found, scale):
@@ -161,13 +170,20 @@ def _heading(file: ResultsFile, found: Validation) -> str:
     )
 
 
-def _scored(found: Validation) -> str:
+def _no_favourite(count: int) -> str:
+    """Return what the table leaves out."""
+    if not count:
+        return ""
+    return f"  ({count:,} match{'es' * (count != 1)} without a favourite, at 0.5, left out)\n"
+
+
+def _scored(found: Validation, scale: Scale) -> str:
     rows = [["what", "how", "prior", "log-loss", "", "Brier", "slope", ""]]
     for row in found.scored:
         slope = ["", ""] if row.slope is None else [f"{row.slope.value:.2f}", _span(row.slope, 2)]
         rows.append(
             [
-                *(row.of, row.how, f"{row.prior_sd:.2f}"),
+                *(row.of, row.how, f"{row.prior_sd * scale.points_per_log_odds:.1f}"),
                 *(f"{row.log_loss.value:.4f}", _span(row.log_loss, 4).replace(" to ", "-")),
                 *(f"{row.brier.value:.3f}", *slope),
             ]
@@ -210,7 +226,6 @@ def _rows(found: Validation) -> list[tuple[Any, ...]]:
     told = found.forecasts
     games, races = int(told.games.sum()), int((told.race_a > 0).sum())
     counts = {"game": games, "match": races}
-    coin = {"log_loss": math.log(2.0), "brier": 0.25, "slope": 1.0}
     rows: list[tuple[Any, ...]] = [
         ("prior", "game", f"{sd:.6f}", games, None, loss, None, None, None)
         for sd, loss in found.priors
@@ -218,12 +233,11 @@ def _rows(found: Validation) -> list[tuple[Any, ...]]:
     for row in found.scored:
         head = (row.of, row.how, counts[row.of])
         rows.append(("prior_sd", *head, None, row.prior_sd, None, None, None))
-        for part, right in coin.items():
-            estimate = getattr(row, part)
-            if estimate is not None:
-                rows.append((part, *head, right, *estimate, None))
+        rows += _goodness(row, head)
         if row.as_it_went is not None:
             rows.append(("log_loss_as_it_went", *head, None, row.as_it_went, None, None, None))
+    for row in found.usual:
+        rows += _goodness(row, (row.of, "usual", counts[row.of]))
     rows += [
         ("gain", of, "integrated", counts[of], 0.0, *gain, None) for of, gain in found.gain.items()
     ]
@@ -233,10 +247,23 @@ def _rows(found: Validation) -> list[tuple[Any, ...]]:
         ("calibration_plug_in", "match", found.matches_plug_in),
     ):
         rows += [(part, of, f"{b.p_from:.2f}-{b.p_to:.2f}", *b[3:], None) for b in bins]
+    rows += [("no_favourite", of, None, count, *[None] * 5) for of, count in found.toss_ups.items()]
     return rows + _tests(found, games)
 
 
+def _goodness(row: Scored, head: tuple[str, str, int]) -> list[tuple[Any, ...]]:
+    coin = {"log_loss": math.log(2.0), "brier": 0.25, "slope": 1.0}
+    found = [(part, getattr(row, part), right) for part, right in coin.items()]
+    return [
+        (part, *head, right, *estimate, None)
+        for part, estimate, right in found
+        if estimate is not None
+    ]
+
+
 def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
+    from evenbreak.ratings.within_matches import known_breaks
+
     rows: list[tuple[Any, ...]] = []
     spread, runs, first = found.dispersion, found.streaks, found.first_breaks
     if spread is not None:
@@ -248,9 +275,13 @@ def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
     if first is not None:
         won = (first.matches, first.expected, float(first.won))
         rows.append(("first_break", "match", "won", *won, None, None, first.p_value))
-    for name, estimate in (("side", found.side), ("breaker", found.breaker)):
+    advantages = (
+        ("side", found.side, games),
+        ("breaker", found.breaker, known_breaks(found.forecasts)),
+    )
+    for name, estimate, count in advantages:
         if estimate is not None:
-            rows.append((name, "game", "log_odds", games, 0.0, *estimate, None))
+            rows.append((name, "game", "log_odds", count, 0.0, *estimate, None))
     for row in found.spots:
         spot = "all" if row.spot is None else row.spot
         told = (row.matches, row.expected, row.share)
@@ -258,7 +289,7 @@ def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
     return rows
 
 
-def _answer(found: Validation, seed: int) -> dict[str, Any]:
+def _answer(found: Validation, scale: Scale, seed: int) -> dict[str, Any]:
     """Return what --json prints."""
     from evenbreak.reports.validate_words import verdict
 
@@ -272,16 +303,18 @@ def _answer(found: Validation, seed: int) -> dict[str, Any]:
     bins = {name: [plain(row) for row in getattr(found, name)] for name in _LISTS}
     tests = {name: plain(getattr(found, name)) for name in _TESTS}
     return {
-        "verdict": verdict(found),
+        "verdict": verdict(found, scale),
         "matches_read": len(told),
         "dates": int(told.date_of[-1]) + 1,
         **{name: getattr(told, name) for name in ("undated", "forfeits", "empty", "unscored")},
         "newcomers": int(told.new.sum()),
         "prior_sd": found.prior_sd,
+        "prior_points": found.prior_sd * scale.points_per_log_odds,
         "half_life": told.half_life,
         "priors": [{"prior_sd": sd, "log_loss": loss} for sd, loss in found.priors],
         **bins,
         "gain": {of: plain(gain) for of, gain in found.gain.items()},
+        "toss_ups": found.toss_ups,
         **tests,
         "drawn": found.drawn,
         "seed": seed,
@@ -289,5 +322,5 @@ def _answer(found: Validation, seed: int) -> dict[str, Any]:
     }
 
 
-_LISTS = ("scored", "games", "matches", "matches_plug_in", "spots")
+_LISTS = ("scored", "usual", "games", "matches", "matches_plug_in", "spots")
 _TESTS = ("skill", "dispersion", "streaks", "side", "breaker", "first_breaks")

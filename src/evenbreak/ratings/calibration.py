@@ -24,6 +24,7 @@ __all__ = [
     "calibration",
     "log_loss",
     "logistic_coefficient",
+    "no_favourites",
     "with_error",
 ]
 
@@ -220,6 +221,15 @@ def calibration(
         matches = int(rows.sum())
         found.append(CalibrationBin(first, last, matches, round(n), predicted, seen, low, high))
     return found
+
+
+def no_favourites(p: Floats, games: Floats) -> int:
+    """Return how many matches with games are left out by `calibration`: p is 1/2.
+
+    >>> no_favourites(np.array([0.5, 0.7]), np.array([9.0, 9.0]))
+    1
+    """
+    return int(((np.abs(p - 0.5) <= TOSS_UP) & (games > 0)).sum())
 
 
 def wilson(share: float, n: float) -> tuple[float, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -16,6 +17,7 @@ from evenbreak.ratings.calibration import (
     calibration,
     log_loss,
     logistic_coefficient,
+    no_favourites,
 )
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.prior import WIDTHS
@@ -45,6 +47,12 @@ FEWEST_DATES = 10
 
 BINS = 10
 
+FEWEST_MATCHES = 30
+"""Matches with a favourite from which a slope is told."""
+
+WIDEST_SLOPE = 4.0
+"""A slope whose interval is wider tells nothing."""
+
 SUREST = 1e-12
 """No chance is taken to be nearer to 0 or 1."""
 
@@ -65,7 +73,8 @@ class Scored(NamedTuple):
         the mean over games (or matches), in nats; a toss-up has ln 2 and 1/4.
     slope
         the calibration slope: 1 is right, below it the predictions are too sure of
-        themselves. None where it cannot be told.
+        themselves. None where it cannot be told: of fewer than 30 matches with a
+        favourite, or where its interval is wider than 4.
     as_it_went
         the log-loss if each date is predicted with the prior that did best before it;
         None where the prior was given.
@@ -95,6 +104,9 @@ class Validation:
     scored
         games and matches, plug-in and integrated, each at its own best prior; no matches
         where there are no races.
+    usual
+        the integrated predictions with the prior that is used unless another is given,
+        `PRIOR_SD`; empty where the prior was given here.
     gain
         log-loss of plug-in less that of integrated, each at its own best prior, by what
         is predicted: above 0, the uncertainty is worth its while.
@@ -104,6 +116,8 @@ class Validation:
         calibration of the favourites' chances, integrated, at the prior to use.
     matches_plug_in
         the same of matches by the ratings as they stand.
+    toss_ups
+        how many matches have no favourite and so are in no bin, by what is predicted.
     dispersion, streaks, side, breaker, first_breaks
         whether play inside matches is what the model says; None where the file does not
         tell.
@@ -117,11 +131,13 @@ class Validation:
     prior_sd: float
     priors: tuple[tuple[float, float], ...]
     scored: tuple[Scored, ...]
+    usual: tuple[Scored, ...]
     gain: dict[str, Estimate]
     skill: Estimate
     games: tuple[CalibrationBin, ...]
     matches: tuple[CalibrationBin, ...]
     matches_plug_in: tuple[CalibrationBin, ...]
+    toss_ups: dict[str, int]
     dispersion: Dispersion | None
     streaks: Streaks | None
     side: Estimate | None
@@ -137,6 +153,7 @@ def validate(
     prior_sd: float | None = None,
     half_life: float | None = None,
     seed: int = 1,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> Validation:
     """Walk forward through a season, and say how good the predictions were.
 
@@ -151,6 +168,8 @@ def validate(
         days after which a game counts half; None: games never age.
     seed
         of the bootstrap and of the seasons that chance plays.
+    progress
+        is told in a sentence what is done next.
 
     Raises
     ------
@@ -168,10 +187,10 @@ def validate(
     >>> [(row.of, row.how, round(row.log_loss.value, 3)) for row in found.scored[:2]]
     [('game', 'plug-in', 0.654), ('game', 'integrated', 0.655)]
     """
-    if prior_sd is None:
-        walks = [walk_forward(results, prior_sd=sd, half_life=half_life) for sd in PRIORS]
-    else:
-        walks = [walk_forward(results, prior_sd=prior_sd, half_life=half_life)]
+    tried = PRIORS if prior_sd is None else (prior_sd,)
+    many = "" if len(tried) == 1 else f", with each of {len(tried)} priors"
+    progress(f"Predicting each date from those before it{many}")
+    walks = [walk_forward(results, prior_sd=sd, half_life=half_life) for sd in tried]
     found = {}
     for of in ("game", "match"):
         for how in ("plug-in", "integrated"):
@@ -182,7 +201,10 @@ def validate(
     drawn: Literal["dates", "matches"] = "dates" if dates >= FEWEST_DATES else "matches"
     cluster = used.date_of if drawn == "dates" else np.arange(len(used))
     rng = np.random.default_rng(seed)
+    progress("Comparing the season with seasons that chance plays")
     spread = dispersion(used, rng)
+    of_all = tuple(dict.fromkeys(of for of, _ in found))
+    scored = tuple(_scored(best, cluster, rng) for best in found.values())
     return Validation(
         forecasts=used,
         prior_sd=used.prior_sd,
@@ -190,12 +212,14 @@ def validate(
             (walk.prior_sd, _mean_loss(walk, "game", "integrated"))
             for walk in sorted({*walks, used}, key=lambda walk: walk.prior_sd)
         ),
-        scored=tuple(_scored(best, cluster, rng) for best in found.values()),
+        scored=scored,
+        usual=() if prior_sd is not None else _usual(walks, of_all, cluster, seed),
         gain=_gains(found, cluster, rng),
         skill=_skill(used, cluster, rng),
         games=_calibrated(used, "game", "integrated", spread),
         matches=_calibrated(used, "match", "integrated", None),
         matches_plug_in=_calibrated(used, "match", "plug-in", None),
+        toss_ups={of: _toss_ups(used, of) for of in of_all},
         dispersion=spread,
         streaks=streaks(used),
         side=side_advantage(used),
@@ -273,15 +297,33 @@ def _mean_loss(walk: Forecasts, of: str, how: str) -> float:
 
 def _scored(best: _Best, cluster: NDArray[np.int64], rng: np.random.Generator) -> Scored:
     p, won, trials = _predictions(best.walk, best.of, best.how)
+    slope = logistic_coefficient(np.log(p) - np.log1p(-p), won, trials, cluster)
+    favourites = int((trials > 0).sum()) - no_favourites(p, trials)
+    if favourites < FEWEST_MATCHES or (slope and slope.high - slope.low > WIDEST_SLOPE):
+        slope = None
     return Scored(
         best.of,  # type: ignore[arg-type]
         best.how,  # type: ignore[arg-type]
         best.walk.prior_sd,
         bootstrap_ratio(log_loss(p, won, trials), trials, cluster, rng),
         bootstrap_ratio(brier(p, won, trials), trials, cluster, rng),
-        logistic_coefficient(np.log(p) - np.log1p(-p), won, trials, cluster),
+        slope,
         best.as_it_went,
     )
+
+
+def _usual(
+    walks: list[Forecasts], of_all: tuple[str, ...], cluster: NDArray[np.int64], seed: int
+) -> tuple[Scored, ...]:
+    """Return how good the predictions are with the prior that is used unless told otherwise."""
+    rng = np.random.default_rng(seed)
+    walk = walks[PRIORS.index(PRIOR_SD)]
+    return tuple(_scored(_Best(of, "integrated", walk, None), cluster, rng) for of in of_all)
+
+
+def _toss_ups(walk: Forecasts, of: str) -> int:
+    p, _, trials = _predictions(walk, of, "integrated")
+    return no_favourites(p, trials)
 
 
 def _gains(

@@ -26,6 +26,7 @@ __all__ = [
     "break_advantage",
     "dispersion",
     "first_breaks",
+    "known_breaks",
     "side_advantage",
     "streaks",
 ]
@@ -239,6 +240,11 @@ def break_advantage(told: Forecasts) -> Estimate | None:
     if abs(b) > 0.99 * MOST_ADVANTAGE or curvature <= 0.0:
         return None
     return with_error(b, math.sqrt(float((at(b, days)[1] ** 2).sum())) / curvature)
+
+
+def known_breaks(told: Forecasts) -> int:
+    """Return how many racks are known with who broke them, which `break_advantage` counts."""
+    return int(_tally(told).sum())
 
 
 def _tally(told: Forecasts) -> Floats:
