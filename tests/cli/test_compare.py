@@ -112,6 +112,19 @@ def test_advice(texts, words):
     assert words in _advice(compared)
 
 
+@pytest.mark.parametrize(
+    "texts",
+    [
+        ["9:7", "9:7 alternate breaks", "7:6"],
+        ["9:7 win by 2 of 3:3 alternate breaks", "ahead 6:1", "best of 3 of 15:14 loser breaks"],
+    ],
+)
+def test_a_terminal_of_80_columns_holds_it(run, monkeypatch, texts):
+    monkeypatch.setattr("evenbreak.cli.compare.to_terminal", lambda: True)
+    lines = run("compare", *BREAKS, *texts).stdout.splitlines()
+    assert max(map(len, lines)) <= 80
+
+
 def test_plot(run, tmp_path):
     path = tmp_path / "formats.png"
     result = run("compare", *BREAKS, "9:7", "7:6", "--plot", str(path))
@@ -133,6 +146,10 @@ def test_the_usage_line_names_ratings_and_formats(run):
         (["--p", "0.6", "9:5", "0:3"], "from 1 to 1000"),
         (["--p", "0.6", "9:5", "--wins"], "No such option '--wins'"),
         (["-30", "0", "9:5", "-x"], "No such option '-x'"),
+        (["--p", "0.6", "7", "9"], "7 was read as a rating; write 7:7 for a race to 7"),
+        (["612", "521", "9", "--scale", "fargo", "9:5"], "9 was read as a rating; write 9:9"),
+        (["--p", "0.6", "9:5", "-30"], "-30 was read as a rating; write 7:7 for a race to 7"),
+        (["--p", "0.6", "best of 8"], "can end level; give an odd number, or write 5:5"),
         (["612", "9:5"], "1 rating(s) given"),
         (["--p", "0.6", "9:5 winner breaks"], "only with --p1 and --p2; leave it out"),
         (["--p", "0.6", "9:5", "--hold", "p2"], "which are not given; leave it out"),

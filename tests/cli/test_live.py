@@ -90,20 +90,45 @@ def test_the_table_with_breaks_in_words():
     race = Race(2, 1, Rack(0.6, 0.5), breaks=winner_breaks)
     assert comeback_text(race, live_odds(race)).splitlines() == [
         "A wins the match at each score with A to break, in %",
+        "* is the score now",
         "",
-        "        B 0",
-        "  A 0  36.0",
-        "  A 1  60.0",
+        "         B 0",
+        "  A 0  *36.0",
+        "  A 1   60.0",
     ]
 
 
 def test_the_table_of_leads_in_words():
     match = Ahead(2, 2, Rack(0.5))
-    assert comeback_text(match, live_odds(match)).splitlines()[2:] == [
-        "  B leads by 1  25.0",
-        "  level         50.0",
-        "  A leads by 1  75.0",
+    assert comeback_text(match, live_odds(match, [2])).splitlines()[1:] == [
+        "* is the score now",
+        "",
+        "  B leads by 1  *25.0",
+        "  level          50.0",
+        "  A leads by 1   75.0",
     ]
+
+
+def test_the_star_is_in_the_tables_that_have_the_score_now():
+    def starred(winners, **match):
+        odds = live_odds(played := Race(2, 2, **match), winners)
+        return [
+            part.count("*") == 2 for part in comeback_text(played, odds).split("A wins the")[1:]
+        ]
+
+    sets = Race(2, 2, Rack(0.5))
+    assert starred([1], rack=sets) == [True, False]  # a set has begun
+    assert starred([1, 1], rack=sets) == [True, True]  # and here the next one does
+    broken = Rack(0.6, 0.5)
+    assert starred([2], rack=broken, breaks=winner_breaks) == [False, True]
+
+
+def test_the_table_comes_after_the_odds_and_the_course(run, monkeypatch):
+    monkeypatch.setattr("evenbreak.cli.live.to_terminal", lambda: True)
+    line = ("live", "--p", "0.6", "--race", "4:3", "--racks", "abb")
+    alone, table = (run(*line, *more).stdout for more in ((), ("--table",)))
+    assert table.startswith(alone.rstrip())
+    assert "  A 1  *21.6\n" in table[len(alone) :]
 
 
 def test_the_table_of_sets_in_words():

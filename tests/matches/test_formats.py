@@ -95,6 +95,27 @@ def test_no_text_makes_another_error(text):
         match_format(text)
 
 
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        ("best of 9", "5:5"),
+        ("Best of 1", "1:1"),
+        ("best of 5 of 3:2, winner breaks", "3:3 of 3:2 winner breaks"),
+        ("3:1 of best of 7", "3:1 of 4:4"),
+        ("7 : 5", "7:5"),
+        ("ahead 5 :3", "ahead 5:3"),
+    ],
+)
+def test_other_ways_to_write_a_format(text, same):
+    assert str(match_format(text)) == same
+
+
+@pytest.mark.parametrize("text", ["best of 8", "3:1 of best of 2", "best of 0"])
+def test_the_best_of_an_even_number_is_no_match(text):
+    with pytest.raises(InputError, match="can end level; give an odd number"):
+        match_format(text)
+
+
 def test_wrong_parameters():
     with pytest.raises(InputError, match="m is 0"):
         MatchFormat(0, 3)

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 from evenbreak.games import Race, Rack
@@ -30,6 +31,22 @@ def test_the_greatest_swing_is_written_beside_it(odds):
     (text,) = above.texts
     greatest = max(odds.swings, key=abs)
     assert text.get_text() == f"{greatest:+.2f}".replace("-", "\N{MINUS SIGN}")
+
+
+@pytest.mark.parametrize("p", [0.2, 0.6, 0.9])
+@pytest.mark.parametrize("racks", ["a", "abb", "bbab", "ababbab", "abbabababab"])
+def test_the_label_is_clear_of_the_line(p, racks):
+    odds = live_odds(Race(7, 6, Rack(p)), ["ab".index(letter) + 1 for letter in racks])
+    figure = plot_course(odds)
+    figure.canvas.draw()
+    above, _ = figure.axes
+    box = above.texts[0].get_window_extent()
+    x = np.linspace(0, len(racks), 2001)
+    y = np.interp(x, range(len(racks) + 1), [moment.p_win_1 for moment in odds.course])
+    assert not box.count_contains(above.transData.transform(np.column_stack([x, y])))
+    frame = above.get_window_extent()
+    assert frame.y0 < box.y0
+    assert box.y1 < frame.y1
 
 
 def test_sets_and_one_sided_matches():

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations
-from textwrap import wrap
+from itertools import combinations, zip_longest
+from textwrap import fill, wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
@@ -37,7 +37,7 @@ COLUMNS = (
     "even_p1",
     "even_places",
 )
-HEADINGS = ("format", "A wins", "from even", "games, mean", "9 of 10 within", "even at")
+HEADINGS = ("format", "A wins", "from even", "games", "9 of 10 in", "even at")
 
 MOST_FORMATS = 7
 """Formats side by side: as many as a picture has lines for."""
@@ -48,6 +48,9 @@ and another match where it does not. Each answer then takes seconds."""
 
 WIDTH = 80
 """Of a terminal, in characters."""
+
+NARROWEST = 14
+"""Room for the name of a format, in characters."""
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""
@@ -111,6 +114,7 @@ def compare(
     from evenbreak.matches.crossings import crossings, even_probability
     from evenbreak.matches.scalar import match_odds
 
+    _refuse_numbers(**who)
     players = Players.of(**who)
     read = _read(formats, players)
     line = _line(players, hold)
@@ -133,6 +137,17 @@ def compare(
         click.echo(csv_text(COLUMNS, [_row(one) for one in compared]), nl=False)
     else:
         click.echo(f"{players.description}\n\n{_text(players, compared, pairs, hold)}", nl=False)
+
+
+def _refuse_numbers(
+    *, ratings: Sequence[str], p: float | None, p1: float | None, p2: float | None, **_: Any
+) -> None:
+    """Refuse a number that was meant for a race."""
+    said = not (p is None and p1 is None and p2 is None)
+    if ratings and (said or len(ratings) > 2):
+        word = ratings[0 if said else 2]
+        race = word if word.isdecimal() else "7"
+        refuse(f"{word} was read as a rating; write {race}:{race} for a race to {race}")
 
 
 def _read(texts: Sequence[str], players: Players) -> list[MatchFormat]:
@@ -249,7 +264,7 @@ def _text(
                 ", ".join(chance_text(point.p1) for point in one.even) or "none",
             ]
         )
-    text = aligned(rows, left=1)
+    text = _narrow(rows)
     if len(compared) == 1:
         return text
     stays = {None: "p2 as it is", "p2": "p2 as it is", "break": "the break's advantage as it is"}
@@ -258,14 +273,27 @@ def _text(
         [f"{names[i]} or {names[j]}", _turns(found, names[i], names[j])]
         for (i, j), found in pairs.items()
     ]
-    width = max(len(who) for who, _ in turns)
-    lines = [
-        f"  {(who if not i else '').ljust(width)}  {part}\n"
-        for who, better in turns
-        for i, part in enumerate(wrap(better, max(WIDTH - width - 4, 30)))
-    ]
-    listed = "".join(lines)
-    return f"{text}\nBetter for A as {axis} grows{told}:\n\n{listed}\n{_advice(compared)}\n"
+    width = min(max(len(who) for who, _ in turns), WIDTH // 2)
+    listed = ""
+    for who, better in turns:
+        beside = zip_longest(wrap(who, width), wrap(better, WIDTH - width - 4), fillvalue="")
+        listed += "".join(f"  {one.ljust(width)}  {part}".rstrip() + "\n" for one, part in beside)
+    advice = fill(_advice(compared), WIDTH)
+    return f"{text}\nBetter for A as {axis} grows{told}:\n\n{listed}\n{advice}\n"
+
+
+def _narrow(rows: Sequence[Sequence[str]]) -> str:
+    """Return a table of formats, their names over several lines where it would be too wide."""
+    text = aligned(rows, left=1)
+    too_wide = max(map(len, text.splitlines())) - WIDTH
+    if too_wide <= 0:
+        return text
+    width = max(max(len(row[0]) for row in rows) - too_wide, NARROWEST)
+    lines = []
+    for row in rows:
+        first, *more = wrap(row[0], width)
+        lines += [[first, *row[1:]], *([f"  {part}", *[""] * (len(row) - 1)] for part in more)]
+    return aligned(lines, left=1)
 
 
 def _advice(compared: Sequence[Compared]) -> str:

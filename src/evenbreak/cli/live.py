@@ -105,7 +105,7 @@ def _racks(ctx: click.Context, param: click.Parameter, value: str | None) -> lis
 @click.option(
     "--racks", metavar="abbab...", callback=_racks, help="Who won each rack since that score."
 )
-@click.option("--table", is_flag=True, help="Print the comeback table: every score to come.")
+@click.option("--table", is_flag=True, help="Add the comeback table: every score to come.")
 @wants_json
 @plot_option
 def live(
@@ -158,12 +158,12 @@ def live(
         click.echo(csv_text(OF_THE_TABLE if table else COLUMNS, rows), nl=False)
     else:
         heading = f"{players.description}\n{_standing_text(match, odds.now)}\n\n"
+        text = heading + _text(course, odds)
         if table:
             from evenbreak.cli.live_table import comeback_text
 
-            click.echo(heading + comeback_text(match, odds), nl=False)
-        else:
-            click.echo(heading + _text(course, odds), nl=False)
+            text = f"{text.rstrip()}\n\n{comeback_text(match, odds)}"
+        click.echo(text, nl=False)
 
 
 def _refuse_giants(match: Match) -> None:

@@ -16,7 +16,10 @@ from evenbreak.games.rack import Rack
 __all__ = ["MatchFormat", "match_format"]
 
 _LONGEST = 1000
-_WAYS = "9:5, '7:7 win by 2', 'ahead 5:3' or '3:1 of 3:3', perhaps with 'winner breaks' after it"
+_WAYS = (
+    "9:5, '7:7 win by 2', 'ahead 5:3', '3:1 of 3:3' or 'best of 9', "
+    "perhaps with 'winner breaks' after it"
+)
 _BREAKS = {
     "winner": "winner",
     "loser": "loser",
@@ -24,6 +27,7 @@ _BREAKS = {
     "a": "player 1",
     "b": "player 2",
 }
+_BEST_OF = re.compile(r"\bbest of (\d{1,9})\b", re.ASCII)
 _ONE = re.compile(r"(race |ahead )?(\d{1,9}):(\d{1,9})(?:,? win[- ]by (\d{1,9}))?", re.ASCII)
 _TAIL = re.compile(rf",? ({'|'.join(_BREAKS)}) breaks$")
 
@@ -136,8 +140,8 @@ def match_format(text: str) -> MatchFormat:
     text
         `9:5` (player 1, whom the text calls A, needs 9 games, player 2, B, needs 5),
         `7:7 win by 2`, `ahead 5:3`, or one of them `of` another, which then is the set:
-        `3:1 of 3:3`. After it may stand who breaks: `winner breaks`, or loser,
-        alternate, A or B. Each number is from 1 to 1000.
+        `3:1 of 3:3`. `best of 9` is `5:5`. After it may stand who breaks: `winner breaks`, or
+        loser, alternate, A or B. Each number is from 1 to 1000.
 
     Raises
     ------
@@ -152,12 +156,21 @@ def match_format(text: str) -> MatchFormat:
     27
     >>> str(match_format("ahead 5:3, A breaks"))
     'ahead 5:3 A breaks'
+    >>> str(match_format("best of 5 of 3:3"))
+    '3:3 of 3:3'
     >>> match_format("nine games")
     Traceback (most recent call last):
     ...
     evenbreak.errors.InputError: 'nine games' is no match format; write 9:5, '7:7 win by 2', ...
     """
-    words = " ".join(str(text).lower().split())
+    words = re.sub(r" ?: ?", ":", " ".join(str(text).lower().split()))
+    for most in map(int, _BEST_OF.findall(words)):
+        if most % 2 == 0:
+            raise InputError(
+                f"{text!r}: the best of {most} can end level; give an odd number, or write "
+                f"{_half(most)}"
+            )
+    words = _BEST_OF.sub(lambda found: _half(int(found[1])), words)
     breaks = None
     if tail := _TAIL.search(words):
         words, breaks = words[: tail.start()], _BREAKS[tail[1]]
@@ -176,3 +189,13 @@ def match_format(text: str) -> MatchFormat:
         found = MatchFormat(m, n, kind == "ahead ", win_by, found, breaks if innermost else None)
     assert found is not None  # noqa: S101  a split has one part at least
     return found
+
+
+def _half(most: int) -> str:
+    """Return the race of which the longest match has so many games, or one more.
+
+    >>> _half(9), _half(10)
+    ('5:5', '6:6')
+    """
+    need = most // 2 + 1
+    return f"{need}:{need}"

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
-from evenbreak.reports.style import LINES, label_beside
+import numpy as np
+
+from evenbreak.reports.style import LINES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -15,6 +18,9 @@ __all__ = ["plot_course"]
 
 _MOST_SCORES = 24
 """Scores that fit below the picture; beyond, every so many are written."""
+
+_LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
+"""Of the picture's width and height: room for a label, and what is free between it and the line."""
 
 
 def plot_course(odds: LiveOdds) -> Figure:
@@ -52,11 +58,10 @@ def plot_course(odds: LiveOdds) -> Figure:
     most = max(range(len(odds.swings)), key=lambda i: abs(odds.swings[i]))
     swing = odds.swings[most]
     told = f"{swing:+.2f}".replace("-", "\N{MINUS SIGN}")
-    last = most >= len(odds.swings) - 2
-    side: Literal["left", "right"] = "left" if last or (swing > 0 and most > 0) else "right"
-    label = label_beside(above, most + 0.5, wins[most] + 0.5 * swing, told, side)
-    # Where the line is flat it runs through the label.
-    label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 1.0})
+    above.plot(racks[most : most + 2], wins[most : most + 2], color=line.color, linewidth=3.0)
+    place, va = _clear_of(wins, most + 0.5)
+    label = above.text(most + 0.5, place, told, fontsize=9, ha="center", va=va)
+    label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.0})  # over the line of 1/2
     above.set(ylim=(-0.03, 1.03), ylabel="P(A wins the match)")
     above.legend(frameon=False, loc="best")
     leverages = [moment.leverage or 0.0 for moment in odds.course[:-1]]
@@ -70,6 +75,21 @@ def plot_course(odds: LiveOdds) -> Figure:
     for axes in (above, below):
         axes.tick_params(direction="in", top=True, right=True)
     return figure
+
+
+def _clear_of(wins: Sequence[float], x: float) -> tuple[float, Literal["bottom", "top"]]:
+    """Return where a label centred at x keeps clear of the line, and which end of it is there.
+
+    >>> _clear_of([0.25, 0.25, 0.25], 1.5)
+    (0.3, 'bottom')
+    """
+    half = _LABEL_SHARE * len(wins) / 2.0
+    near = np.linspace(max(x - half, 0.0), min(x + half, len(wins) - 1.0), 101)
+    line = np.interp(near, range(len(wins)), wins)
+    over = float(line.max()) + _GAP
+    if over < 1.0 - _LABEL_HEIGHT:
+        return over, "bottom"
+    return float(line.min()) - _GAP, "top"
 
 
 def _score(scores: tuple[tuple[int, int], ...]) -> str:
