@@ -10,7 +10,7 @@ import click
 
 from evenbreak.cli.matchups_html import html_option, refuse_page, write_page
 from evenbreak.cli.options import NUMBER, refuse, refuse_both, wants_json, which_races
-from evenbreak.cli.output import SCHEMA_VERSION, print_json, to_terminal
+from evenbreak.cli.output import SCHEMA_VERSION, print_json, say, to_terminal
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -154,7 +154,7 @@ def matchups(
     points = _scale(scale, chart, table)
     file = read_roster(roster)
     for warning in file.warnings:
-        _say(f"Warning: {warning}")
+        say(f"Warning: {warning}")
     players = _started(file.roster, points, starter, starter_sd)
     check_roster(file, players, table, points)
     if scale is None:
@@ -204,7 +204,7 @@ def _stream(
     """Write the table as CSV, so many pairs at a time that memory is no concern."""
     from evenbreak.reports.to_csv import to_csv
 
-    _say(told.heading)
+    say(told.heading)
     for first in range(0, len(meets), AT_A_TIME):
         answer = told.matchups(meets[first : first + AT_A_TIME])
         rows = to_csv(answer.frame)
@@ -212,7 +212,7 @@ def _stream(
         # An evening is never more pairs than are told at a time.
         ends = [] if tables is None else told.evening(answer, meets, tables, seed)
         for text in told.evening_lines(ends):
-            _say(text.replace("\n", " "))
+            say(text.replace("\n", " "))
     return answer, ends
 
 
@@ -221,7 +221,7 @@ def _chart(name: str) -> Chart | LevelChart:
 
     file = find_chart_file(name)
     for warning in file.warnings:
-        _say(f"Warning: {warning}")
+        say(f"Warning: {warning}")
     return file.chart
 
 
@@ -278,7 +278,7 @@ def _doubt_starter(start: float, rated: NDArray[Any], scale: Scale) -> None:
     """Warn of a starter that nobody asked for, a doubling of the odds from all who are rated."""
     least, most = float(rated.min()), float(rated.max())
     if not least - scale.points_per_doubling <= start <= most + scale.points_per_doubling:
-        _say(
+        say(
             f"Warning: {start:g} is the middle of the {scale.name} scale, and the ratings here go "
             f"from {least:g} to {most:g}; say with --starter what a new player starts with, or "
             "with --scale what the ratings mean"
@@ -289,7 +289,7 @@ def _doubt_scale(roster: Roster, scale: Scale) -> None:
     """Warn of ratings too far apart for a scale that was not asked for."""
     apart = float(roster.rating.max() - roster.rating.min()) / scale.points_per_doubling
     if apart > FAR_APART:
-        _say(
+        say(
             f"Warning: from the weakest to the strongest the odds double {apart:.0f} times on the "
             f"{scale.name} scale; if the ratings are others, say which with --scale"
         )
@@ -302,7 +302,7 @@ def _say_of(roster: Roster, which: NDArray[Any], message: str) -> None:
     names = [roster.players[place] for place in np.flatnonzero(which)]
     if names:
         more = f" and {len(names) - MOST_NAMED:,} more" if len(names) > MOST_NAMED else ""
-        _say(f"{message}: {', '.join(names[:MOST_NAMED])}{more}")
+        say(f"{message}: {', '.join(names[:MOST_NAMED])}{more}")
 
 
 def _read_pairs(path: str, roster: Roster) -> NDArray[Any]:
@@ -310,7 +310,7 @@ def _read_pairs(path: str, roster: Roster) -> NDArray[Any]:
 
     file = read_pairs(path, roster)
     for warning in file.warnings:
-        _say(f"Warning: {warning}")
+        say(f"Warning: {warning}")
     return file.pairs
 
 
@@ -322,9 +322,3 @@ def _refuse_too_many(found: str, many: int, tables: int | None, as_json: bool) -
         refuse(f"{found}, and {MOST_PAIRS:,} are the most; {meet}")
     if many > MOST_SHOWN and (as_json or to_terminal()):
         refuse(f"{found}, too many to show; write them to a file, as in > pairs.csv, or {meet}")
-
-
-def _say(message: str) -> None:
-    from evenbreak.reports.problems import printable
-
-    click.echo(printable(message), err=True)

@@ -20,6 +20,7 @@ __all__ = [
     "print_json",
     "print_quantities",
     "print_table",
+    "say",
     "to_terminal",
 ]
 
@@ -32,6 +33,13 @@ WIDTH = 80
 def to_terminal() -> bool:
     """Return whether a person reads the output directly."""
     return sys.stdout is not None and sys.stdout.isatty()
+
+
+def say(message: str) -> None:
+    """Say something beside the answer: a line on stderr, in letters that print."""
+    from evenbreak.reports.problems import printable
+
+    click.echo(printable(message), err=True)
 
 
 def print_json(value: Any) -> None:
@@ -152,15 +160,28 @@ def aligned(rows: Sequence[Sequence[str]], *, left: int = 1) -> str:
       hill-hill     0.2
       shutout    0.0123
     """
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    widths = [max(map(_width, column)) for column in zip(*rows, strict=True)]
     lines = []
     for row in rows:
-        cells = [
-            cell.ljust(width) if place < left else cell.rjust(width)
-            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ]
+        cells = []
+        for place, (cell, width) in enumerate(zip(row, widths, strict=True)):
+            gap = " " * (width - _width(cell))
+            cells.append(cell + gap if place < left else gap + cell)
         lines.append("  " + "  ".join(cells).rstrip() + "\n")
     return "".join(lines)
+
+
+def _width(text: str) -> int:
+    """Return how many columns of a terminal a text takes.
+
+    >>> _width("Zoë"), _width("🎱"), _width("李娜")
+    (3, 2, 4)
+    """
+    if max(text, default="") < "\u0300":  # before the first that combine with others
+        return len(text)
+    from rich.cells import cell_len  # only now: it takes a while to load
+
+    return cell_len(text)
 
 
 def chance_text(p: float) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.options import NUMBER, refuse, wants_aliases, wants_json
-from evenbreak.cli.output import SCHEMA_VERSION, aligned, print_json, to_terminal
+from evenbreak.cli.output import SCHEMA_VERSION, aligned, print_json, say, to_terminal
 from evenbreak.cli.rate_options import how_to_rate, points, rated
 
 if TYPE_CHECKING:
@@ -161,7 +161,7 @@ def _rate(
         break_advantage=break_advantage,
     )
     if break_advantage is not None and ratings.break_advantage is None:
-        _say(
+        say(
             "Warning: of no game the file says who broke, so --break-advantage changes nothing; "
             "give break_format and first_break, with races or racks"
         )
@@ -179,7 +179,7 @@ def _rate(
     from evenbreak.reports.to_csv import to_csv
 
     for line in words:
-        _say(line)
+        say(line)
     click.echo(to_csv(frame), nl=False)
 
 
@@ -188,7 +188,7 @@ def _read(path: str, aliases: str | None) -> ResultsFile:
 
     file = read_results(path, aliases=aliases)
     for warning in file.warnings:
-        _say(f"Warning: {warning}")
+        say(f"Warning: {warning}")
     return file
 
 
@@ -249,12 +249,6 @@ def _as_json(
         what: frame.astype(object).where(frame.notna(), None).to_dict("records"),
         "schema_version": SCHEMA_VERSION,
     }
-
-
-def _say(message: str) -> None:
-    from evenbreak.reports.problems import printable
-
-    click.echo(printable(message), err=True)
 
 
 def _show(text: str) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.options import refuse
-from evenbreak.cli.output import SCHEMA_VERSION, aligned, print_json, to_terminal
+from evenbreak.cli.output import SCHEMA_VERSION, aligned, print_json, say, to_terminal
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -58,18 +58,18 @@ def rate_by_system(
     last = read_roster(roster)
     tonight = read_results(path, aliases=aliases)
     for warning in (*last.warnings, *tonight.warnings):
-        _say(f"Warning: {warning}")
+        say(f"Warning: {warning}")
     if by_chart is None:
         by_chart = chart_of_night(rule, last.roster, tonight.results)
         if by_chart is not None:
-            _say(
+            say(
                 f"No --chart: {by_chart.name} is taken, the only chart of the system whose races "
                 "all scores end"
             )
     moves = moves_of_files(rule, last, tonight, chart=by_chart)
     if by_chart is not None:
         for warning in night_warnings(moves, tonight, by_chart):
-            _say(f"Warning: {warning}")
+            say(f"Warning: {warning}")
     frame = moves_frame(moves)
     if as_json:
         print_json(_as_json(moves, frame, by_chart))
@@ -80,7 +80,8 @@ def rate_by_system(
     else:
         from evenbreak.reports.to_csv import to_csv
 
-        _say(_heading(moves, last.source, tonight.source).rstrip())
+        for line in _heading(moves, last.source, tonight.source).splitlines():
+            say(line)
         click.echo(to_csv(frame), nl=False)
 
 
@@ -173,10 +174,3 @@ def _as_json(moves: Moves, frame: pd.DataFrame, chart: Chart | None) -> dict[str
         ],
         "schema_version": SCHEMA_VERSION,
     }
-
-
-def _say(message: str) -> None:
-    from evenbreak.reports.problems import printable
-
-    for line in message.splitlines():
-        click.echo(printable(line), err=True)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from evenbreak.cli.options import refuse, refuse_both, wants_aliases, which_races
+from evenbreak.cli.output import say
 from evenbreak.cli.rate_options import how_to_rate, rated
 
 if TYPE_CHECKING:
@@ -114,30 +115,30 @@ def report(
 
     scale = scale_of(scale_name)
     limits = RaceLimits(games, RACE_TO if games is None and race_to is None else race_to)
-    _say(f"Reading {'standard input' if results == '-' else results}")
+    say(f"Reading {'standard input' if results == '-' else results}")
     file = read_results(results, aliases=aliases)
     for warning in file.warnings:
-        _say(f"Warning: {warning}")
+        say(f"Warning: {warning}")
     if aliases is not None:
         # The sheet is handed out, and folders are nobody else's business.
         told = [text.replace(aliases, PurePath(aliases).name) for text in file.warnings]
         file = replace(file, warnings=tuple(told))
-    _say(f"Rating {len(file.results.players):,} players")
+    say(f"Rating {len(file.results.players):,} players")
     ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of)
     if choice is not None:
-        _say(prior_words(ratings, choice)[-1])
+        say(prior_words(ratings, choice)[-1])
     if players:
         chosen = find_players(ratings, _names(players, ratings.players), said="--players")
     else:
         chosen = most_active(ratings, TOP if top is None else top)
     if len(chosen) < 2:
         refuse("--players names one player; name two or more")
-    _say(f"Pairing {len(chosen):,} of them")
+    say(f"Pairing {len(chosen):,} of them")
     files, text = _sheets(
         file, ratings, limits, chosen, html=html, excel=excel, excel_csv=excel_csv
     )
     write_files(out, files)
-    _say(f"Wrote {', '.join(files)} to {out}")
+    say(f"Wrote {', '.join(files)} to {out}")
     # Names may have letters that the terminal's encoding lacks.
     click.echo(text.encode(sys.stdout.encoding or "utf-8", "replace"), nl=False)
 
@@ -180,12 +181,6 @@ def _sheets(
         tables = report_tables(file, ratings, limits, rated, paired, told)
         files["sheet.xlsx"] = workbook_bytes(tables)
     return files, sheet_text(file, ratings, limits, rated, paired)
-
-
-def _say(message: str) -> None:
-    from evenbreak.reports.problems import printable
-
-    click.echo(printable(message), err=True)
 
 
 def _names(given: Sequence[str], players: Collection[str]) -> list[str]:

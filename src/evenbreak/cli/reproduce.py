@@ -8,6 +8,7 @@ from collections.abc import Iterable
 import click
 
 from evenbreak.cli.options import refuse
+from evenbreak.cli.output import say
 
 __all__ = ["reproduce"]
 
@@ -40,12 +41,12 @@ def reproduce(ctx: click.Context, out: str) -> None:
     from evenbreak.reports.section5.numbers import findings
     from evenbreak.reports.write_files import write_files
 
-    files = reproduction(_say)
+    files = reproduction(say)
     write_files(out, files)
-    _say(f"Wrote {_kinds(files)} to {out}")
+    say(f"Wrote {_kinds(files)} to {out}")
     if problems := list(differing(findings())):
         for problem in problems:
-            _say(f"Differs: {problem}")
+            say(f"Differs: {problem}")
         ctx.exit(1)
 
 
@@ -58,9 +59,3 @@ def _kinds(names: Iterable[str]) -> str:
     count = Counter(name.rsplit(".", 1)[1] for name in names)
     figures = "1 figure" if count["png"] == 1 else f"{count['png']} figures"
     return f"index.md, {count['csv']} tables (CSV) and {figures} (PNG and SVG)"
-
-
-def _say(message: str) -> None:
-    from evenbreak.reports.problems import printable
-
-    click.echo(printable(message), err=True)
