@@ -128,16 +128,16 @@ class Candidates:
         """Return the limit on the rows; None where no chart of these races has more."""
         if rows is None:
             return None
-        rows = whole(rows, "rows", at_least=1)
-        if rows >= min(self.points.size, self.m.size - self.evens + 1):
+        most = whole(rows, "rows", at_least=1)
+        if most >= min(self.points.size, self.m.size - self.evens + 1):
             return None
         cells = self.m.size * self.points.size
-        if rows * cells > _MOST_CELLS_IN_ROWS:
+        if most * cells > _MOST_CELLS_IN_ROWS:
             raise InputError(
-                f"rows is {rows}, and {self.m.size} races at {self.points.size} differences are "
+                f"rows is {most}, and {self.m.size} races at {self.points.size} differences are "
                 "too many to go through for each number of rows; narrow games, lower rows or up_to"
             )
-        return rows
+        return most
 
     def _cost(self, target: float, tilt: float) -> Floats:
         above = self.wins - target
