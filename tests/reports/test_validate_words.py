@@ -11,7 +11,8 @@ from evenbreak.matches import race_win_probability
 from evenbreak.ratings import Results, scale_of, validate
 from evenbreak.ratings.within_matches import play_races
 from evenbreak.reports.read_results import read_results
-from evenbreak.reports.validate_words import findings, verdict
+from evenbreak.reports.validate_verdict import verdict
+from evenbreak.reports.validate_words import findings
 
 PLAYERS = 24
 
@@ -101,6 +102,7 @@ def test_a_few_matches_say_that_they_are_few():
     said, words = told(results, prior_sd=0.3)
     assert said.startswith("There are too few")
     assert "slope" not in words
+    assert "as --prior" not in words
 
 
 def test_good_and_bad_days_are_no_sound_model():

@@ -130,7 +130,8 @@ def _print(file: ResultsFile, found: Validation, scale: Scale) -> None:
     import textwrap
 
     from evenbreak.reports.problems import printable
-    from evenbreak.reports.validate_words import findings, verdict
+    from evenbreak.reports.validate_verdict import verdict
+    from evenbreak.reports.validate_words import findings
 
     def say(text: str, mark: str = "") -> None:
         after = " " * len(mark)
@@ -291,7 +292,7 @@ def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
 
 def _answer(found: Validation, scale: Scale, seed: int) -> dict[str, Any]:
     """Return what --json prints."""
-    from evenbreak.reports.validate_words import verdict
+    from evenbreak.reports.validate_verdict import verdict
 
     told = found.forecasts
 

@@ -1,4 +1,4 @@
-"""What a validated season says, in words: whether the model holds, and what it misses."""
+"""What a validated season says, in words: a paragraph for each thing that was looked at."""
 
 from __future__ import annotations
 
@@ -9,165 +9,27 @@ from typing import TYPE_CHECKING
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.results import FORMATS
+from evenbreak.reports.validate_verdict import (
+    ODD,
+    VAGUE,
+    at_the_edge,
+    more_or_less,
+    points_text,
+    share_of,
+    surely_off,
+    told_of,
+    wrong_chances,
+)
 
 if TYPE_CHECKING:
     from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.spots import SpotFairness
-    from evenbreak.ratings.validate import Scored, Validation
+    from evenbreak.ratings.validate import Validation
     from evenbreak.ratings.within_matches import Dispersion, Streaks
 
-__all__ = ["findings", "verdict"]
-
-ODD = 0.01
-"""A p-value below which chance is not blamed; several tests are looked at at once."""
-
-VAGUE = 0.5
-"""An interval of the slope that is wider says too little."""
-
-FAR_SPREAD = 1.5
-"""How many times as spread as the model says scores must be for it to be given up."""
-
-PLENTY = 100.0
-"""Games of a player, on average, from which strengths that differ would show."""
+__all__ = ["findings"]
 
 DOUBT = 0.05
 """A p-value below which a test is not called passed either."""
-
-
-def verdict(found: Validation, scale: Scale) -> str:
-    """Return in a sentence or two what to do, and whether the model holds for the league."""
-    slope = _row(found, "game", "integrated").slope
-    if found.skill.low <= 0.0 or slope is None:
-        return _no_skill(found, slope)
-    missed = list(_missed(found))
-    wrong = _wrong(found.scored, found)
-    if wrong:
-        more = f" Beside that, {'; '.join(missed)}." if missed else ""
-        return _do_not(found, wrong, scale) + more
-    spread = found.dispersion
-    if spread is not None and spread.p_value < ODD:
-        times = spread.seen / spread.by_chance
-        if times > FAR_SPREAD:
-            return _bad_days(found, times, scale)
-    if missed:
-        held = f"the model holds on the whole, but {'; '.join(missed)}."
-    elif slope.high - slope.low > VAGUE:
-        held = "nothing speaks against the model, but the matches are few."
-    else:
-        held = "the model holds for this league."
-    lead = _lead(found, scale)
-    return f"{lead}{held}" if lead else held[0].upper() + held[1:]
-
-
-def _no_skill(found: Validation, slope: Estimate | None) -> str:
-    games_each = 2.0 * float(found.forecasts.games.sum()) / len(_players(found))
-    turned = slope is not None and _off(slope, 0.0) < 0
-    if games_each >= PLENTY and found.skill.low <= 0.0 and not turned:
-        return "The ratings know no more than a coin: these players are too alike."
-    if found.skill.high < 0.0:
-        return "The ratings predict worse than a coin: do not trust them for this league."
-    return "There are too few matches to tell whether the model holds for this league."
-
-
-def _players(found: Validation) -> set[int]:
-    season = found.forecasts.results
-    return {*season.player_a.tolist(), *season.player_b.tolist()}
-
-
-def _wrong(scored: tuple[Scored, ...], found: Validation) -> dict[str, str]:
-    """Return of which predictions chances are surely off, and how."""
-    # A handicap that works leaves matches no favourites, whatever the ratings say.
-    judged = ("game",) if found.spots else ("game", "match")
-    off = {
-        row.of: _off(row.slope, 1.0)
-        for row in scored
-        if row.how == "integrated" and row.of in judged and row.slope is not None
-    }
-    return {of: "too sure" if way < 0 else "too timid" for of, way in off.items() if way}
-
-
-def _chances(wrong: dict[str, str]) -> str:
-    """Return which chances are off in words.
-
-    >>> _chances({"game": "too sure", "match": "too sure"})
-    'chances of games and of matches are too sure'
-    """
-    plural = {"game": "games", "match": "matches"}
-    if len(set(wrong.values())) == 1:
-        of = " and of ".join(plural[name] for name in wrong)
-        return f"chances of {of} are {next(iter(wrong.values()))}"
-    return " and ".join(f"chances of {plural[name]} are {how}" for name, how in wrong.items())
-
-
-def _do_not(found: Validation, wrong: dict[str, str], scale: Scale) -> str:
-    if len(found.priors) == 1:
-        size = "smaller" if "too sure" in wrong.values() else "larger"
-        return (
-            f"Do not use a prior of {_points(found.prior_sd, scale)} points: "
-            f"{_chances(wrong)}. Use a {size} --prior; leave it out here to find the best."
-        )
-    fade = ""
-    if "too sure" in wrong.values() and found.forecasts.half_life is None:
-        fade = " Let old games fade: try --half-life 365."
-    return (
-        f"Do not take chances as they are told: {_chances(wrong)}, even with the prior that "
-        f"suits them best.{fade}"
-    )
-
-
-def _bad_days(found: Validation, times: float, scale: Scale) -> str:
-    best = _row(found, "match", "integrated")
-    use = ""
-    if len(found.priors) > 1 and not found.spots and not _edge(best.prior_sd, found):
-        use = f" For chances of matches use --prior {_points(best.prior_sd, scale)}."
-    return (
-        f"Do not take chances of matches as they are told: scores are {times:.1f} times as "
-        "spread as the model says. Players have good and bad days, or ratings lag behind: "
-        f"favourites win fewer long races than they are told to.{use}"
-    )
-
-
-def _lead(found: Validation, scale: Scale) -> str:
-    """Return which prior to use where the one that is used unless another is given is wrong."""
-    wrong = _wrong(found.usual, found)
-    if not wrong:
-        return ""
-    usual = (
-        f"the {_points(PRIOR_SD, scale)} points that they use unless told otherwise, "
-        f"{_chances(wrong)}"
-    )
-    if _edge(found.prior_sd, found):
-        size = "smaller" if "too sure" in wrong.values() else "larger"
-        return f"Give rate and report a {size} --prior: with {usual}. Apart from that, "
-    return (
-        f"Give rate and report --prior {_points(found.prior_sd, scale)}: with {usual}. "
-        "With that prior "
-    )
-
-
-def _missed(found: Validation) -> Iterator[str]:
-    """Yield what speaks against the model, each test with p < `ODD`."""
-    spread, runs, first = found.dispersion, found.streaks, found.first_breaks
-    if spread is not None and spread.p_value < ODD:
-        yield f"scores are {_more(spread.seen > spread.by_chance)} spread than the model says"
-    if runs is not None and runs.p_value < ODD:
-        yield "racks come in streaks" if runs.z < 0 else "racks alternate more than by chance"
-    if first is not None and first.p_value < ODD:
-        yield f"who breaks first wins {_more(first.won > first.expected)} than the model says"
-    if found.breaker is not None and (way := _off(found.breaker, 0.0)):
-        yield f"the break is {'an advantage' if way > 0 else 'a disadvantage'}"
-    if found.side is not None and (way := _off(found.side, 0.0)):
-        yield f"the player in the first column wins {_more(way > 0)} than the model says"
-    if found.spots:
-        share = _share(found.spots[-1])
-        if way := _off(share, 0.5):
-            yield f"the chart gives too {'little' if way > 0 else 'much'}"
-        if way := _off(share, found.spots[-1].expected):
-            yield f"longer races win {_more(way > 0)} than the ratings say"
-
-
-def _more(yes: bool) -> str:
-    return "more" if yes else "less"
 
 
 def findings(found: Validation, scale: Scale) -> Iterator[str]:
@@ -188,7 +50,7 @@ def findings(found: Validation, scale: Scale) -> Iterator[str]:
 
 
 def _skill(found: Validation) -> str:
-    told = _row(found, "game", "integrated")
+    told = told_of(found, "game", "integrated")
     new = int(found.forecasts.new.sum())
     newcomers = f" In {new:,} of the matches one of the two had not played before." if new else ""
     if found.skill.low <= 0.0:
@@ -203,14 +65,14 @@ def _skill(found: Validation) -> str:
 
 
 def _slope(found: Validation) -> str:
-    slope = _row(found, "game", "integrated").slope
+    slope = told_of(found, "game", "integrated").slope
     if slope is None:
         return (
             "Whether chances of games are right cannot be told: there were too few favourites, or "
             "they won all."
         )
     told = f"(slope {slope.value:.2f}, {slope.low:.2f} to {slope.high:.2f}; 1 is right)"
-    off = _off(slope, 1.0)
+    off = surely_off(slope, 1.0)
     if off < 0:
         return f"Chances of games are too sure of themselves: the truth is nearer to even {told}."
     if off > 0:
@@ -220,39 +82,35 @@ def _slope(found: Validation) -> str:
     return f"Chances of games can be taken as they are told {told}."
 
 
-def _points(prior_sd: float, scale: Scale) -> str:
-    return f"{prior_sd * scale.points_per_log_odds:.3g}"
-
-
-def _edge(prior_sd: float, found: Validation) -> bool:
-    """Return whether a prior is the first or the last of those that were tried."""
-    return prior_sd in (found.priors[0][0], found.priors[-1][0])
-
-
 def _prior(found: Validation, scale: Scale) -> str:
-    points = f"{_points(found.prior_sd, scale)} points on the scale {scale.name}"
+    points = f"{points_text(found.prior_sd, scale)} points on the scale {scale.name}"
     log_odds = f"{found.prior_sd:.2g} in log-odds"
     if len(found.priors) == 1:
         return f"The prior's standard deviation was given: {points}, {log_odds}."
-    if _edge(found.prior_sd, found):
+    if found.skill.low <= 0.0:
+        return (
+            "Which prior to use cannot be told, since nothing shows that the ratings know "
+            f"anything; the best was {points} ({log_odds})."
+        )
+    if at_the_edge(found.prior_sd, found):
         return (
             f"Which prior to use cannot be told: the last that was tried, {points} ({log_odds}), "
             "predicts best."
         )
-    best = _row(found, "game", "integrated")
+    best = told_of(found, "game", "integrated")
     cost = dict(found.priors)[PRIOR_SD] - best.log_loss.value
     return (
         f"The prior to use has a standard deviation of {points} ({log_odds}): give it to "
-        f"rate and report as --prior. The {_points(PRIOR_SD, scale)} points that they use unless "
-        f"told otherwise cost {cost:.4f} more log-loss a game. Had the prior been chosen as the "
-        f"season went, log-loss would have been {best.as_it_went:.4f}."
+        f"rate and report as --prior. The {points_text(PRIOR_SD, scale)} points that they use "
+        f"unless told otherwise cost {cost:.4f} more log-loss a game. Had the prior been chosen as "
+        f"the season went, log-loss would have been {best.as_it_went:.4f}."
     )
 
 
 def _usual(found: Validation, scale: Scale) -> Iterator[str]:
     """Yield how chances are with the usual prior, and whether matches have a best one."""
     told = []
-    wrong = _wrong(found.usual, found)
+    wrong = wrong_chances(found.usual, found)
     for row in found.usual:
         if row.slope is not None and not (row.of == "match" and found.spots):
             many = "games" if row.of == "game" else "matches"
@@ -262,14 +120,14 @@ def _usual(found: Validation, scale: Scale) -> Iterator[str]:
     if told:
         yield (
             f"As rate and report give them unless told otherwise, with a prior of "
-            f"{_points(PRIOR_SD, scale)} points, {', '.join(told)}."
+            f"{points_text(PRIOR_SD, scale)} points, {', '.join(told)}."
         )
     if len(found.priors) > 1 and "match" in found.gain and not found.spots:
-        best = _row(found, "match", "integrated").prior_sd
-        if _edge(best, found):
+        best = told_of(found, "match", "integrated").prior_sd
+        if at_the_edge(best, found):
             yield (
                 "Which prior suits matches cannot be told: the last that was tried, "
-                f"{_points(best, scale)} points, predicts them best."
+                f"{points_text(best, scale)} points, predicts them best."
             )
 
 
@@ -293,7 +151,7 @@ def _matches(found: Validation) -> Iterator[str]:
     """Yield whether chances of matches are right, where there are races."""
     if "match" not in found.gain:
         return
-    row = _row(found, "match", "integrated")
+    row = told_of(found, "match", "integrated")
     told = f"log-loss {row.log_loss.value:.4f} a match, a coin 0.6931"
     if row.slope is not None:
         told += f"; slope {row.slope.value:.2f}, {row.slope.low:.2f} to {row.slope.high:.2f}"
@@ -305,7 +163,7 @@ def _matches(found: Validation) -> Iterator[str]:
         )
     elif row.slope is None:
         yield f"Whether chances of matches are right cannot be told ({told})."
-    elif not _off(row.slope, 1.0):
+    elif not surely_off(row.slope, 1.0):
         few = row.slope.high - row.slope.low > VAGUE
         yield f"Chances of matches {'may be right, but are few' if few else 'are right'} ({told})."
     else:
@@ -327,7 +185,7 @@ def _dispersion(test: Dispersion, winner_breaks: bool, handicaps: bool) -> str:
     if test.p_value >= DOUBT:
         return f"Nothing speaks against the spread of scores: they are {told}."
     if test.p_value >= ODD:
-        more = _more(test.seen > test.by_chance)
+        more = more_or_less(test.seen > test.by_chance)
         return f"Scores may be {more} spread than the model says, which is not sure: {told}."
     if test.seen > test.by_chance:
         other = ", or the break is worth much and the winner breaks" if winner_breaks else ""
@@ -367,7 +225,7 @@ def _advantages(found: Validation) -> Iterator[str]:
         yield _advantage(found.breaker, "The break", "the breaker")
     if found.side is not None:
         text = _advantage(found.side, "Standing in the first column", "player_a")
-        if _off(found.side, 0.0):
+        if surely_off(found.side, 0.0):
             text += (
                 " Where that is the home player, it is the home advantage; elsewhere the order of "
                 "the columns is not by chance."
@@ -377,7 +235,9 @@ def _advantages(found: Validation) -> Iterator[str]:
 
 def _advantage(estimate: Estimate, what: str, who: str) -> str:
     p, low, high = (1.0 / (1.0 + math.exp(-b)) for b in estimate)
-    sure = ("is no sure advantage", "is an advantage", "is a disadvantage")[_off(estimate, 0.0)]
+    sure = ("is no sure advantage", "is an advantage", "is a disadvantage")[
+        surely_off(estimate, 0.0)
+    ]
     return f"{what} {sure}: {who} wins {p:.3f} of even games, {low:.3f} to {high:.3f}."
 
 
@@ -388,12 +248,12 @@ def _spots(found: Validation) -> str:
         f"matches, {every.share:.3f} ({every.low:.3f} to {every.high:.3f}); these ratings say "
         f"{every.expected:.3f}"
     )
-    off = _off(_share(every), 0.5)
+    off = surely_off(share_of(every), 0.5)
     if off > 0:
         return f"The chart gives too little: {told}."
     if off < 0:
         return f"The chart gives too much: {told}."
-    way = _off(_share(every), every.expected)
+    way = surely_off(share_of(every), every.expected)
     if way:
         little = "little" if way > 0 else "much"
         return (
@@ -401,22 +261,6 @@ def _spots(found: Validation) -> str:
             f"{little} of those who give games; do not take chances of handicap matches from them."
         )
     return f"Nothing speaks against the chart: {told}."
-
-
-def _row(found: Validation, of: str, how: str) -> Scored:
-    return next(row for row in found.scored if (row.of, row.how) == (of, how))
-
-
-def _off(estimate: Estimate, right: float) -> int:
-    """Return 1 or -1 where an estimate is surely above or below what is right, p < `ODD`."""
-    # The interval is of 95 %, that is 1.96 standard errors each way; 2.58 leave out 1 %.
-    far = (estimate.high - estimate.low) / 2.0 * 2.576 / 1.960
-    middle = (estimate.high + estimate.low) / 2.0
-    return int(middle - far > right) - int(middle + far < right)
-
-
-def _share(spot: SpotFairness) -> Estimate:
-    return Estimate(spot.share, spot.low, spot.high)
 
 
 def _p(value: float) -> str:
