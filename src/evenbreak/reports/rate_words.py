@@ -47,7 +47,7 @@ def rate_words(ratings: Ratings, choice: PriorChoice | None = None) -> list[str]
         if count
     ]
     lines = [
-        f"{len(ratings.players):,} players, {', of these '.join(made)}"
+        f"{int((~ratings.idle).sum()):,} players, {', of these '.join(made)}"
         + (f"; left out: {', '.join(left_out)}." if left_out else "."),
         f"On {scale_text(ratings.scale)}.",
         *prior_words(ratings, choice),
