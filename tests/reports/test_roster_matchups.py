@@ -114,7 +114,7 @@ def test_levels():
 
 def test_a_roster_that_does_not_suit_is_refused_with_its_lines(tmp_path):
     path = tmp_path / "roster.csv"
-    path.write_text("player,rating,se\nAnn,5,\nBo,9,\nCy,3,700\n")
+    path.write_text("player,rating,se,qse\nAnn,5,,\nBo,9,,\nCy,3,700,\nDi,3,9,600\n")
     file = read_roster(path)
     with pytest.raises(DataError) as caught:
         check_roster(file, file.roster, level_chart("apa_8ball"), scale_of(100))
@@ -122,6 +122,7 @@ def test_a_roster_that_does_not_suit_is_refused_with_its_lines(tmp_path):
         "3: rating 9 of 'Bo' is no level of the chart apa_8ball; write one of 2, 3, 4, 5, 6, 7",
         "4: standard_error 700 says nothing of a player; write 500 points at most, or check "
         "--scale",
+        "5: quasi_error 600 says nothing of a player; write 500 points at most, or check --scale",
     ]
 
 

@@ -67,6 +67,8 @@ class RosterFile:
         what a person should look at although the file can be used, a line each.
     sha256
         fingerprint of the bytes that were read.
+    by_quasi
+        the places of those whose error is the quasi_error of the file.
     """
 
     roster: Roster
@@ -74,6 +76,7 @@ class RosterFile:
     source: str
     warnings: tuple[str, ...]
     sha256: str
+    by_quasi: frozenset[int] = frozenset()
 
 
 def read_roster(path: str | Path) -> RosterFile:
@@ -121,7 +124,8 @@ def read_roster(path: str | Path) -> RosterFile:
     roster = Roster(names, rating, error, games, component=component)
     warnings = (*table.warnings, *_alike(names, table.source))
     sha256 = hashlib.sha256(table.content).hexdigest()
-    return RosterFile(roster, table.lines, table.source, warnings, sha256)
+    by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
+    return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi)
 
 
 def _names(table: Table) -> list[str]:

@@ -74,8 +74,9 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
         file.lines,
         np.flatnonzero(roster.standard_error > most),
         lambda place: (
-            f"standard_error {roster.standard_error[place]:g} says nothing of a player; write "
-            f"{most:g} points at most, or check --scale"
+            f"{'quasi_error' if place in file.by_quasi else 'standard_error'} "
+            f"{roster.standard_error[place]:g} says nothing of a player; write {most:g} points "
+            "at most, or check --scale"
         ),
     )
     if isinstance(chart, LevelChart):
