@@ -93,7 +93,7 @@ def test_new_players_start_with_a_stated_prior(run, roster):
     assert result.stderr.splitlines() == [
         "No rating yet, taken as 80 ± 30: Bo",
         "No games yet, rating taken as right to ± 30: Cy",
-        "No standard_error, rating taken as right: Ann",
+        "No standard_error, rating taken as exact: Ann",
     ]
     rows = answer(run, path, *SURE, "--starter", "92", "--starter-sd", "20")["pairs"]
     assert (rows[0]["difference"], rows[0]["difference_error"]) == (0.0, 20.0)
@@ -108,10 +108,35 @@ def test_the_scale_is_that_of_the_chart(run, roster):
 
 
 def test_ratings_of_another_scale_are_doubted(run, roster):
-    path = roster("player,rating\nAnn,712\nBo,421\n")
-    assert "double 10 times on the npl scale" in run("matchups", path, *SURE).stderr
-    assert "Warning" not in run("matchups", path, *SURE, "--scale", "fargo").stderr
-    assert "Warning" not in run("matchups", roster(), *SURE).stderr
+    path = roster("player,rating,games\nAnn,712,900\nBo,421,88\nCy,,0\n")
+    chart = roster("from,to,stronger,weaker\n0,50,5,5\n51,,6,4\n", "ours.csv")
+    note = "Note: most npl ratings are from 20 to 130; for fargo ratings add --scale fargo"
+    for races in (SURE, ("--chart", chart)):
+        assert note in run("matchups", path, *races, "--starter", "500").stderr
+        said = run("matchups", path, *races, "--scale", "fargo").stderr
+        assert not any(word in said for word in ("Note", "Warning"))
+    assert "Note" not in run("matchups", roster(), *SURE).stderr
+    low = run("matchups", roster(), "--chart", "fargo_r6_hot").stderr
+    assert "for npl ratings add --scale npl" in low
+
+
+def test_one_slip_makes_no_other_scale(run, roster):
+    path = roster("player,rating\nAnn,92\nBo,710\nCy,80\n")
+    said = run("matchups", path, *SURE).stderr
+    assert "double 21 times on the npl scale" in said
+    assert "Note" not in said
+
+
+def test_ratings_without_errors_are_taken_as_exact_and_that_is_said(run, roster):
+    path = roster("player,rating,games\nAnn,92,5\nBo,71,900\nCy,80,19\nDi,60,20\n")
+    result = run("matchups", path, *SURE)
+    assert result.stderr.splitlines()[:2] == [
+        "Nobody's standard_error is stated: all ratings are taken as exact",
+        "Fewer than 20 games, rating taken as exact all the same: Ann, Cy",
+    ]
+    assert all(row["p_win_a"] == row["p_win_a_plug_in"] for row in table(result))
+    stated = roster("player,rating,standard_error,games\nAnn,92,30,5\nBo,71,4,900\n")
+    assert "exact" not in run("matchups", stated, *SURE).stderr
 
 
 @pytest.mark.parametrize(("scale", "doubted"), [("fargo", True), ("elo", True), ("npl", False)])
@@ -160,22 +185,26 @@ def test_an_evening_that_is_played_out_says_so(run, roster):
     assert 0.0 < end["mean_minutes_error"] < 1.0
     assert answer(run, *words)["evening"] == [end]
     assert answer(run, *words, "--seed", "1")["evening"] != [end]
-    assert "evenings played out (standard errors" in run("matchups", *words).stderr
+    assert end["minutes_p90"] % 8.0 == 0.0
+    said = run("matchups", *words).stderr
+    assert "by 50,000 evenings\nplayed out (standard error of the average 0.0" in said
 
 
 def test_on_a_terminal(terminal, roster):
     path = roster("player,rating,standard_error,games\nAnn,92,9,140\nBo,71,12,60\nCy,,,0\n")
     text = terminal("matchups", path, "--chart", "npl_10").stdout
     assert "Chart npl_10, on the npl scale (30 points double the odds)" in text
-    assert "A wins  as if sure  games  9 of 10 within" in text
+    assert "  as if         9 of 10\n" in text
+    assert "chart  A wins    sure  games   within\n" in text
     assert "The chart is least fair to " in text
     both = terminal(
         "matchups", path, "--chart", "npl_10", *SURE, "--minutes-per-game", "8", "--tables", "1"
     ).stdout
-    assert "chart  A wins  minutes  fairest  A wins  minutes" in both
+    assert "chart               fair\n" in both
+    assert "race  A wins  min  race  A wins  min\n" in both
     assert "By the chart, 3 matches on 1 table take" in both
     assert "In the fairest races, 3 matches on 1 table take" in both
-    assert max(map(len, both.splitlines())) < 100
+    assert max(map(len, (text + both).splitlines())) <= 80
 
 
 def test_a_terminal_is_told_of_pairs_without_a_race(terminal, roster):
@@ -207,11 +236,16 @@ def test_too_many_pairs_are_refused_with_advice(run, roster):
     assert len(table(run("matchups", path, *SURE, "--pairs", pairs))) == 2
 
 
-def test_more_than_a_screen(run, roster):
+def test_more_than_a_screen(run, roster, monkeypatch):
     path = roster("player,rating\n" + "".join(f"P{k},{k % 97}\n" for k in range(250)))
     result = run("matchups", path, *SURE, "--json")
     assert result.exit_code == 2
-    assert "> pairs.csv" in result.stderr
+    assert "too many for --json; leave out --json, or name those" in result.stderr
+    monkeypatch.setattr(module, "to_terminal", lambda: True)
+    result = run("matchups", path, *SURE, "--json")
+    assert "leave out --json and write them to a file, as in > pairs.csv, or" in result.stderr
+    result = run("matchups", path, *SURE)
+    assert "too many to show; write them to a file, as in > pairs.csv, or" in result.stderr
     result = run("matchups", path, *SURE, "--minutes-per-game", "8", "--tables", "9")
     assert "1,000 are the most for one evening" in result.stderr
 

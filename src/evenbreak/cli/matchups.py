@@ -11,6 +11,7 @@ import click
 from evenbreak.cli.matchups_html import html_option, refuse_page, write_page
 from evenbreak.cli.options import NUMBER, refuse, refuse_both, wants_json, which_races
 from evenbreak.cli.output import SCHEMA_VERSION, print_json, say, to_terminal
+from evenbreak.cli.players import scale_note
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -34,6 +35,7 @@ MOST_MATCHES = 1_000
 """The most matches of one evening."""
 
 MOST_NAMED = 8
+FEW_GAMES = 20
 FAR_APART = 8.0  # doublings of the odds; from beginners to professionals it is some four
 AT_A_TIME = 20_000
 LONGEST_GAME = 1440.0  # minutes: a day
@@ -158,7 +160,7 @@ def matchups(
     players = _started(file.roster, points, starter, starter_sd)
     check_roster(file, players, table, points)
     if scale is None:
-        _doubt_scale(players, points)
+        _doubt_scale(file.roster, points)
     if pairs is None:
         many = len(players) * (len(players) - 1) // 2
         if not many:
@@ -204,7 +206,8 @@ def _stream(
     """Write the table as CSV, so many pairs at a time that memory is no concern."""
     from evenbreak.reports.to_csv import to_csv
 
-    say(told.heading)
+    for line in told.heading.split("\n"):
+        say(line)
     for first in range(0, len(meets), AT_A_TIME):
         answer = told.matchups(meets[first : first + AT_A_TIME])
         rows = to_csv(answer.frame)
@@ -212,7 +215,8 @@ def _stream(
         # An evening is never more pairs than are told at a time.
         ends = [] if tables is None else told.evening(answer, meets, tables, seed)
         for text in told.evening_lines(ends):
-            say(text.replace("\n", " "))
+            for line in text.split("\n"):
+                say(line)
     return answer, ends
 
 
@@ -269,8 +273,14 @@ def _started(roster: Roster, scale: Scale, starter: float | None, sd: float | No
     if starter is None and unrated.any() and not unrated.all():
         _doubt_starter(start, roster.rating[~unrated], scale)
     silent = np.isnan(started.standard_error)
-    if not silent.all():
-        _say_of(roster, silent, "No standard_error, rating taken as right")
+    if silent.all():
+        say("Nobody's standard_error is stated: all ratings are taken as exact")
+    else:
+        _say_of(roster, silent, "No standard_error, rating taken as exact")
+    few = (roster.games > 0) & (roster.games < FEW_GAMES)
+    _say_of(
+        roster, silent & few, f"Fewer than {FEW_GAMES} games, rating taken as exact all the same"
+    )
     return started
 
 
@@ -286,9 +296,16 @@ def _doubt_starter(start: float, rated: NDArray[Any], scale: Scale) -> None:
 
 
 def _doubt_scale(roster: Roster, scale: Scale) -> None:
-    """Warn of ratings too far apart for a scale that was not asked for."""
-    apart = float(roster.rating.max() - roster.rating.min()) / scale.points_per_doubling
-    if apart > FAR_APART:
+    """Warn of ratings that do not look like those of a scale that was not asked for."""
+    import numpy as np
+
+    rated = roster.rating[~np.isnan(roster.rating)]
+    if not len(rated):
+        return
+    apart = float(rated.max() - rated.min()) / scale.points_per_doubling
+    if note := scale_note(scale, float(np.median(rated))):  # one slip makes no other scale
+        say(note)
+    elif apart > FAR_APART:
         say(
             f"Warning: from the weakest to the strongest the odds double {apart:.0f} times on the "
             f"{scale.name} scale; if the ratings are others, say which with --scale"
@@ -321,4 +338,8 @@ def _refuse_too_many(found: str, many: int, tables: int | None, as_json: bool) -
     if many > MOST_PAIRS:
         refuse(f"{found}, and {MOST_PAIRS:,} are the most; {meet}")
     if many > MOST_SHOWN and (as_json or to_terminal()):
-        refuse(f"{found}, too many to show; write them to a file, as in > pairs.csv, or {meet}")
+        remedy = ["leave out --json"] if as_json else []
+        if to_terminal():
+            remedy.append("write them to a file, as in > pairs.csv")
+        kind = "for --json" if as_json else "to show"
+        refuse(f"{found}, too many {kind}; {' and '.join(remedy)}, or {meet}")

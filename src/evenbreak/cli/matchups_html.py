@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.options import refuse
+from evenbreak.cli.output import say
 
 if TYPE_CHECKING:
     from evenbreak.cli.matchups_words import Told
@@ -56,7 +57,6 @@ def write_page(
 ) -> None:
     """Write the page of the round to a file, and say so on stderr."""
     from evenbreak.reports.html_round import Round, round_html
-    from evenbreak.reports.problems import printable
     from evenbreak.reports.write_files import write_files
 
     made_of = Round(
@@ -71,4 +71,4 @@ def write_page(
     )
     place = PurePath(path)
     write_files(str(place.parent), {place.name: round_html(made_of, answer)})
-    click.echo(printable(f"Wrote {path}"), err=True)
+    say(f"Wrote {path}")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.cli.output import aligned, chance_text
+from evenbreak.cli.output import WIDTH, aligned, chance_text, heading_lines, paragraphs
 from evenbreak.cli.players import scale_text
 from evenbreak.matches.evening import evening
 from evenbreak.reports.problems import printable
@@ -51,14 +51,16 @@ class Told:
 
     @property
     def heading(self) -> str:
-        """What the table rests on, in one line."""
+        """What the table rests on, in lines that fit a terminal."""
         ways = [] if self.chart is None else [f"chart {self.chart.name}"]
         if self.limits is not None and self.limits.games is not None:
             ways.append("fairest races of {} to {} games".format(*self.limits.games))
         elif self.limits is not None:
             ways.append(f"fairest races to {self.limits.race_to}")
-        text = " and ".join(ways)
-        return f"{text[:1].upper()}{text[1:]}, {scale_text(self.scale)}"
+        text = printable(" and ".join(ways))
+        scale = scale_text(self.scale)
+        gap = " " if len(text) + len(scale) + 2 <= WIDTH else "\n"
+        return f"{text[:1].upper()}{text[1:]},{gap}{scale}"
 
     @property
     def doubtful(self) -> bool:
@@ -82,20 +84,26 @@ class Told:
             ]
             for row in rows
         ]
-        parts = [printable(self.heading), aligned([headings, *cells], left=2).rstrip("\n")]
+        table = aligned([*heading_lines(headings), *cells], left=2)
+        parts = [self.heading, table.rstrip("\n")]
         if below := self._below(answer, rows):
             parts.append("\n".join(below))
         return "\n\n".join(parts) + "\n"
 
     def _kinds(self) -> dict[str, str]:
         """Return the prefix of the columns of each kind of race, and what to call it."""
-        kinds = {} if self.chart is None else {"chart_": "chart"}
-        return kinds if self.limits is None else {**kinds, "": "fairest"}
+        if self.chart is None:
+            return {"": "fairest"}
+        if self.limits is None:
+            return {"chart_": "chart"}
+        return {"chart_": "chart\nrace", "": "fair\nrace"}
 
     def _headings(self, name: str, *, both: bool) -> list[str]:
+        if both:
+            return [name, "A wins", "games" if self.minutes is None else "min"]
         length = "games" if self.minutes is None else "minutes"
-        plug_in = ["as if sure"] if self.doubtful and not both else []
-        return [name, "A wins", *plug_in, length, *([] if both else ["9 of 10 within"])]
+        plug_in = ["as if\nsure"] if self.doubtful else []
+        return [name, "A wins", *plug_in, length, "9 of 10\nwithin"]
 
     def _cells(self, prefix: str, row: dict[str, Any], *, both: bool) -> list[str]:
         names = self._headings("", both=both)
@@ -122,15 +130,15 @@ class Told:
         ]
         if self.doubtful:
             tail = "" if len(self._kinds()) > 1 else "; as if sure: were they right"
-            lines.append(f"A wins: averaged over how far the ratings may be off{tail}.")
+            lines.append(f"A wins: averaged over how far ratings may be off{tail}.")
         if self.chart is not None and answer.linked.any():
             worst = rows[int(answer.frame["chart_unfairness"].argmax())]
             lines.append(
-                f"The chart is least fair to {printable(_weaker(worst))}, who wins "
+                f"The chart is least fair to {printable(_weaker(worst))}, with "
                 f"{chance_text(0.5 - worst['chart_unfairness'])} against "
                 f"{printable(_favoured(worst))}."
             )
-        return lines
+        return list(map(paragraphs, lines))
 
     def evening(
         self, answer: RosterMatchups, pairs: NDArray[Any], tables: int, seed: int
@@ -152,7 +160,6 @@ class Told:
                         "exact": end.exact,
                         "runs": end.runs,
                         "mean_minutes_error": end.mean_error * minutes,
-                        "minutes_p90_error": end.p90_error * minutes,
                     }
                 )
         return ends
@@ -174,9 +181,18 @@ def _evening_line(end: dict[str, Any]) -> str:
     if end["exact"]:
         return f"{text}."
     return (
-        f"{text}, by {end['runs']:,} evenings\nplayed out (standard errors "
-        f"{end['mean_minutes_error']:.1f} and {end['minutes_p90_error']:.1f} minutes)."
+        f"{text}, by {end['runs']:,} evenings\nplayed out (standard error of the average "
+        f"{_small(end['mean_minutes_error'])} minutes)."
     )
+
+
+def _small(minutes: float) -> str:
+    """Return an error in minutes, which is not told as nought unless it is.
+
+    >>> _small(1.24), _small(0.0312), _small(0.0)
+    ('1.2', '0.03', '0')
+    """
+    return f"{minutes:.1f}" if minutes >= 0.1 else f"{minutes:.1g}"
 
 
 def _clock(minutes: float) -> str:

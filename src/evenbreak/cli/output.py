@@ -13,9 +13,11 @@ import click
 
 __all__ = [
     "SCHEMA_VERSION",
+    "WIDTH",
     "aligned",
     "chance_text",
     "csv_text",
+    "heading_lines",
     "paragraphs",
     "print_json",
     "print_quantities",
@@ -116,13 +118,13 @@ def print_table(
         ]
         for row in rows
     ]
-    click.echo(f"{heading}\n\n{aligned([*_lines(headings), *cells], left=left)}", nl=False)
+    click.echo(f"{heading}\n\n{aligned([*heading_lines(headings), *cells], left=left)}", nl=False)
 
 
-def _lines(headings: Sequence[str]) -> list[list[str]]:
+def heading_lines(headings: Sequence[str]) -> list[list[str]]:
     r"""Return the lines of the headings, those of fewer lines at the bottom.
 
-    >>> _lines(["shot", "you\nmake"])
+    >>> heading_lines(["shot", "you\nmake"])
     [['', 'you'], ['shot', 'make']]
     """
     parts = [heading.split("\n") for heading in headings]

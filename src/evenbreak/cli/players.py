@@ -12,7 +12,7 @@ from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale, scale_of
 
-__all__ = ["Players", "player_options"]
+__all__ = ["Players", "player_options", "scale_note", "scale_text"]
 
 FORMATS = {
     "winner": BREAK_FORMATS["winner"],
@@ -79,8 +79,8 @@ class Players(NamedTuple):
         a, b = (float(rating) for rating in ratings)
         if not math.isfinite(a - b):
             refuse("the ratings are too far apart to count with; give two usual numbers")
-        if doubt := _doubt(scale, a, b):
-            click.echo(doubt, err=True)
+        if note := scale_note(scale, a, b):
+            click.echo(note, err=True)
         told = f"A rated {a:g}, B rated {b:g}, {scale_text(scale)}"
         return cls(Rack(scale.win_probability(a - b)), None, 1, scale, told)
 
@@ -94,17 +94,21 @@ def scale_text(scale: Scale) -> str:
     return f"on the {scale.name} scale ({scale.points_per_doubling:.6g} points double the odds)"
 
 
-def _doubt(scale: Scale, a: float, b: float) -> str | None:
-    """Return a note where the ratings look like those of another scale.
+def scale_note(scale: Scale, *ratings: float) -> str | None:
+    """Return a note where ratings look like those of another scale.
 
     Only the difference counts, so somebody may give it as one rating and 0 as the other.
 
-    >>> _doubt(scale_of("npl"), 612, 521)
+    >>> scale_note(scale_of("npl"), 612, 521)
     'Note: most npl ratings are from 20 to 130; for fargo ratings add --scale fargo'
+    >>> scale_note(scale_of("fargo"), 1750, 1612)
+    'Note: most fargo ratings are from 200 to 850; for elo ratings add --scale elo'
     """
-    if scale.name == "npl" and max(a, b) > 200:
+    if scale.name in USUAL and max(ratings) > 1000:
+        other = "elo"
+    elif scale.name == "npl" and max(ratings) > 200:
         other = "fargo"
-    elif scale.name == "fargo" and 0 < min(a, b) <= max(a, b) < 150:
+    elif scale.name == "fargo" and 0 < min(ratings) <= max(ratings) < 150:
         other = "npl"
     else:
         return None

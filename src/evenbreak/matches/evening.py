@@ -68,8 +68,9 @@ class Evening:
         the smallest time by which all is over with chance .9.
     runs
         how many evenings were played out; 0 where the answer is exact.
-    mean_error, p90_error
-        the standard errors of `mean` and `p90` from playing out; 0 where exact.
+    mean_error
+        the standard error of `mean` from playing out; 0 where exact. `p90` has none: it is a
+        whole number, which as a rule comes out the same each time.
     """
 
     mean: float
@@ -77,7 +78,6 @@ class Evening:
     p90: int
     runs: int
     mean_error: float
-    p90_error: float
 
     @property
     def exact(self) -> bool:
@@ -217,7 +217,7 @@ def _exact(end: Floats) -> Evening:
     mean = float(times @ end)
     sd = math.sqrt(float((times - mean) ** 2 @ end))
     p90 = quantile_of(end.tolist(), 0.9)
-    return Evening(mean, sd, int(p90 or 0), 0, 0.0, 0.0)
+    return Evening(mean, sd, int(p90 or 0), 0, 0.0)
 
 
 def _played_out(
@@ -234,12 +234,8 @@ def _played_out(
         lengths[:, k] = np.searchsorted(np.cumsum(law)[:-1], rng.random(runs), side="right")
     end = np.sort(_ends(lengths, tables, pairs))
     sd = float(end.std(ddof=1))
-    # The order statistics a standard deviation of the rank to either side of the quantile.
-    rank, spread = 0.9 * runs, math.sqrt(0.09 * runs)
-    low, mid, high = (
-        int(end[min(runs - 1, max(0, math.ceil(rank + k * spread) - 1))]) for k in (-1, 0, 1)
-    )
-    return Evening(float(end.mean()), sd, mid, runs, sd / math.sqrt(runs), (high - low) / 2.0)
+    p90 = int(end[math.ceil(0.9 * runs) - 1])
+    return Evening(float(end.mean()), sd, p90, runs, sd / math.sqrt(runs))
 
 
 def _ends(lengths: Ints, tables: int, pairs: Ints) -> Ints:
