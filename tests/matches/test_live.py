@@ -66,7 +66,7 @@ def test_a_race_against_fractions(m, n, twentieths, data):
         assert (live.now.mean_racks, live.now.racks_p90, live.comebacks()) == (0.0, 0, [])
 
 
-@pytest.mark.parametrize("match", MATCHES, ids=str)
+@pytest.mark.parametrize("match", MATCHES)
 def test_the_first_moment_is_what_the_other_kernels_say(match):
     live, odds = live_odds(match), match_odds(match)
     assert live.now.p_win_1 == pytest.approx(odds.p_win_1, rel=1e-12)
@@ -75,7 +75,7 @@ def test_the_first_moment_is_what_the_other_kernels_say(match):
     assert live.now.racks_p90 == odds.games_p90
 
 
-@pytest.mark.parametrize("match", MATCHES, ids=str)
+@pytest.mark.parametrize("match", MATCHES)
 def test_every_moment_of_the_table_against_the_graph(match):
     chain = chain_of(match)
     for state in live_odds(match)._values.after:
@@ -150,7 +150,7 @@ def test_a_match_that_may_never_end():
     assert (live.now.mean_racks, live.now.racks_p90) == (None, None)
 
 
-@pytest.mark.parametrize("match", MATCHES, ids=str)
+@pytest.mark.parametrize("match", MATCHES)
 def test_the_length_at_every_moment(match):
     live = live_odds(match, [1])
     state = live._state
