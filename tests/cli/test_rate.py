@@ -141,7 +141,7 @@ def test_winners_alone(rate):
     rows = {row["player"]: row for row in csv.DictReader(io.StringIO(result.stdout))}
     assert (rows["Ann"]["races_won"], rows["Ann"]["games"]) == ("1", "0")
     assert float(rows["Ann"]["rating"]) > float(rows["Bo"]["rating"])
-    assert "2 matches known by their winner alone" in result.stderr
+    assert "2 matches known by the winner alone" in result.stderr
 
 
 @pytest.mark.parametrize("advantage", ["fit", "5"])

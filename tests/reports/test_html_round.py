@@ -167,7 +167,7 @@ def test_it_says_what_was_assumed():
         assert f"<dt>{what}</dt><dd>{why}</dd>" in told
     assert "30 points double the odds" in text
     sure, _ = made(Roster(["Ann", "Bo"], [92, 71]))
-    assert "not stated; every rating is taken as right" in sure
+    assert "not stated; every rating is taken as exact" in sure
 
 
 def test_only_players_on_the_page_are_told_of():

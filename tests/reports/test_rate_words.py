@@ -46,7 +46,7 @@ def test_words_tell_what_the_ratings_rest_on():
 
 def test_players_without_games_are_not_counted_among_those_who_played():
     ratings = fit(Results.from_names(["A", "A"], ["B", "C"], [7, 7], [5, 0], forfeit=[False, True]))
-    assert rate_words(ratings)[0].startswith("2 players, 1 matches with 12 games")
+    assert rate_words(ratings)[0].startswith("2 players, 1 match with 12 games")
     assert connection_words(ratings) == [
         "1 player has no games that count; the rating is the prior's."
     ]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.options import NUMBER, refuse, wants_aliases, wants_json
-from evenbreak.cli.output import SCHEMA_VERSION, aligned, csv_text, print_json, to_terminal
+from evenbreak.cli.output import SCHEMA_VERSION, aligned, csv_text, print_json, say, to_terminal
 from evenbreak.cli.plot import plot_option, write_plot
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def validate(
         click.echo(printable(f"Warning: {warning}"), err=True)
     try:
         found = validated(
-            file.results, prior_sd=prior_sd, half_life=half_life, seed=seed, progress=_say
+            file.results, prior_sd=prior_sd, half_life=half_life, seed=seed, progress=say
         )
     except InputError as error:  # of the options nothing is wrong any more
         raise DataError([f"{file.source}: {error}"]) from None
@@ -122,10 +122,6 @@ def validate(
         write_plot(calibration_figure(found), plot)
 
 
-def _say(message: str) -> None:
-    click.echo(message, err=True)
-
-
 def _print(file: ResultsFile, found: Validation, scale: Scale) -> None:
     import textwrap
 
@@ -133,13 +129,13 @@ def _print(file: ResultsFile, found: Validation, scale: Scale) -> None:
     from evenbreak.reports.validate_verdict import verdict
     from evenbreak.reports.validate_words import findings
 
-    def say(text: str, mark: str = "") -> None:
+    def wrapped(text: str, mark: str = "") -> None:
         after = " " * len(mark)
         click.echo(textwrap.fill(text, WIDTH, initial_indent=mark, subsequent_indent=after))
 
-    say(printable(_heading(file, found)))
+    wrapped(printable(_heading(file, found)))
     click.echo()
-    say(verdict(found, scale))
+    wrapped(verdict(found, scale))
     click.echo(
         "\nHow good predictions were, with 95 % intervals (a coin: 0.6931, 0.25);\n"
         f"the prior in points on the scale {scale.name}\n\n{_scored(found, scale)}"
@@ -153,7 +149,7 @@ def _print(file: ResultsFile, found: Validation, scale: Scale) -> None:
     if found.spots:
         click.echo(f"Matches that the player with the longer race won\n\n{_spots(found)}")
     for paragraph in findings(found, scale):
-        say(paragraph, "- ")
+        wrapped(paragraph, "- ")
 
 
 def _heading(file: ResultsFile, found: Validation) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 from evenbreak.ratings.fit import Ratings
 from evenbreak.ratings.prior import PriorChoice
 from evenbreak.reports.frames import scale_text
+from evenbreak.reports.sheet_words import count_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -34,9 +35,10 @@ HEADINGS = {
 def rate_words(ratings: Ratings, choice: PriorChoice | None = None) -> list[str]:
     """Return what the ratings rest on, a line each; `choice` if the prior was chosen by it."""
     games, races = int(ratings.won.sum()), int(ratings.races_won.sum())
-    made = [f"{ratings.matches:,} matches with {games:,} games"] if games else []
+    matches = count_of(ratings.matches, "match", "matches")
+    made = [f"{matches} with {count_of(games, 'game', 'games')}"] if games else []
     if races:
-        made.append(f"{races:,} matches known by their winner alone")
+        made.append(f"{count_of(races, 'match', 'matches')} known by the winner alone")
     left_out = [
         f"{count:,} {what}"
         for count, what in (

@@ -102,7 +102,7 @@ def assumed(
         )
         yield from _about(roster, here & np.isnan(roster.standard_error), "taken as rated right")
     else:
-        yield Remark("How far a rating may be off", "not stated; every rating is taken as right")
+        yield Remark("How far a rating may be off", "not stated; every rating is taken as exact")
     if minutes_per_game is not None:
         yield Remark(f"{minutes_per_game:g} minutes a game", "without pauses")
     yield from warnings_of(file)
