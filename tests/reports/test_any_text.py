@@ -76,25 +76,28 @@ CELLS = st.sampled_from(
 )
 
 
-def read_or_refuse(reader, path):
-    """Read a file; a refusal must tell at least one problem, each on one line that prints."""
-    told = ()
+def refusal(reader, path):
+    """Read a file; return the problems that its refusal tells, or None where it is read."""
     try:
         reader(path)
     except DataError as error:
-        told = error.problems
-        assert told
+        return error.problems
+    return None
+
+
+def is_of_use(told, path):
+    """Whether a file was read, or refused with problems that name it, on lines that print."""
     source = printable(str(path))
-    assert all(line.startswith(source) for line in told)
-    assert all(line == printable(line) for line in told)
-    return told
+    return told is None or (
+        len(told) > 0 and all(line.startswith(source) and line == printable(line) for line in told)
+    )
 
 
 @readers
 def test_a_good_file_is_read(tmp_path, reader, good):
     path = tmp_path / "good.csv"
     path.write_text(good, encoding="utf-8")
-    assert read_or_refuse(reader, path) == ()
+    assert refusal(reader, path) is None
 
 
 @readers
@@ -103,7 +106,7 @@ def test_any_bytes(tmp_path_factory, reader, good, content):
     path = tmp_path_factory.getbasetemp() / "bytes.csv"
     for whole in (content, good.encode() + content):
         path.write_bytes(whole)
-        read_or_refuse(reader, path)
+        assert is_of_use(refusal(reader, path), path)
 
 
 @readers
@@ -111,7 +114,7 @@ def test_any_bytes(tmp_path_factory, reader, good, content):
 def test_any_text_below_the_header(tmp_path_factory, reader, good, text):
     path = tmp_path_factory.getbasetemp() / "text.csv"
     path.write_bytes(f"{good.partition(chr(10))[0]}\n{text}".encode("utf-8", "replace"))
-    read_or_refuse(reader, path)
+    assert is_of_use(refusal(reader, path), path)
 
 
 @readers
@@ -122,7 +125,7 @@ def test_any_cells(tmp_path_factory, reader, good, data):
     width = header.count(",") + 1
     rows = data.draw(st.lists(st.lists(CELLS, min_size=width, max_size=width), max_size=5))
     path.write_text("\n".join([header, *map(",".join, rows)]), encoding="utf-8", newline="")
-    read_or_refuse(reader, path)
+    assert is_of_use(refusal(reader, path), path)
 
 
 @readers
@@ -134,7 +137,7 @@ def test_a_good_file_with_a_slip(tmp_path_factory, reader, good, data):
     end = min(len(content), start + data.draw(st.integers(0, 5)))
     slip = data.draw(st.sampled_from([b"", b",", b";", b'"', b"\n", b"\r", b"\xff", b"\0", b"9"]))
     path.write_bytes(content[:start] + slip + content[end:])
-    read_or_refuse(reader, path)
+    assert is_of_use(refusal(reader, path), path)
 
 
 # A name without what cleaning takes away, and without characters that no name may have.
