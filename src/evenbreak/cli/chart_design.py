@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.chart_show import ROWS, span_text
+from evenbreak.cli.chart_show import span_text
 from evenbreak.cli.design_wish import RULES, Wish, limit_options, options_named, wish_of
 from evenbreak.cli.options import chance, refuse, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, aligned, csv_text, print_json, to_terminal
@@ -135,7 +135,9 @@ def _print_design(wish: Wish, plot: str | None, as_json: bool) -> None:
     if to_terminal():
         click.echo(f"{_heading(wish, up_to)}\n\n{_rows_text(wish, made, up_to)}")
     else:
-        click.echo(csv_text(ROWS, made.rows), nl=False)
+        from evenbreak.reports.read_chart import chart_table
+
+        click.echo(csv_text(*chart_table(made)), nl=False)
     names = [chart.name for chart in charts]
     rows = [[name, *_measure_text(one)] for name, one in zip(names, told, strict=True)]
     click.echo(aligned([["chart", *MEASURE_HEADINGS], *rows]), nl=False, err=not to_terminal())

@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 
 __all__ = ["chart_show", "span_text"]
 
-ROWS = ("difference_from", "difference_to", "stronger_needs", "weaker_needs")
-PAIRS = ("level", "opponent_level", "needs", "opponent_needs")
-
 EXAMPLES = """\b
 Examples:
   evenbreak chart show npl_10
@@ -43,17 +40,13 @@ def chart_show(chart: str, as_json: bool) -> None:
     pipe or a file goes the chart as such a CSV file, to be changed and read again.
     """
     from evenbreak.handicaps.chart import Chart
-    from evenbreak.reports.read_chart import find_chart_file
+    from evenbreak.reports.read_chart import chart_table, find_chart_file
 
     file = find_chart_file(chart)
     found = file.chart
     for warning in file.warnings:
         click.echo(f"Warning: {warning}", err=True)
-    if isinstance(found, Chart):
-        columns, rows = ROWS, [tuple(row) for row in found.rows]
-    else:
-        columns = PAIRS
-        rows = [(i, j, *found.race(i, j)) for i in found.levels for j in found.levels]
+    columns, rows = chart_table(found)
     if as_json:
         listed = [dict(zip(columns, row, strict=True)) for row in rows]
         print_json({"chart": found.name, "rows": listed, "schema_version": SCHEMA_VERSION})

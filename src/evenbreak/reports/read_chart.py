@@ -24,6 +24,7 @@ __all__ = [
     "LEVELS",
     "ChartFile",
     "chart_frame",
+    "chart_table",
     "find_chart",
     "find_chart_file",
     "read_chart",
@@ -290,9 +291,19 @@ def chart_frame(chart: Chart | LevelChart) -> pd.DataFrame:
     """
     import pandas as pd
 
+    columns, rows = chart_table(chart)
+    return pd.DataFrame(rows, columns=columns).astype("Int64")
+
+
+def chart_table(chart: Chart | LevelChart) -> tuple[list[str], list[tuple[int | None, ...]]]:
+    """Return the columns and rows of the file that `read_chart` reads.
+
+    >>> chart_table(find_chart("npl_8"))[1][-1]
+    (49, None, 6, 2)
+    """
     if isinstance(chart, Chart):
-        return pd.DataFrame(chart.rows, columns=list(DIFFERENCES)).astype("Int64")
-    pairs = [
-        (own, other, *chart.race(own, other)) for own in chart.levels for other in chart.levels
+        return list(DIFFERENCES), [tuple(row) for row in chart.rows]
+    levels = chart.levels
+    return list(LEVELS), [
+        (own, other, *chart.race(own, other)) for own in levels for other in levels
     ]
-    return pd.DataFrame(pairs, columns=list(LEVELS))
