@@ -1,0 +1,173 @@
+"""What a shot is played with: ball, cloth, table and cue."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from evenbreak.errors import InputError
+from evenbreak.physics.units import INCH, OUNCE, STANDARD_GRAVITY
+
+__all__ = ["Ball", "Cloth", "Cue", "Table"]
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A uniform sphere.
+
+    Parameters
+    ----------
+    mass
+        kilograms; a pool ball has 5.5 to 6 ounces.
+    radius
+        metres; a pool ball has a diameter of 2.25 inches, within 0.005.
+
+    Raises
+    ------
+    InputError
+        if one is not a finite number above 0.
+
+    Notes
+    -----
+    Source: section 1, P1.1 to P1.3.
+
+    >>> ball = Ball()
+    >>> round(ball.diameter / INCH, 3), round(ball.mass / OUNCE, 3)
+    (2.25, 6.0)
+    """
+
+    mass: float = 6.0 * OUNCE
+    radius: float = 1.125 * INCH
+
+    def __post_init__(self) -> None:
+        _positive(self, "mass", "kilograms")
+        _positive(self, "radius", "metres")
+
+    @property
+    def diameter(self) -> float:
+        """The diameter in metres."""
+        return 2.0 * self.radius
+
+    @property
+    def volume(self) -> float:
+        """The volume in cubic metres (P1.1)."""
+        return 4.0 / 3.0 * math.pi * self.radius**3
+
+    @property
+    def density(self) -> float:
+        """The density in kilograms per cubic metre (P1.2)."""
+        return self.mass / self.volume
+
+    @property
+    def inertia(self) -> float:
+        """The moment of inertia about any axis through the centre, in kg m^2 (P1.3)."""
+        return 0.4 * self.mass * self.radius**2
+
+
+@dataclass(frozen=True)
+class Cloth:
+    """The cloth that a ball slides and rolls on, and the gravity that holds it there.
+
+    Parameters
+    ----------
+    mu_slide
+        coefficient of sliding friction between ball and cloth.
+    mu_roll
+        effective coefficient of rolling resistance: a rolling ball slows down by
+        mu_roll times gravity.
+    gravity
+        metres per second squared.
+
+    Raises
+    ------
+    InputError
+        if one is not a finite number above 0.
+
+    Notes
+    -----
+    Source: section 1, "table speed" (80 to 100 is normal).
+
+    >>> round(Cloth(mu_roll=0.01).table_speed, 9)
+    100.0
+    """
+
+    mu_slide: float = 0.2
+    mu_roll: float = 0.01
+    gravity: float = STANDARD_GRAVITY
+
+    def __post_init__(self) -> None:
+        _positive(self, "mu_slide", "such as 0.2")
+        _positive(self, "mu_roll", "such as 0.01")
+        _positive(self, "gravity", "metres per second squared")
+
+    @property
+    def table_speed(self) -> float:
+        """The table speed, 1 / mu_roll: how slowly a rolling ball comes to rest."""
+        return 1.0 / self.mu_roll
+
+
+@dataclass(frozen=True)
+class Table:
+    """The playing area between the noses of the cushions.
+
+    Parameters
+    ----------
+    length, width
+        metres; a nine-foot table has 100 by 50 inches.
+
+    Raises
+    ------
+    InputError
+        if one is not a finite number above 0.
+
+    >>> round(Table().length / INCH, 9)
+    100.0
+    """
+
+    length: float = 100.0 * INCH
+    width: float = 50.0 * INCH
+
+    def __post_init__(self) -> None:
+        _positive(self, "length", "metres")
+        _positive(self, "width", "metres")
+
+
+@dataclass(frozen=True)
+class Cue:
+    """A cue stick.
+
+    Parameters
+    ----------
+    mass
+        kilograms; 18 ounces are usual.
+    tip_friction
+        coefficient of static friction between tip and ball; beyond the offset that it
+        allows, the tip slips: a miscue (P1.7).
+
+    Raises
+    ------
+    InputError
+        if one is not a finite number above 0.
+
+    >>> round(Cue().mass / OUNCE, 9)
+    18.0
+    """
+
+    mass: float = 18.0 * OUNCE
+    tip_friction: float = 1.0 / math.sqrt(3.0)
+
+    def __post_init__(self) -> None:
+        _positive(self, "mass", "kilograms")
+        _positive(self, "tip_friction", "such as 0.6")
+
+
+def _positive(thing: object, name: str, wanted: str) -> None:
+    """Make a field a float, or refuse it."""
+    value = getattr(thing, name)
+    try:
+        number = math.nan if isinstance(value, str | bytes) else float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not (0.0 < number < math.inf):
+        raise InputError(f"{name} is {value!r}; give a finite number above 0 ({wanted})")
+    object.__setattr__(thing, name, number)

@@ -1,0 +1,29 @@
+"""The units that players speak in, in the SI units that everything here is computed in.
+
+Multiply to come in, divide to go out: `9 * INCH` is metres, `length / INCH` is inches.
+"""
+
+import math
+
+__all__ = ["CENTIMETRE", "DEGREE", "FOOT", "GRAM", "INCH", "OUNCE", "STANDARD_GRAVITY"]
+
+INCH = 0.0254
+"""Metres in an inch."""
+
+FOOT = 12.0 * INCH
+"""Metres in a foot."""
+
+CENTIMETRE = 0.01
+"""Metres in a centimetre."""
+
+OUNCE = 0.028349523125
+"""Kilograms in an ounce (avoirdupois)."""
+
+GRAM = 0.001
+"""Kilograms in a gram."""
+
+DEGREE = math.pi / 180.0
+"""Radians in a degree."""
+
+STANDARD_GRAVITY = 386.0 * INCH
+"""The acceleration of gravity in m/s^2, as the source text has it: 386 in/s^2, 9.8044 m/s^2."""
