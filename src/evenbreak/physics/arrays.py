@@ -1,0 +1,82 @@
+"""Numbers in, numbers out: every function takes arrays that broadcast, and a float for a float."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.errors import InputError
+
+__all__ = ["Floats", "numbers", "plain"]
+
+Floats = NDArray[np.float64]
+
+
+def numbers(
+    value: Any,
+    name: str,
+    *,
+    low: float = -math.inf,
+    high: float = math.inf,
+    open_low: bool = False,
+) -> Floats:
+    """Return finite numbers from `low` to `high` as a float array, or refuse them by name.
+
+    Parameters
+    ----------
+    value
+        a number, or something that numpy makes a float array of.
+    name
+        what the value is called where the caller wrote it.
+    low, high
+        the range; `low` itself is excluded where `open_low` is true.
+
+    Raises
+    ------
+    InputError
+        if a value is not a finite number in the range.
+
+    >>> numbers(-1.0, "speed", low=0.0)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: speed is -1.0; give a finite number, 0 or more
+    """
+    try:
+        if isinstance(value, str | bytes):
+            raise TypeError
+        array = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} is {value!r}; give {_wanted(low, high, open_low)}") from None
+    # One pass over the largest and the smallest: NaN and infinity show in them.
+    if array.size:
+        least, most = float(array.min()), float(array.max())
+        right = math.isfinite(least) and math.isfinite(most) and most <= high
+        if not (right and (least > low if open_low else least >= low)):
+            raise InputError(f"{_held(array, name)}; give {_wanted(low, high, open_low)}")
+    return array
+
+
+def plain(value: Any) -> Any:
+    """Return a float for an array without axes, and any other array as it is.
+
+    >>> plain(np.array(2.5)), plain(np.array([2.5]))
+    (2.5, array([2.5]))
+    """
+    return float(value) if np.ndim(value) == 0 else value
+
+
+def _held(array: Floats, name: str) -> str:
+    if array.ndim == 0:
+        return f"{name} is {float(array)!r}"
+    return f"{name} holds values from {float(array.min())!r} to {float(array.max())!r}"
+
+
+def _wanted(low: float, high: float, open_low: bool) -> str:
+    if math.isinf(low) and math.isinf(high):
+        return "a finite number"
+    if math.isinf(high):
+        return f"a finite number above {low:g}" if open_low else f"a finite number, {low:g} or more"
+    return f"a number from {low:.6g} to {high:.6g}"

@@ -1,0 +1,247 @@
+"""A cue ball that hits a standing ball (section 4, P4.1 to P4.12).
+
+The balls are equal, the hit elastic along the line of centres, and friction acts across it as
+`throw` describes. With x along the line of centres, y to its left, and the cue ball coming in
+at the cut angle to the left of x:
+
+    V_b = (V_0 cos(cut), V_by, V_bz)
+    V_c = (0, V_0 sin(cut) - V_by, ...)
+    omega_b = 5/(2R) (0, V_bz, -V_by),   omega_c = omega_0 + omega_b
+
+The table keeps a ball from going down. So where friction pushes the object ball up (draw), the
+cue ball stays where it is, and where it pushes it down (topspin), the cue ball jumps instead.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.objects import Ball
+from evenbreak.physics.throw import BALL_FRICTION, shot_of, slip_of, thrown
+from evenbreak.physics.units import STANDARD_GRAVITY
+
+__all__ = ["Collision", "Jump", "axis_tilt", "collide"]
+
+
+class Jump(NamedTuple):
+    """A ball's short flight: seconds, and metres up and along."""
+
+    time: Any
+    height: Any
+    distance: Any
+
+
+@dataclass(frozen=True, eq=False)
+class Collision:
+    """What is left of a hit: speeds in m/s, arrays over hits, or floats for one.
+
+    Vectors have their components last, in the frame of the shot: x' where the cue ball was
+    going, y' to the left, z up.
+
+    Parameters
+    ----------
+    ball
+        what both balls are.
+    cut, topspin, side, speed
+        the shot: cut angle in radians, J_y, J_z, and V_0.
+    ahead, sideways, upward
+        what the object ball gets: V_bx along the line of centres, V_by to the left of it and
+        V_bz, which is below 0 where the table takes it.
+    """
+
+    ball: Ball
+    cut: Any
+    topspin: Any
+    side: Any
+    speed: Any
+    ahead: Any
+    sideways: Any
+    upward: Any
+
+    @property
+    def throw(self) -> Any:
+        """The angle from the line of centres to the object ball's path, in radians (P4.2)."""
+        return plain(np.arctan2(self.sideways, np.maximum(self.ahead, 1e-300)))
+
+    @property
+    def departure(self) -> Any:
+        """The angle between the two paths just after the hit, in radians.
+
+        A right angle less the throw (P4.11), as long as the cue ball goes on to the side from
+        which it came; where it stands still, the limit of that.
+        """
+        on = self._cue_across >= 0.0
+        return plain(np.where(on, 0.5 * np.pi - self.throw, 0.5 * np.pi + self.throw))
+
+    @property
+    def object_velocity(self) -> Floats:
+        """The object ball's velocity; shape (..., 3)."""
+        return self._turned(self.ahead, self.sideways, np.maximum(self.upward, 0.0))
+
+    @property
+    def cue_velocity(self) -> Floats:
+        """The cue ball's velocity; shape (..., 3)."""
+        return self._turned(0.0, self._cue_across, np.maximum(-np.asarray(self.upward), 0.0))
+
+    @property
+    def object_spin(self) -> Floats:
+        """The object ball's angular velocity, rad/s; shape (..., 3) (P4.7)."""
+        scale = 2.5 / self.ball.radius
+        return self._turned(0.0, scale * self.upward, -scale * self.sideways)
+
+    @property
+    def cue_spin(self) -> Floats:
+        """The cue ball's angular velocity, rad/s; shape (..., 3)."""
+        return self._spin_before + self.object_spin
+
+    @property
+    def slip(self) -> tuple[Any, Any]:
+        """V_cpy and V_cpz, at which the balls slip at first: to the left and up."""
+        left, up = slip_of(*map(np.asarray, (self.cut, self.topspin, self.side)))
+        return plain(self.speed * left), plain(self.speed * up)
+
+    @property
+    def delta_elastic(self) -> Any:
+        """Twice the energy that goes into spin, over M, level friction alone (P4.11)."""
+        spin = self.side * self.speed
+        return plain(-2.0 * spin * self.sideways + 5.0 * np.square(self.sideways))
+
+    @property
+    def delta_inelastic(self) -> Any:
+        """Twice the energy that is lost, over M, level friction alone (P4.11)."""
+        return plain(2.0 * self.sideways * self.slip[0] - 7.0 * np.square(self.sideways))
+
+    @property
+    def delta_total(self) -> Any:
+        """V_0^2 - V_b^2 - V_c^2 for the level speeds, the sum of the two (P4.11)."""
+        across = self.speed * np.sin(self.cut)
+        return plain(2.0 * self.sideways * across - 2.0 * np.square(self.sideways))
+
+    @property
+    def energy_lost(self) -> Any:
+        """The energy that friction turns to heat, in joules, upright friction included.
+
+        Notes
+        -----
+        Source: P4.10. The upright part takes 3 V_bz^2, not 7/2, since only one of the two
+        balls gets to move up.
+        """
+        upright = self.upward * self.slip[1] - 3.0 * np.square(self.upward)
+        return plain(self.ball.mass * (0.5 * self.delta_inelastic + upright))
+
+    @property
+    def angular_momentum_change(self) -> Any:
+        """What the table adds about y, through the cue ball's centre, kg m^2/s (P4.12).
+
+        Notes
+        -----
+        Source: P4.12, 2 I omega_by: for topspin, where the table holds the object ball up. For
+        draw the object ball's flight takes up just as much, and nothing is added.
+        """
+        pushed = np.minimum(self.upward, 0.0)
+        return plain(2.0 * self.ball.mass * self.ball.radius * pushed)
+
+    def jump(self, *, gravity: float = STANDARD_GRAVITY) -> Jump:
+        """Return the object ball's flight, all 0 where it does not jump (P4.9).
+
+        >>> from evenbreak.physics.units import INCH
+        >>> jump = collide(0.0, -1.0, speed=36.0 * INCH).jump()
+        >>> round(jump.height / INCH, 5), round(jump.distance / INCH, 3)
+        (0.00518, 0.373)
+        """
+        up = np.maximum(self.upward, 0.0)
+        time = 2.0 * up / gravity
+        level = np.hypot(self.ahead, self.sideways)
+        return Jump(plain(time), plain(up**2 / (2.0 * gravity)), plain(level * time))
+
+    @property
+    def _cue_across(self) -> Any:
+        """The cue ball's speed to the left of the line of centres."""
+        return self.speed * np.sin(self.cut) - self.sideways
+
+    @property
+    def _spin_before(self) -> Floats:
+        around = np.asarray(self.speed) / self.ball.radius
+        parts = np.broadcast_arrays(0.0, around * self.topspin, around * self.side)
+        return np.stack(parts, axis=-1)
+
+    def _turned(self, x: Any, y: Any, z: Any) -> Floats:
+        """Return a vector that is given along the line of centres, in the frame of the shot."""
+        sin, cos = np.sin(self.cut), np.cos(self.cut)
+        parts = np.broadcast_arrays(x * cos + y * sin, y * cos - x * sin, z)
+        return np.stack(parts, axis=-1)
+
+
+def collide(
+    cut: Any,
+    topspin: Any = 1.0,
+    side: Any = 0.0,
+    *,
+    speed: Any = 1.0,
+    mu: Any = BALL_FRICTION,
+    friction: str = "limited",
+    ball: Ball | None = None,
+) -> Collision:
+    """Return what happens when a cue ball hits a standing ball.
+
+    Parameters
+    ----------
+    cut
+        cut angle in radians, 0 to pi/2: the object ball is cut to the right.
+    topspin
+        J_y just before the hit: 1 in natural roll, 0 for stun, below 0 for draw.
+    side
+        J_z just before the hit, below 0 for outside english.
+    speed
+        V_0 in m/s.
+    mu
+        coefficient of friction between the balls.
+    friction
+        'limited': it stops when the slip stops; 'shepard': the text's law, without that limit.
+    ball
+        what both balls are; a pool ball where it is not given.
+
+    Raises
+    ------
+    InputError
+        if a number is not finite or out of range, or the friction is none of the two.
+
+    Notes
+    -----
+    Source: P4.2 to P4.12. A cut to the left is its mirror image: turn the sign of `side`.
+
+    >>> hit = collide(np.radians(30.0), 0.0, speed=2.0)
+    >>> round(float(np.degrees(hit.throw)), 2), hit.object_velocity.round(3)
+    (3.18, array([ 1.548, -0.783,  0.   ]))
+    >>> bool(hit.energy_lost > 0.0)
+    True
+    """
+    cut, topspin, side = shot_of(cut, topspin, side)
+    speed = numbers(speed, "speed", low=0.0)
+    left, up = thrown(cut, *slip_of(cut, topspin, side), mu, friction)
+    found = (cut, topspin, side, speed, speed * np.cos(cut), speed * left, speed * up)
+    return Collision(ball or Ball(), *map(plain, found))
+
+
+def axis_tilt(throw: Any) -> Any:
+    """Return by what angle the axis of a thrown ball is tilted, once it rolls, in radians.
+
+    Seen from behind, with level friction alone: beta, about -7/2 of the throw.
+
+    Parameters
+    ----------
+    throw
+        epsilon, in radians.
+
+    Notes
+    -----
+    Source: P4.8, tan(beta) = -7/2 sin(epsilon).
+
+    >>> round(axis_tilt(0.01) / 0.01, 2)
+    -3.5
+    """
+    return plain(np.arctan(-3.5 * np.sin(numbers(throw, "throw"))))

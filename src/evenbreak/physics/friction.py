@@ -1,0 +1,148 @@
+"""Friction: how it is measured, and what it does to a block that slides (section 1)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.units import STANDARD_GRAVITY
+
+__all__ = [
+    "friction_of_incline",
+    "friction_of_stop",
+    "friction_of_throw",
+    "miscue_offset",
+    "sliding_distance",
+    "sliding_power",
+    "sliding_speed",
+    "tip_friction_of",
+]
+
+
+def friction_of_incline(angle: Any) -> Any:
+    """Return the coefficient of a block that slides down an incline at a steady speed (P1.4).
+
+    Parameters
+    ----------
+    angle
+        the slope, in radians.
+
+    >>> round(friction_of_incline(math.radians(20.0)), 4)
+    0.364
+    """
+    return plain(np.tan(numbers(angle, "angle", low=0.0, high=math.pi / 2.0)))
+
+
+def friction_of_throw(sideways: Any, ahead: Any) -> Any:
+    """Return the ball-ball friction of a ball that misses by `sideways` at a distance (P1.6).
+
+    Parameters
+    ----------
+    sideways, ahead
+        how far the object ball of two frozen balls lands from the point that they aim at, and
+        how far away that point is, in the same unit.
+
+    >>> round(friction_of_throw(4.0, 72.0), 4)
+    0.0556
+    """
+    sideways = numbers(sideways, "sideways", low=0.0)
+    return plain(sideways / numbers(ahead, "ahead", low=0.0, open_low=True))
+
+
+def friction_of_stop(distance: Any, time: Any, *, gravity: float = STANDARD_GRAVITY) -> Any:
+    """Return the coefficient of what slides or rolls a distance until it stops, in a time.
+
+    Parameters
+    ----------
+    distance
+        metres.
+    time
+        seconds.
+    gravity
+        metres per second squared.
+
+    Notes
+    -----
+    Source: section 1, mu = d / (g t^2 / 2): for a sliding block its coefficient of sliding
+    friction, for a rolling ball the effective one of rolling.
+
+    >>> friction_of_stop(1.0, 1.0, gravity=10.0)
+    0.2
+    """
+    time = numbers(time, "time", low=0.0, open_low=True)
+    return plain(numbers(distance, "distance", low=0.0) / (0.5 * gravity * time**2))
+
+
+def sliding_speed(
+    speed: Any, friction: Any, time: Any, *, gravity: float = STANDARD_GRAVITY
+) -> Any:
+    """Return the speed of a block that has slid for a time; 0 once it has stopped.
+
+    >>> round(sliding_speed(50.0, 0.2, 0.5, gravity=386.0), 9)
+    11.4
+    """
+    speed, friction, time = _block(speed, friction, time)
+    return plain(np.maximum(speed - friction * gravity * time, 0.0))
+
+
+def sliding_distance(
+    speed: Any, friction: Any, time: Any, *, gravity: float = STANDARD_GRAVITY
+) -> Any:
+    """Return how far a block has slid after a time; it stays where it has stopped.
+
+    >>> round(sliding_distance(50.0, 0.2, 0.5, gravity=386.0), 9)
+    15.35
+    """
+    speed, friction, time = _block(speed, friction, time)
+    slowing = friction * gravity
+    moving = np.minimum(time, speed / slowing)
+    return plain(speed * moving - 0.5 * slowing * moving**2)
+
+
+def sliding_power(
+    speed: Any, friction: Any, mass: Any, *, gravity: float = STANDARD_GRAVITY
+) -> Any:
+    """Return dT/dt, the rate at which a sliding block of this speed gains energy: below 0.
+
+    >>> round(sliding_power(2.0, 0.1, 1.0, gravity=10.0), 9)
+    -2.0
+    """
+    speed, friction, mass = _block(speed, friction, mass)
+    return plain(-friction * mass * gravity * speed)
+
+
+def miscue_offset(friction: Any) -> Any:
+    """Return the largest offset b/R from the centre at which the tip does not slip (P1.7).
+
+    Parameters
+    ----------
+    friction
+        coefficient of static friction between tip and ball.
+
+    >>> round(miscue_offset(1.0), 3)
+    0.707
+    """
+    friction = numbers(friction, "friction", low=0.0)
+    return plain(friction / np.hypot(1.0, friction))
+
+
+def tip_friction_of(offset: Any) -> Any:
+    """Return the friction of a tip that begins to slip at an offset b/R (P1.7).
+
+    >>> round(tip_friction_of(0.5), 3)
+    0.577
+    """
+    offset = numbers(offset, "offset", low=0.0, high=1.0)
+    with np.errstate(divide="ignore"):
+        return plain(offset / np.sqrt((1.0 - offset) * (1.0 + offset)))
+
+
+def _block(speed: Any, friction: Any, third: Any) -> tuple[Any, Any, Any]:
+    return (
+        numbers(speed, "speed", low=0.0),
+        numbers(friction, "friction", low=0.0, open_low=True),
+        numbers(third, "time or mass", low=0.0),
+    )

@@ -1,0 +1,244 @@
+"""Where the tip meets the ball, and the spin that it gives (section 3, P3.4 to P3.11).
+
+Seen from behind the cue ball, a contact point is (y, z): y across, to the left, z above the
+cloth, both in units of the ball's radius R, so that the centre is (0, 1). An offset from the
+centre is b / R; it is below 0 for draw. Spin is J = R omega / V, and its sign follows the
+right-handed frame: J_y above 0 is topspin; J_z above 0, counterclockwise from above, comes
+from a tip to the right, y below 0.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.objects import Cloth
+
+__all__ = [
+    "NATURAL_ROLL_OFFSET",
+    "ContactPoint",
+    "ball_speed_ratio",
+    "best_lag_offset",
+    "contact_for_later",
+    "effective_contact",
+    "largest_roll_side",
+    "offset_for",
+    "roll_side",
+    "roll_speed_ratio",
+    "small_circle_point",
+    "spin_of_offset",
+    "strike_side",
+    "stun_offset",
+]
+
+NATURAL_ROLL_OFFSET = 0.4
+"""The height above the centre, over R, at which a ball is struck into natural roll (P3.5)."""
+
+
+class ContactPoint(NamedTuple):
+    """A point of the ball as seen from behind: y to the left and z above the cloth, over R."""
+
+    y: Any
+    z: Any
+
+
+def spin_of_offset(offset: Any) -> Any:
+    """Return the spin J = R omega / V that an offset b/R gives (P3.4).
+
+    >>> spin_of_offset(0.4), spin_of_offset(-0.2)
+    (1.0, -0.5)
+    """
+    return plain(2.5 * _offset(offset))
+
+
+def offset_for(spin: Any) -> Any:
+    """Return the offset b/R that gives a spin J; beyond 1 the tip would miss the ball (P3.4).
+
+    >>> offset_for(1.0)
+    0.4
+    """
+    return plain(numbers(spin, "spin") / 2.5)
+
+
+def strike_side(y: Any) -> Any:
+    """Return the sidespin J_z just after the tip has struck at y, at any height (P3.6).
+
+    >>> strike_side(-0.4)
+    1.0
+    """
+    return plain(-2.5 * _offset(y, "y"))
+
+
+def roll_side(y: Any, z: Any) -> Any:
+    """Return the sidespin J_z once the ball that was struck at (y, z) rolls (P3.6).
+
+    Notes
+    -----
+    Source: P3.6, 7/2 y/z without its sign: the points of equal sidespin lie on straight lines
+    through (0, 0), where the ball stands on the cloth.
+
+    >>> roll_side(-0.5, 0.5)
+    3.5
+    """
+    y, z = _offset(y, "y"), numbers(z, "z", low=0.0, high=2.0, open_low=True)
+    return plain(-3.5 * y / z)
+
+
+def small_circle_point(side: Any) -> ContactPoint:
+    """Return the point nearest to the centre that gives a sidespin once the ball rolls (P3.7).
+
+    It lies on the circle of radius R/2 that touches the ball's centre and the cloth.
+
+    Parameters
+    ----------
+    side
+        J_z in natural roll.
+
+    >>> small_circle_point(3.5)
+    ContactPoint(y=-0.5, z=0.5)
+    """
+    slope = numbers(side, "side") / 3.5
+    z = 1.0 / (1.0 + slope**2)
+    return ContactPoint(plain(-slope * z), plain(z))
+
+
+def largest_roll_side(offset: Any) -> Any:
+    """Return the largest sidespin in natural roll that an offset from the centre allows (P3.8).
+
+    At the miscue offset of a tip it is 7/2 of the tip's friction.
+
+    >>> round(largest_roll_side(2.0**-0.5), 9)
+    3.5
+    """
+    offset = numbers(offset, "offset", low=0.0, high=1.0)
+    with np.errstate(divide="ignore"):
+        return plain(3.5 * offset / np.sqrt((1.0 - offset) * (1.0 + offset)))
+
+
+def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth) -> ContactPoint:
+    """Return where a standing ball would have to be struck to move as this one does now (P3.9).
+
+    As the ball slides, the point moves out along a straight line from (0, 0) until natural
+    roll begins at z = 7/5.
+
+    Parameters
+    ----------
+    contact
+        where it was struck.
+    speed
+        V_0 just after that, m/s, above 0.
+    time
+        seconds since then.
+    cloth
+        that it slides on.
+
+    >>> now = effective_contact(ContactPoint(0.2, 0.8), 2.0, 0.1, Cloth(gravity=10.0))
+    >>> round(now.y, 4), round(now.z, 4)
+    (0.2222, 0.8889)
+    """
+    y, z = _offset(contact.y, "y"), numbers(contact.z, "z", low=0.0, high=2.0, open_low=True)
+    speed = numbers(speed, "speed", low=0.0, open_low=True)
+    slowing = cloth.mu_slide * cloth.gravity
+    # Natural roll ends it, whether the ball slides too slowly or too fast for its spin.
+    slip = 1.0 - 2.5 * (z - 1.0)
+    longest = 2.0 * np.abs(slip) * speed / (7.0 * slowing)
+    lost = np.sign(slip) * slowing * np.minimum(numbers(time, "time", low=0.0), longest)
+    stretch = speed / (speed - lost)
+    return ContactPoint(plain(y * stretch), plain(z * stretch))
+
+
+def contact_for_later(later: ContactPoint, z: Any) -> ContactPoint:
+    """Return where to strike at a height z, so that the ball comes to move as if struck `later`.
+
+    The two points and (0, 0) lie on one line (P3.9).
+
+    >>> contact_for_later(ContactPoint(0.3, 1.0), 0.7)
+    ContactPoint(y=0.21, z=0.7)
+    """
+    z = numbers(z, "z", low=0.0, high=2.0, open_low=True)
+    height = numbers(later.z, "z", low=0.0, high=2.0, open_low=True)
+    return ContactPoint(plain(_offset(later.y, "y") * z / height), plain(z))
+
+
+def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
+    """Return how far below the centre to strike, so that backspin is gone after a distance.
+
+    Parameters
+    ----------
+    speed
+        of the ball just after the tip, m/s.
+    distance
+        metres to where it shall be a stun shot.
+    cloth
+        that it slides on.
+
+    Returns
+    -------
+    b/R, 0 or below
+
+    Raises
+    ------
+    InputError
+        if the ball would stop before, so that no offset does it.
+
+    Notes
+    -----
+    Source: P3.4 and P3.9: with t from d = V_0 t - mu g t^2 / 2, b/R = -mu g t / V_0.
+
+    >>> round(stun_offset(2.0, 0.36, Cloth(mu_slide=0.2, gravity=10.0)), 9)
+    -0.2
+    """
+    speed = numbers(speed, "speed", low=0.0, open_low=True)
+    distance = numbers(distance, "distance", low=0.0)
+    lost = 2.0 * cloth.mu_slide * cloth.gravity * distance / speed**2
+    if np.any(lost > 1.0):
+        raise InputError(
+            "distance is more than a ball of this speed slides; give a higher speed, or less "
+            f"than {float(np.min(speed)) ** 2 / (2.0 * cloth.mu_slide * cloth.gravity):.4g} m"
+        )
+    # 1 - sqrt(1 - lost), written so that small offsets keep their digits.
+    return plain(-lost / (1.0 + np.sqrt(1.0 - lost)))
+
+
+def ball_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
+    """Return the speed of the ball over that of the stick, struck off centre (P3.10).
+
+    Parameters
+    ----------
+    offset
+        b/R, in any direction.
+    ball_ratio
+        mass of the ball over mass of the stick, 1/3 for 6 and 18 ounces.
+
+    >>> round(ball_speed_ratio(0.0, 1 / 3), 9), round(ball_speed_ratio(0.3, 1 / 3), 4)
+    (1.5, 1.2834)
+    """
+    ratio = numbers(ball_ratio, "ball_ratio", low=0.0)
+    return plain(2.0 / (1.0 + ratio + 2.5 * _offset(offset) ** 2))
+
+
+def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
+    """Return the speed of natural roll over that of the stick, struck so far up (P3.11).
+
+    >>> round(roll_speed_ratio(0.3, 1 / 3), 4)
+    1.1917
+    """
+    return plain((5.0 + 5.0 * _offset(offset)) / 7.0 * ball_speed_ratio(offset, ball_ratio))
+
+
+def best_lag_offset(ball_ratio: Any) -> Any:
+    """Return the height above the centre, b/R, from which a ball rolls farthest (P3.11).
+
+    There the length of a lag depends least on where the tip meets the ball.
+
+    >>> round(best_lag_offset(1 / 3), 3), round(best_lag_offset(1 / 4), 3)
+    (0.238, 0.225)
+    """
+    return plain(np.sqrt(1.4 + 0.4 * numbers(ball_ratio, "ball_ratio", low=0.0)) - 1.0)
+
+
+def _offset(value: Any, name: str = "offset") -> Any:
+    return numbers(value, name, low=-1.0, high=1.0)

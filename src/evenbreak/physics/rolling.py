@@ -1,0 +1,170 @@
+"""The energy of a rolling ball, and rolling elsewhere (section 2, P2.4 to P2.6).
+
+A round body of inertia k M R^2 that rolls without slipping carries (1 + k) times the energy of
+its motion, k = 2/5 for a ball. On a slope it is as if only 1 / (1 + k) of the slope's pull
+acted, and so the rolling resistance that one body shows tells that of another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.objects import Ball, Cloth
+from evenbreak.physics.units import INCH, STANDARD_GRAVITY
+
+__all__ = [
+    "MOON_GRAVITY",
+    "SHAPES",
+    "Energy",
+    "SpinStop",
+    "kinetic_energy",
+    "rolling_friction",
+    "rolling_time",
+    "spin_stop",
+]
+
+MOON_GRAVITY = 63.8 * INCH
+"""The acceleration of gravity on the moon, m/s^2 (P2.5)."""
+
+SHAPES: Mapping[str, float] = MappingProxyType(
+    {"ball": 0.4, "cylinder": 0.5, "hollow ball": 2.0 / 3.0, "ring": 1.0}
+)
+"""The inertia of round bodies about their axis of rolling, in units of M R^2."""
+
+
+class Energy(NamedTuple):
+    """Kinetic energy in joules, of motion and of spin."""
+
+    translational: Any
+    rotational: Any
+
+    @property
+    def total(self) -> Any:
+        """The two together."""
+        return self.translational + self.rotational
+
+
+def kinetic_energy(ball: Ball, speed: Any, rim_speed: Any) -> Energy:
+    """Return the energy of a ball of this speed and this rim speed R omega, both in m/s.
+
+    Notes
+    -----
+    Source: P2.4; a ball in natural roll has 5/7 of its energy in its motion.
+
+    >>> energy = kinetic_energy(Ball(), 1.0, 1.0)
+    >>> round(energy.translational / energy.total, 6)
+    0.714286
+    """
+    speed, rim_speed = numbers(speed, "speed"), numbers(rim_speed, "rim_speed")
+    return Energy(plain(0.5 * ball.mass * speed**2), plain(0.2 * ball.mass * np.square(rim_speed)))
+
+
+def rolling_friction(mu_roll: Any, *, shape: float = SHAPES["ball"]) -> Any:
+    """Return the coefficient of rolling, sin of the slope, of what has an effective one.
+
+    Parameters
+    ----------
+    mu_roll
+        the effective coefficient, slowing over gravity, which differs between shapes.
+    shape
+        the inertia in units of M R^2.
+
+    Notes
+    -----
+    Source: section 2; 7/5 mu_roll for a ball. It is the same for every shape of the material.
+
+    >>> round(rolling_friction(1 / 96.7), 4)
+    0.0145
+    """
+    return plain((1.0 + shape) * numbers(mu_roll, "mu_roll", low=0.0))
+
+
+def rolling_time(
+    distance: Any,
+    friction: Any,
+    *,
+    shape: float = SHAPES["ball"],
+    gravity: float = STANDARD_GRAVITY,
+) -> Any:
+    """Return how long a round body takes to roll a distance to rest, in seconds (P2.5).
+
+    Parameters
+    ----------
+    distance
+        metres.
+    friction
+        the coefficient of rolling that `rolling_friction` tells.
+    shape
+        the inertia in units of M R^2.
+    gravity
+        metres per second squared, such as `MOON_GRAVITY`.
+
+    >>> length = 97.75 * INCH
+    >>> round(rolling_time(length, 0.0145, shape=SHAPES["cylinder"], gravity=MOON_GRAVITY), 1)
+    17.8
+    """
+    friction = numbers(friction, "friction", low=0.0, open_low=True)
+    distance = numbers(distance, "distance", low=0.0)
+    return plain(np.sqrt(2.0 * (1.0 + shape) * distance / (gravity * friction)))
+
+
+class SpinStop(NamedTuple):
+    """A ball that stands and spins, until it rests: times in seconds, distances in metres.
+
+    Parameters
+    ----------
+    roll_speed
+        of natural roll, m/s.
+    slide_time, slide_distance
+        until natural roll begins.
+    roll_time, roll_distance
+        from then on until it rests.
+    """
+
+    roll_speed: Any
+    slide_time: Any
+    slide_distance: Any
+    roll_time: Any
+    roll_distance: Any
+
+    @property
+    def distance(self) -> Any:
+        """How far the ball goes in all, in metres."""
+        return self.slide_distance + self.roll_distance
+
+
+def spin_stop(rim_speed: Any, cloth: Cloth) -> SpinStop:
+    """Return how far a standing ball goes by its topspin or draw alone (P2.6).
+
+    That is the cue ball after a full hit: its speed is gone, its spin is not.
+
+    Parameters
+    ----------
+    rim_speed
+        R omega in m/s, of either sign.
+    cloth
+        that it slides and rolls on.
+
+    Notes
+    -----
+    Source: P2.6: the distance goes with the square of the spin.
+
+    >>> stop = spin_stop(90.0, Cloth(mu_slide=0.2, mu_roll=0.0103, gravity=386.0))
+    >>> round(stop.slide_distance, 4), round(stop.roll_distance, 4), round(stop.distance, 4)
+    (4.2825, 83.1562, 87.4387)
+    """
+    speed = 2.0 / 7.0 * np.abs(numbers(rim_speed, "rim_speed"))
+    pull, resistance = cloth.mu_slide * cloth.gravity, cloth.mu_roll * cloth.gravity
+    parts = (
+        speed,
+        speed / pull,
+        speed**2 / (2.0 * pull),
+        speed / resistance,
+        speed**2 / (2.0 * resistance),
+    )
+    return SpinStop(*map(plain, parts))

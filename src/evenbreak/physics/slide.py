@@ -1,0 +1,282 @@
+"""From slide to natural roll (section 2, P2.1 to P2.3).
+
+A ball slides while the point that touches the cloth moves. With the velocity V and the spin
+omega about a level axis, that point slips over the cloth at
+
+    u = V + omega x (-R k) = (V_x - R omega_y, V_y + R omega_x)
+
+and the cloth pulls with mu g against u. u keeps its direction and shrinks at 7/2 mu g, so the
+force is constant, the path is a parabola, and natural roll comes after 2 |u| / (7 mu g) at
+
+    V_NR = 5/7 V + 2/7 R (omega_y, -omega_x)
+
+whatever the friction.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.objects import Ball, Cloth
+
+__all__ = [
+    "Slide",
+    "drag_distance",
+    "parabola",
+    "roll_speed",
+    "roll_velocity",
+    "sliding_ball_speed",
+    "stun_distance",
+]
+
+
+def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
+    """Return the speed of a sliding ball, from the speed of its rim now (P2.1).
+
+    Parameters
+    ----------
+    speed, rim_speed
+        V_0 and R omega_0 at the start, below 0 for backspin.
+    rim_speed_now
+        R omega now.
+
+    >>> sliding_ball_speed(60.0, -45.0, 30.0)
+    30.0
+    """
+    change = numbers(rim_speed_now, "rim_speed_now") - numbers(rim_speed, "rim_speed")
+    return plain(numbers(speed, "speed") - 0.4 * change)
+
+
+def roll_speed(speed: Any, rim_speed: Any) -> Any:
+    """Return the speed of natural roll that a ball of straight topspin or draw comes to (P2.2).
+
+    Parameters
+    ----------
+    speed, rim_speed
+        V_0 and R omega_0, below 0 for backspin.
+
+    >>> round(roll_speed(1.0, 0.0), 4), round(roll_speed(1.0, -1.0), 4)
+    (0.7143, 0.4286)
+    """
+    return plain((5.0 * numbers(speed, "speed") + 2.0 * numbers(rim_speed, "rim_speed")) / 7.0)
+
+
+def roll_velocity(velocity: Any, rim_velocity: Any) -> Floats:
+    """Return the velocity of natural roll, the two level components last.
+
+    Parameters
+    ----------
+    velocity
+        V, shape (..., 2).
+    rim_velocity
+        R omega, shape (..., 3) or (..., 2); what turns about the upright axis does not matter.
+
+    >>> roll_velocity([0.0, 1.0], [0.0, 1.75, 9.0])
+    array([0.5       , 0.71428571])
+    """
+    return (5.0 * numbers(velocity, "velocity") + 2.0 * _forward(rim_velocity)) / 7.0
+
+
+def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
+    """Return how far along the force a sliding ball is, when it is so far across it (P2.3).
+
+    Parameters
+    ----------
+    ahead
+        x in metres, across the force of the cloth.
+    velocity
+        (V_0x, V_0y): across the force, not 0, and along it.
+    cloth
+        that the ball slides on.
+
+    Notes
+    -----
+    Source: P2.3, y = (V_0y / V_0x) x + mu g x^2 / (2 V_0x^2), with y along the force.
+
+    >>> parabola(1.0, (2.0, -1.0), Cloth(mu_slide=0.2, gravity=10.0))
+    -0.25
+    """
+    across, along = np.moveaxis(numbers(velocity, "velocity"), -1, 0)
+    if not np.all(across):
+        raise InputError("velocity is 0 across the force; the path is a straight line then")
+    x = numbers(ahead, "ahead")
+    return plain(along / across * x + 0.5 * cloth.mu_slide * cloth.gravity * (x / across) ** 2)
+
+
+def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
+    """Return how far a ball with backspin slides until it has none: there it is a stun shot.
+
+    Parameters
+    ----------
+    speed
+        V_0 in m/s.
+    spin
+        J = R omega_0 / V_0, from -5/2, where it comes to a stop just there, to 0.
+    cloth
+        that the ball slides on.
+
+    Notes
+    -----
+    Source: section 2 (draw, stun and drag shots), R omega = R omega_0 + 5/2 mu g t.
+
+    >>> round(stun_distance(2.0, -0.5, Cloth(mu_slide=0.2, gravity=10.0)), 9)
+    0.36
+    """
+    speed = numbers(speed, "speed", low=0.0)
+    spin = numbers(spin, "spin", low=-2.5, high=0.0)
+    time = -0.4 * spin * speed / (cloth.mu_slide * cloth.gravity)
+    return plain(speed * time * (1.0 + 0.2 * spin))
+
+
+def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
+    """Return how far a ball has slid when natural roll begins.
+
+    Parameters
+    ----------
+    speed
+        V_0 in m/s.
+    spin
+        J = R omega_0 / V_0, -5/2 or more, so that it never goes backwards.
+    cloth
+        that the ball slides on.
+
+    >>> round(drag_distance(2.0, -1.0, Cloth(mu_slide=0.2, gravity=10.0)), 9)
+    0.816326531
+    """
+    speed = numbers(speed, "speed", low=0.0)
+    slip = 1.0 - numbers(spin, "spin", low=-2.5)
+    time = 2.0 * np.abs(slip) * speed / (7.0 * cloth.mu_slide * cloth.gravity)
+    return plain(speed * time * (1.0 - slip / 7.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Slide:
+    """A ball from when it begins to slide until it rests, as arrays over balls.
+
+    Parameters
+    ----------
+    ball, cloth
+        which ball, on what.
+    position, velocity
+        where it is and how it moves at time 0: metres and m/s, shape (..., 2).
+    spin
+        the angular velocity at time 0, rad/s, shape (..., 3).
+
+    Raises
+    ------
+    InputError
+        if they are not finite numbers of these shapes.
+
+    Notes
+    -----
+    Source: P2.3. Sidespin, about the upright axis, neither turns the ball off its path nor
+    wears off here.
+
+    >>> shot = Slide(Ball(), Cloth(), [0.0, 0.0], [0.0, 1.0], [0.0, 35.0, 0.0])
+    >>> shot.roll_velocity.round(4)
+    array([0.2858, 0.7143])
+    """
+
+    ball: Ball
+    cloth: Cloth
+    position: Floats
+    velocity: Floats
+    spin: Floats
+
+    def __post_init__(self) -> None:
+        for name, size in (("position", 2), ("velocity", 2), ("spin", 3)):
+            array = numbers(getattr(self, name), name)
+            if array.ndim == 0 or array.shape[-1] != size:
+                raise InputError(f"{name} has shape {array.shape}; give (..., {size})")
+            object.__setattr__(self, name, array)
+
+    @property
+    def slip(self) -> Floats:
+        """The velocity of the point that touches the cloth, at time 0; shape (..., 2)."""
+        return self.velocity - self.ball.radius * _forward(self.spin)
+
+    @property
+    def slide_time(self) -> Any:
+        """Seconds until natural roll begins."""
+        pull = self.cloth.mu_slide * self.cloth.gravity
+        return plain(2.0 * np.hypot(*np.moveaxis(self.slip, -1, 0)) / (7.0 * pull))
+
+    @property
+    def roll_velocity(self) -> Floats:
+        """The velocity with which natural roll begins; shape (..., 2)."""
+        return roll_velocity(self.velocity, self.ball.radius * self.spin)
+
+    @property
+    def stop_time(self) -> Any:
+        """Seconds until the ball rests."""
+        speed = np.hypot(*np.moveaxis(self.roll_velocity, -1, 0))
+        return plain(self.slide_time + speed / (self.cloth.mu_roll * self.cloth.gravity))
+
+    @property
+    def stop_position(self) -> Floats:
+        """Where the ball rests, had it all the room it needs; shape (..., 2)."""
+        return self.at(self.stop_time)
+
+    def at(self, time: Any) -> Floats:
+        """Return where the ball is at a time, in metres; shape (..., 2).
+
+        Parameters
+        ----------
+        time
+            seconds, of a shape that broadcasts with the balls'.
+        """
+        time = numbers(time, "time", low=0.0)
+        sliding = np.minimum(time, self.slide_time)[..., None]
+        rolling = np.clip(time - self.slide_time, 0.0, self.stop_time - self.slide_time)[..., None]
+        pull = self.cloth.mu_slide * self.cloth.gravity
+        resistance = self.cloth.mu_roll * self.cloth.gravity
+        slid = self.velocity * sliding - 0.5 * pull * _direction(self.slip) * sliding**2
+        start = self.roll_velocity
+        rolled = start * rolling - 0.5 * resistance * _direction(start) * rolling**2
+        return self.position + slid + rolled
+
+    def velocity_at(self, time: Any) -> Floats:
+        """Return the velocity at a time, in m/s; shape (..., 2)."""
+        time = numbers(time, "time", low=0.0)
+        sliding = np.minimum(time, self.slide_time)[..., None]
+        rolling = np.clip(time - self.slide_time, 0.0, self.stop_time - self.slide_time)[..., None]
+        pull = self.cloth.mu_slide * self.cloth.gravity
+        resistance = self.cloth.mu_roll * self.cloth.gravity
+        return (
+            self.velocity
+            - pull * _direction(self.slip) * sliding
+            - resistance * _direction(self.roll_velocity) * rolling
+        )
+
+    def spin_at(self, time: Any) -> Floats:
+        """Return the angular velocity at a time, in rad/s; shape (..., 3)."""
+        time = numbers(time, "time", low=0.0)
+        slides = np.minimum(time, self.slide_time)[..., None]
+        pull = self.cloth.mu_slide * self.cloth.gravity
+        gain = 2.5 * pull / self.ball.radius * slides * _direction(self.slip)
+        # The cloth's force -u at -R k turns the ball by R (-k) x (-u) = R k x u.
+        level = self.spin[..., :2] + np.stack([-gain[..., 1], gain[..., 0]], axis=-1)
+        rolling = (time > self.slide_time)[..., None]
+        now = self.velocity_at(time) / self.ball.radius
+        level = np.where(rolling, np.stack([-now[..., 1], now[..., 0]], axis=-1), level)
+        upright = np.broadcast_to(self.spin[..., 2:], (*level.shape[:-1], 1))
+        return np.concatenate([level, upright], axis=-1)
+
+
+def _forward(spin: Any) -> Floats:
+    """Return the velocity at which a ball of this spin rolls, per metre of its radius."""
+    spin = numbers(spin, "spin")
+    if spin.ndim == 0 or spin.shape[-1] not in (2, 3):
+        raise InputError(f"spin has shape {spin.shape}; give (..., 3)")
+    return np.stack([spin[..., 1], -spin[..., 0]], axis=-1)
+
+
+def _direction(vector: Floats) -> Floats:
+    """Return unit vectors, and 0 for 0."""
+    length = np.hypot(vector[..., 0], vector[..., 1])[..., None]
+    return np.divide(vector, length, out=np.zeros_like(vector), where=length > 0.0)

@@ -1,0 +1,89 @@
+"""Table speed: how far a ball rolls (section 1, P1.5)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.units import STANDARD_GRAVITY
+
+__all__ = ["TABLE_SPEEDS", "lag_distance", "lag_speed", "roll_distance", "roll_time", "table_speed"]
+
+TABLE_SPEEDS = {
+    "very slow": (50.0, 70.0),
+    "normal": (80.0, 100.0),
+    "very fast": (120.0, 150.0),
+    "fast billiard": (150.0, float("inf")),
+}
+"""Table speeds as players call them; worsted cloth, when new, has 100 to 130."""
+
+
+def lag_distance(table: Table, ball: Ball) -> float:
+    """Return how far a ball's centre goes from cushion to cushion along a table, in metres.
+
+    >>> from evenbreak.physics.units import INCH
+    >>> round(lag_distance(Table(), Ball()) / INCH, 9)
+    97.75
+    """
+    return table.length - ball.diameter
+
+
+def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = STANDARD_GRAVITY) -> Any:
+    """Return the table speed from a ball that rolls a distance to rest, in a time.
+
+    Parameters
+    ----------
+    lag_time
+        seconds from one end cushion to where the ball stops, just at the other.
+    distance
+        metres that its centre goes; by default along a nine-foot table.
+    gravity
+        metres per second squared.
+
+    Notes
+    -----
+    Source: P1.5, g t^2 / (2 d), which is 1 / mu_roll; on a nine-foot table nearly 2 t^2.
+
+    >>> round(table_speed(7.0), 1)
+    96.7
+    """
+    metres = _nine_feet() if distance is None else distance
+    time = numbers(lag_time, "lag_time", low=0.0, open_low=True)
+    return plain(0.5 * gravity * time**2 / numbers(metres, "distance", low=0.0, open_low=True))
+
+
+def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
+    """Return the speed off the last cushion of a ball that rolls a distance to rest (P1.5).
+
+    It is twice the mean speed.
+
+    >>> from evenbreak.physics.units import INCH
+    >>> round(lag_speed(7.0) / INCH, 1)
+    27.9
+    """
+    metres = _nine_feet() if distance is None else distance
+    time = numbers(lag_time, "lag_time", low=0.0, open_low=True)
+    return plain(2.0 * numbers(metres, "distance", low=0.0) / time)
+
+
+def roll_time(speed: Any, cloth: Cloth) -> Any:
+    """Return how long a ball rolls until it rests, in seconds, from its speed in m/s.
+
+    >>> round(roll_time(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
+    10.0
+    """
+    return plain(numbers(speed, "speed", low=0.0) / (cloth.mu_roll * cloth.gravity))
+
+
+def roll_distance(speed: Any, cloth: Cloth) -> Any:
+    """Return how far a ball rolls until it rests, in metres, from its speed in m/s.
+
+    >>> round(roll_distance(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
+    5.0
+    """
+    return plain(numbers(speed, "speed", low=0.0) ** 2 / (2.0 * cloth.mu_roll * cloth.gravity))
+
+
+def _nine_feet() -> float:
+    return lag_distance(Table(), Ball())

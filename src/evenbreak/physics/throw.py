@@ -1,0 +1,264 @@
+"""Throw: what friction between the balls does to the object ball's path (section 4, P4.2 to P4.6).
+
+The point of the cue ball that touches the object ball slips across it at
+
+    V_cp = V_0 (sin(cut) + J_z, -J_y cos(cut))
+
+to the left and up. Friction pulls the object ball that way, by a share mu of what the hit
+gives it along the line of centres: tan(throw) = mu cos(gamma), where gamma is the angle of the
+slip above the level. That holds only while the balls slip: the hit takes the slip away at
+seven times the speed that it gives, so
+
+    V_b,sideways <= |V_cp| / 7
+
+and a stun shot has its full throw only where tan(cut) >= 7 mu. `friction="limited"` keeps to
+that, `friction="shepard"` is the law of the text, which knows no limit and there adds energy.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.checks import one_of
+from evenbreak.errors import InputError
+from evenbreak.physics.arrays import Floats, numbers, plain
+
+__all__ = [
+    "BALL_FRICTION",
+    "FRICTION_LAWS",
+    "Aim",
+    "aim",
+    "full_throw_cut",
+    "gearing_side",
+    "throw_angle",
+    "throw_factor",
+    "throw_sensitivity",
+]
+
+BALL_FRICTION = 4.0 / 72.0
+"""The coefficient of friction between two balls that P1.6 measures."""
+
+FRICTION_LAWS = ("limited", "shepard")
+"""The laws of friction: limited by the slip, and that of the source text."""
+
+
+def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
+    """Return cos(gamma), the share of the friction that throws the object ball sideways (P4.2).
+
+    Parameters
+    ----------
+    cut
+        cut angle in radians, 0 to pi/2.
+    topspin
+        J_y, 1 in natural roll, 0 for stun, below 0 for draw.
+    side
+        J_z, below 0 for outside english where the cut is to the right.
+
+    Returns
+    -------
+    from -1, where english throws the ball the other way, to 1; 0 where nothing slips
+
+    >>> throw_factor(math.pi / 6.0), throw_factor(0.4, 0.0), throw_factor(0.4, 0.0, -0.8)
+    (0.49999999999999994, 1.0, -1.0)
+    """
+    left, up = slip_of(*shot_of(cut, topspin, side))
+    return plain(left / _length(left, up))
+
+
+def throw_angle(
+    cut: Any,
+    topspin: Any = 1.0,
+    side: Any = 0.0,
+    *,
+    mu: Any = BALL_FRICTION,
+    friction: str = "limited",
+) -> Any:
+    """Return by what angle the object ball leaves the line of centres, in radians (P4.2).
+
+    Parameters
+    ----------
+    cut, topspin, side
+        as `throw_factor` takes them.
+    mu
+        coefficient of friction between the balls.
+    friction
+        'limited' or 'shepard'.
+
+    Returns
+    -------
+    above 0 where the ball is thrown forward, as in a cut without english: it misses thick
+
+    Notes
+    -----
+    Source: P4.2; the speed does not matter.
+
+    >>> round(math.degrees(throw_angle(math.radians(30.0))), 3)
+    1.591
+    >>> round(math.degrees(throw_angle(math.radians(10.0), 0.0)), 3)
+    1.443
+    >>> round(math.degrees(throw_angle(math.radians(10.0), 0.0, friction="shepard")), 3)
+    3.18
+    """
+    cut, topspin, side = shot_of(cut, topspin, side)
+    sideways, _ = thrown(cut, *slip_of(cut, topspin, side), mu, friction)
+    # A hit at a right angle gives no speed either way; its throw is the limit of thin cuts.
+    ahead = np.maximum(np.cos(cut), 1e-300)
+    return plain(np.arctan2(sideways, ahead))
+
+
+def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
+    """Return the cut angle from which a stun shot has its full throw, in radians.
+
+    Below it the slip ends before the hit does, and tan(throw) = tan(cut) / 7.
+
+    >>> round(math.degrees(full_throw_cut()), 2)
+    21.25
+    """
+    return plain(np.arctan(7.0 * numbers(mu, "mu", low=0.0)))
+
+
+def gearing_side(cut: Any) -> Any:
+    """Return the sidespin J_z that leaves no slip to the side, and no throw (P4.26).
+
+    >>> round(gearing_side(math.radians(20.0)), 4)
+    -0.342
+    """
+    return plain(-np.sin(cut_of(cut)))
+
+
+def throw_sensitivity(cut: Any, topspin: Any, side: Any) -> Any:
+    """Return how fast cos(gamma) changes with the spin: the length of its gradient (P4.5).
+
+    Parameters
+    ----------
+    cut, topspin, side
+        as `throw_factor` takes them; the gradient is by J_y and J_z.
+
+    Returns
+    -------
+    0 or more; infinite where nothing slips
+
+    >>> round(throw_sensitivity(math.pi / 6.0, 0.5, 0.1), 4)
+    0.723
+    """
+    cut, topspin, side = shot_of(cut, topspin, side)
+    left, up = slip_of(cut, topspin, side)
+    length = np.hypot(left, up)
+    rise = np.abs(up) * np.hypot(left * np.cos(cut), up)
+    with np.errstate(divide="ignore", over="ignore"):
+        found = np.divide(rise, length**3, out=np.full_like(length, np.inf), where=length > 0.0)
+    return plain(found)
+
+
+class Aim(NamedTuple):
+    """How to allow for throw: angles in radians, the offset in the unit of the distance.
+
+    Parameters
+    ----------
+    cut
+        the cut angle to aim for.
+    throw
+        the throw that it has; the object ball then leaves at the cut angle that was wanted.
+    offset
+        how far beside the target the line of centres points, on the side of the thinner cut.
+    offset_of_text
+        what the rule of P4.6 says instead, mu D cos(gamma) at the cut angle that was wanted.
+    """
+
+    cut: Any
+    throw: Any
+    offset: Any
+    offset_of_text: Any
+
+
+def aim(
+    cut: Any,
+    distance: Any,
+    topspin: Any = 1.0,
+    side: Any = 0.0,
+    *,
+    mu: Any = BALL_FRICTION,
+    friction: str = "limited",
+) -> Aim:
+    """Return where to aim so that the object ball, thrown, goes where it should (P4.6).
+
+    Parameters
+    ----------
+    cut
+        the cut angle at which the object ball shall leave, in radians.
+    distance
+        from the object ball to its target, in any unit of length.
+    topspin, side, mu, friction
+        as `throw_angle` takes them.
+
+    Raises
+    ------
+    InputError
+        if no cut sends the ball there: it would have to be cut thinner than a right angle.
+
+    >>> found = aim(math.asin(0.25), 36.0)
+    >>> round(found.offset_of_text, 3), round(found.offset, 3)
+    (0.5, 0.528)
+    """
+    wanted, topspin, side = shot_of(cut, topspin, side)
+    distance = numbers(distance, "distance", low=0.0)
+
+    def throw(angle: Floats) -> Any:
+        # Beyond a full hit the ball is cut the other way, and english changes its side.
+        turned = np.where(angle < 0.0, -side, side)
+        found = throw_angle(np.abs(angle), topspin, turned, mu=mu, friction=friction)
+        return np.where(angle < 0.0, -found, found)
+
+    largest = np.arctan(numbers(mu, "mu", low=0.0))
+    low, high = np.broadcast_arrays(wanted - largest, np.minimum(wanted + largest, math.pi / 2.0))
+    if np.any(high - throw(high) < wanted - 1e-12):
+        raise InputError(
+            "cut is so thin that throw takes away more than is left up to a right angle; "
+            "give a smaller cut angle, or other spin"
+        )
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        short = middle - throw(middle) < wanted
+        low, high = np.where(short, middle, low), np.where(short, high, middle)
+    found = 0.5 * (low + high)
+    rule = mu * distance * throw_factor(wanted, topspin, side)
+    return Aim(
+        plain(found),
+        plain(throw(found)),
+        plain(distance * np.tan(found - wanted)),
+        plain(rule),
+    )
+
+
+def cut_of(cut: Any) -> Floats:
+    """Return a cut angle as an array, or refuse it."""
+    return numbers(cut, "cut", low=0.0, high=math.pi / 2.0)
+
+
+def shot_of(cut: Any, topspin: Any, side: Any) -> tuple[Floats, Floats, Floats]:
+    """Return cut angle, J_y and J_z as arrays, or refuse them."""
+    return cut_of(cut), numbers(topspin, "topspin"), numbers(side, "side")
+
+
+def slip_of(cut: Floats, topspin: Floats, side: Floats) -> tuple[Any, Any]:
+    """Return the slip at the point of contact over the cue ball's speed, to the left and up."""
+    return np.sin(cut) + side, -topspin * np.cos(cut)
+
+
+def thrown(cut: Floats, left: Any, up: Any, mu: Any, friction: str) -> tuple[Any, Any]:
+    """Return the speed that friction gives the object ball, to the left and up, over V_0."""
+    law = one_of(friction, "friction", FRICTION_LAWS)
+    length = _length(left, up)
+    pull = numbers(mu, "mu", low=0.0) * np.cos(cut)
+    if law == "limited":
+        pull = np.minimum(pull, length / 7.0)
+    share = pull / length
+    return left * share, up * share
+
+
+def _length(left: Any, up: Any) -> Any:
+    """Return the length of the slip, and the smallest number where there is none."""
+    return np.maximum(np.sqrt(left * left + up * up), 1e-300)

@@ -1,0 +1,127 @@
+"""Cue tip and cue ball, struck in the centre (section 3, P3.1 to P3.3).
+
+The cue is free while the tip touches, the cue level and the hit elastic: what speed the stick
+gives to the ball, what energy, and which stick a break wants.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.physics.arrays import numbers, plain
+
+__all__ = [
+    "CentreHit",
+    "best_stick_ratio",
+    "break_energy_share",
+    "centre_hit",
+    "energy_share",
+    "stroke_energy",
+    "stroke_speed",
+]
+
+
+class CentreHit(NamedTuple):
+    """What a hit in the centre gives, each over the speed of the stick before it.
+
+    Parameters
+    ----------
+    ball, stick
+        the speeds after the hit; the stick's is below 0 where it bounces back.
+    """
+
+    ball: Any
+    stick: Any
+
+
+def stroke_speed(force: Any, length: Any, mass: Any) -> Any:
+    """Return the speed of a stick that a constant force has pushed along a stroke (P3.1).
+
+    Parameters
+    ----------
+    force, length, mass
+        newtons, metres, kilograms (or any units that go together).
+
+    >>> round(stroke_speed(10.0, 12.0, 18.0), 4)
+    3.6515
+    """
+    force, length = numbers(force, "force", low=0.0), numbers(length, "length", low=0.0)
+    return plain(np.sqrt(2.0 * force * length / numbers(mass, "mass", low=0.0, open_low=True)))
+
+
+def centre_hit(stick_ratio: Any) -> CentreHit:
+    """Return the speeds after a hit in the centre (P3.2).
+
+    Parameters
+    ----------
+    stick_ratio
+        mass of the stick over mass of the ball, 3 for 18 and 6 ounces.
+
+    >>> centre_hit(3.0)
+    CentreHit(ball=1.5, stick=0.5)
+    """
+    ratio = numbers(stick_ratio, "stick_ratio", low=0.0)
+    return CentreHit(plain(2.0 * ratio / (1.0 + ratio)), plain((ratio - 1.0) / (ratio + 1.0)))
+
+
+def energy_share(stick_ratio: Any) -> Any:
+    """Return the share of the stick's energy that a hit in the centre gives the ball (P3.3).
+
+    >>> energy_share(3.0), energy_share(1.0)
+    (0.75, 1.0)
+    """
+    ratio = numbers(stick_ratio, "stick_ratio", low=0.0)
+    return plain(4.0 * ratio / (1.0 + ratio) ** 2)
+
+
+def stroke_energy(stick_energy: Any, stick_ratio: Any, forearm_ratio: Any) -> Any:
+    """Return the energy of stick and forearm together, from that of the stick (P3.3).
+
+    The forearm is a thin uniform rod that turns about the elbow, the stick moves as its end.
+
+    Parameters
+    ----------
+    stick_energy
+        in any unit.
+    stick_ratio, forearm_ratio
+        masses of stick and forearm over that of the ball.
+
+    Notes
+    -----
+    Source: P3.3, T = T_0 (1 + M_f / (3 M_s)); the text drops the factor T_0.
+
+    >>> stroke_energy(3.0, 3.0, 6.0)
+    5.0
+    """
+    stick = numbers(stick_ratio, "stick_ratio", low=0.0, open_low=True)
+    forearm = numbers(forearm_ratio, "forearm_ratio", low=0.0)
+    return plain(numbers(stick_energy, "stick_energy", low=0.0) * (1.0 + forearm / (3.0 * stick)))
+
+
+def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
+    """Return the share of a stroke's energy, stick and forearm, that the ball gets (P3.3).
+
+    >>> break_energy_share(3.0, 6.0)
+    0.45
+    """
+    stick = numbers(stick_ratio, "stick_ratio", low=0.0, open_low=True)
+    forearm = numbers(forearm_ratio, "forearm_ratio", low=0.0)
+    return plain(4.0 * stick**2 / ((1.0 + stick) ** 2 * (stick + forearm / 3.0)))
+
+
+def best_stick_ratio(forearm_ratio: Any) -> Any:
+    """Return the mass of the stick that breaks best, over that of the ball (P3.3).
+
+    Parameters
+    ----------
+    forearm_ratio
+        mass of the forearm over that of the ball, 6 for 36 ounces; of the whole arm where the
+        stroke turns about the shoulder.
+
+    >>> round(6.0 * best_stick_ratio(36.0 / 6.0), 1), round(6.0 * best_stick_ratio(25.0), 1)
+    (15.4, 27.7)
+    """
+    forearm = numbers(forearm_ratio, "forearm_ratio", low=0.0)
+    return plain(0.5 + np.sqrt(0.25 + 2.0 / 3.0 * forearm))
