@@ -238,7 +238,8 @@ class Slide:
         slid = self.velocity * sliding - 0.5 * pull * _direction(self.slip) * sliding**2
         start = self.roll_velocity
         rolled = start * rolling - 0.5 * resistance * _direction(start) * rolling**2
-        return self.position + slid + rolled
+        where: Floats = self.position + slid + rolled
+        return where
 
     def velocity_at(self, time: Any) -> Floats:
         """Return the velocity at a time, in m/s; shape (..., 2)."""
@@ -247,11 +248,12 @@ class Slide:
         rolling = np.clip(time - self.slide_time, 0.0, self.stop_time - self.slide_time)[..., None]
         pull = self.cloth.mu_slide * self.cloth.gravity
         resistance = self.cloth.mu_roll * self.cloth.gravity
-        return (
+        now: Floats = (
             self.velocity
             - pull * _direction(self.slip) * sliding
             - resistance * _direction(self.roll_velocity) * rolling
         )
+        return now
 
     def spin_at(self, time: Any) -> Floats:
         """Return the angular velocity at a time, in rad/s; shape (..., 3)."""
