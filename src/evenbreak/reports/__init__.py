@@ -22,6 +22,8 @@ __getattr__, __dir__, __all__ = attach(
             "errata",
             "further_numbers",
             "p5_6_tables",
+            "physics_errata",
+            "physics_numbers",
             "published_numbers",
         ],
         "read_aliases": ["AliasesFile", "read_aliases"],

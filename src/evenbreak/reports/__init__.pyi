@@ -17,6 +17,8 @@ from evenbreak.reports.published import PublishedNumber as PublishedNumber
 from evenbreak.reports.published import errata as errata
 from evenbreak.reports.published import further_numbers as further_numbers
 from evenbreak.reports.published import p5_6_tables as p5_6_tables
+from evenbreak.reports.published import physics_errata as physics_errata
+from evenbreak.reports.published import physics_numbers as physics_numbers
 from evenbreak.reports.published import published_numbers as published_numbers
 from evenbreak.reports.read_aliases import AliasesFile as AliasesFile
 from evenbreak.reports.read_aliases import read_aliases as read_aliases

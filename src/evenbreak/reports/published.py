@@ -1,4 +1,4 @@
-"""What section 5 of the source text prints: its numbers, its tables of P5.6 and its slips.
+"""What the source text prints: its numbers, the tables of P5.6 and its slips.
 
 The rows come with the package, so that a reader can lay what is computed beside them.
 """
@@ -16,6 +16,8 @@ __all__ = [
     "errata",
     "further_numbers",
     "p5_6_tables",
+    "physics_errata",
+    "physics_numbers",
     "published_numbers",
 ]
 
@@ -37,7 +39,9 @@ class PublishedNumber(NamedTuple):
         may be from what is known to be wrong: it does not make the number right.
     verdict
         'agrees'; 'erratum' where the text is off by more than half its last place, see
-        the note; 'derived' where it prints nothing, or nothing that can be read.
+        the note; 'derived' where it prints nothing, or nothing that can be read. Sections 1
+        to 4 have two more: 'formula' where the text prints a formula, and `printed` is what
+        it gives for the inputs; 'given' for what the text takes from elsewhere.
     note
         what there is to say; '' for nothing.
     """
@@ -105,6 +109,25 @@ def p5_6_tables() -> list[PublishedNumber]:
     ('p=1/2 m=1 n=1', Decimal('0.500'))
     """
     return _numbers("p5_6_tables.csv")
+
+
+def physics_numbers() -> list[PublishedNumber]:
+    """Return the numbers of sections 1 to 4, the physics of the table, in the order of the text.
+
+    >>> [number] = [row for row in physics_numbers() if row.quantity == "alpha_crit, deg"]
+    >>> number.problem, number.printed, number.verdict
+    ('P4.19', Decimal('14.963'), 'agrees')
+    """
+    return _numbers("physics_numbers.csv")
+
+
+def physics_errata() -> list[Erratum]:
+    """Return the slips of sections 1 to 4, with remarks, in the order of the text.
+
+    >>> [slip.correct for slip in physics_errata() if slip.where == "P4.15"]
+    ['28.126']
+    """
+    return [Erratum(*row) for row in _rows("physics_errata.csv")]
 
 
 def errata() -> list[Erratum]:
