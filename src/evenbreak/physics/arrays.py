@@ -10,9 +10,12 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["Floats", "numbers", "plain"]
+__all__ = ["LARGEST", "Floats", "numbers", "plain"]
 
 Floats = NDArray[np.float64]
+
+LARGEST = 1e50
+"""No number here may be larger, so that products of a few of them still fit into a float."""
 
 
 def numbers(
@@ -37,7 +40,8 @@ def numbers(
     Raises
     ------
     InputError
-        if a value is not a finite number in the range.
+        if a value is not a finite number in the range, or beyond `LARGEST`, or nearer than
+        1 / `LARGEST` to a limit of 0 that is excluded.
 
     >>> numbers(-1.0, "speed", low=0.0)
     Traceback (most recent call last):
@@ -48,7 +52,7 @@ def numbers(
         if isinstance(value, str | bytes):
             raise TypeError
         array = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name} is {value!r}; give {_wanted(low, high, open_low)}") from None
     # One pass over the largest and the smallest: NaN and infinity show in them.
     if array.size:
@@ -56,6 +60,10 @@ def numbers(
         right = math.isfinite(least) and math.isfinite(most) and most <= high
         if not (right and (least > low if open_low else least >= low)):
             raise InputError(f"{_held(array, name)}; give {_wanted(low, high, open_low)}")
+        if max(-least, most) > LARGEST:
+            raise InputError(f"{_held(array, name)}; give at most {LARGEST:g}")
+        if open_low and least - low < 1.0 / LARGEST:
+            raise InputError(f"{_held(array, name)}; give at least {1.0 / LARGEST:g}")
     return array
 
 

@@ -101,7 +101,8 @@ class Collision:
     @property
     def slip(self) -> tuple[Any, Any]:
         """V_cpy and V_cpz, at which the balls slip at first: to the left and up."""
-        left, up = slip_of(*map(np.asarray, (self.cut, self.topspin, self.side)))
+        topspin, side = np.asarray(self.topspin), np.asarray(self.side)
+        left, up = slip_of(np.sin(self.cut), np.cos(self.cut), topspin, side)
         return plain(self.speed * left), plain(self.speed * up)
 
     @property
@@ -222,8 +223,9 @@ def collide(
     """
     cut, topspin, side = shot_of(cut, topspin, side)
     speed = numbers(speed, "speed", low=0.0)
-    left, up = thrown(cut, *slip_of(cut, topspin, side), mu, friction)
-    found = (cut, topspin, side, speed, speed * np.cos(cut), speed * left, speed * up)
+    sin, cos = np.sin(cut), np.cos(cut)
+    left, up = thrown(cos, *slip_of(sin, cos, topspin, side), mu, friction)
+    found = (cut, topspin, side, speed, speed * cos, speed * left, speed * up)
     return Collision(ball or Ball(), *map(plain, found))
 
 

@@ -59,10 +59,9 @@ def deflection(cut: Any, topspin: Any = 1.0) -> Any:
     [33.67, 60.0, 109.11]
     """
     cut, topspin = cut_of(cut), numbers(topspin, "topspin")
+    # A full hit is the limit of small angles, by the smallest of them.
     sin = np.maximum(np.sin(cut), 1e-300)
-    # cos(pi/2) rounds to 6e-17, which draw would turn into pi.
-    cos = np.maximum(np.cos(cut), 0.0)
-    return plain(np.arctan2(sin * cos, sin * sin + 0.4 * topspin))
+    return plain(np.arctan2(sin * np.cos(cut), sin * sin + 0.4 * topspin))
 
 
 def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:

@@ -84,7 +84,7 @@ def sliding_speed(
     >>> round(sliding_speed(50.0, 0.2, 0.5, gravity=386.0), 9)
     11.4
     """
-    speed, friction, time = _block(speed, friction, time)
+    speed, friction, time = _block(speed, friction, time, "time")
     return plain(np.maximum(speed - friction * gravity * time, 0.0))
 
 
@@ -96,7 +96,7 @@ def sliding_distance(
     >>> round(sliding_distance(50.0, 0.2, 0.5, gravity=386.0), 9)
     15.35
     """
-    speed, friction, time = _block(speed, friction, time)
+    speed, friction, time = _block(speed, friction, time, "time")
     slowing = friction * gravity
     moving = np.minimum(time, speed / slowing)
     return plain(speed * moving - 0.5 * slowing * moving**2)
@@ -110,7 +110,7 @@ def sliding_power(
     >>> round(sliding_power(2.0, 0.1, 1.0, gravity=10.0), 9)
     -2.0
     """
-    speed, friction, mass = _block(speed, friction, mass)
+    speed, friction, mass = _block(speed, friction, mass, "mass")
     return plain(-friction * mass * gravity * speed)
 
 
@@ -140,9 +140,9 @@ def tip_friction_of(offset: Any) -> Any:
         return plain(offset / np.sqrt((1.0 - offset) * (1.0 + offset)))
 
 
-def _block(speed: Any, friction: Any, third: Any) -> tuple[Any, Any, Any]:
+def _block(speed: Any, friction: Any, third: Any, name: str) -> tuple[Any, Any, Any]:
     return (
         numbers(speed, "speed", low=0.0),
         numbers(friction, "friction", low=0.0, open_low=True),
-        numbers(third, "time or mass", low=0.0),
+        numbers(third, name, low=0.0),
     )

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from evenbreak.errors import InputError
+from evenbreak.physics.arrays import LARGEST
 from evenbreak.physics.units import INCH, OUNCE, STANDARD_GRAVITY
 
 __all__ = ["Ball", "Cloth", "Cue", "Table"]
@@ -166,8 +167,12 @@ def _positive(thing: object, name: str, wanted: str) -> None:
     value = getattr(thing, name)
     try:
         number = math.nan if isinstance(value, str | bytes) else float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not (0.0 < number < math.inf):
         raise InputError(f"{name} is {value!r}; give a finite number above 0 ({wanted})")
+    if not (1.0 / LARGEST <= number <= LARGEST):
+        raise InputError(
+            f"{name} is {value!r}; give a number from {1.0 / LARGEST:g} to {LARGEST:g}"
+        )
     object.__setattr__(thing, name, number)

@@ -64,7 +64,8 @@ def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
     >>> throw_factor(math.pi / 6.0), throw_factor(0.4, 0.0), throw_factor(0.4, 0.0, -0.8)
     (0.49999999999999994, 1.0, -1.0)
     """
-    left, up = slip_of(*shot_of(cut, topspin, side))
+    cut, topspin, side = shot_of(cut, topspin, side)
+    left, up = slip_of(np.sin(cut), np.cos(cut), topspin, side)
     return plain(left / _length(left, up))
 
 
@@ -103,10 +104,10 @@ def throw_angle(
     3.18
     """
     cut, topspin, side = shot_of(cut, topspin, side)
-    sideways, _ = thrown(cut, *slip_of(cut, topspin, side), mu, friction)
-    # A hit at a right angle gives no speed either way; its throw is the limit of thin cuts.
-    ahead = np.maximum(np.cos(cut), 1e-300)
-    return plain(np.arctan2(sideways, ahead))
+    # cos(pi/2) rounds to 6e-17, so that the throw at a right angle is the limit of thin cuts.
+    sin, cos = np.sin(cut), np.cos(cut)
+    sideways, _ = thrown(cos, *slip_of(sin, cos, topspin, side), mu, friction)
+    return plain(np.arctan2(sideways, cos))
 
 
 def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
@@ -145,12 +146,13 @@ def throw_sensitivity(cut: Any, topspin: Any, side: Any) -> Any:
     0.723
     """
     cut, topspin, side = shot_of(cut, topspin, side)
-    left, up = slip_of(cut, topspin, side)
-    length = np.hypot(left, up)
-    rise = np.abs(up) * np.hypot(left * np.cos(cut), up)
-    with np.errstate(divide="ignore", over="ignore"):
-        found = np.divide(rise, length**3, out=np.full_like(length, np.inf), where=length > 0.0)
-    return plain(found)
+    cos = np.cos(cut)
+    left, up = slip_of(np.sin(cut), cos, topspin, side)
+    length = _length(left, up)
+    across, along = np.abs(up / length), left / length
+    with np.errstate(over="ignore"):
+        found = across * np.hypot(along * cos, across) / length
+    return plain(np.where((left == 0.0) & (up == 0.0), np.inf, found))
 
 
 class Aim(NamedTuple):
@@ -223,7 +225,8 @@ def aim(
         middle = 0.5 * (low + high)
         short = middle - throw(middle) < wanted
         low, high = np.where(short, middle, low), np.where(short, high, middle)
-    found = 0.5 * (low + high)
+    # The law of the text leaps for stun where nothing slips; an answer without throw is one.
+    found = np.where(throw(wanted) == 0.0, wanted, 0.5 * (low + high))
     rule = mu * distance * throw_factor(wanted, topspin, side)
     return Aim(
         plain(found),
@@ -243,22 +246,26 @@ def shot_of(cut: Any, topspin: Any, side: Any) -> tuple[Floats, Floats, Floats]:
     return cut_of(cut), numbers(topspin, "topspin"), numbers(side, "side")
 
 
-def slip_of(cut: Floats, topspin: Floats, side: Floats) -> tuple[Any, Any]:
-    """Return the slip at the point of contact over the cue ball's speed, to the left and up."""
-    return np.sin(cut) + side, -topspin * np.cos(cut)
+def slip_of(sin: Any, cos: Any, topspin: Any, side: Any) -> tuple[Any, Any]:
+    """Return the slip over the cue ball's speed, to the left and up, from a cut's sin and cos."""
+    return sin + side, -topspin * cos
 
 
-def thrown(cut: Floats, left: Any, up: Any, mu: Any, friction: str) -> tuple[Any, Any]:
+def thrown(cos: Any, left: Any, up: Any, mu: Any, friction: str) -> tuple[Any, Any]:
     """Return the speed that friction gives the object ball, to the left and up, over V_0."""
     law = one_of(friction, "friction", FRICTION_LAWS)
     length = _length(left, up)
-    pull = numbers(mu, "mu", low=0.0) * np.cos(cut)
+    pull = numbers(mu, "mu", low=0.0) * cos
     if law == "limited":
         pull = np.minimum(pull, length / 7.0)
-    share = pull / length
-    return left * share, up * share
+    return left / length * pull, up / length * pull
 
 
 def _length(left: Any, up: Any) -> Any:
-    """Return the length of the slip, and the smallest number where there is none."""
-    return np.maximum(np.sqrt(left * left + up * up), 1e-300)
+    """Return the length of the slip, and 1 where there is none: its parts over it are then 0."""
+    length = np.sqrt(left * left + up * up)
+    if length.size and length.min() < 1e-140:
+        # The squares of slips so small lose their digits, or are 0; `hypot` is slower.
+        length = np.hypot(left, up)
+        length = np.where(length > 0.0, length, 1.0)
+    return length

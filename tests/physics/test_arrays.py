@@ -1,0 +1,49 @@
+"""Numbers in, numbers out, and what is refused."""
+
+import math
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.physics.arrays import LARGEST, numbers, plain
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (math.nan, "cut is nan; give a finite number"),
+        (-math.inf, "cut is -inf; give a finite number"),
+        ("1.0", "cut is '1.0'; give a finite number"),
+        (1j, "cut is 1j; give a finite number"),
+        (10**400, "give a finite number"),
+        (1e51, "cut is 1e+51; give at most 1e+50"),
+        ([0.0, math.nan], "cut holds values from nan to nan; give a finite number"),
+        ([3.0, -1e60], "cut holds values from -1e+60 to 3.0; give at most 1e+50"),
+    ],
+)
+def test_what_is_no_number_is_refused_by_name(value: object, said: str) -> None:
+    with pytest.raises(InputError) as refused:
+        numbers(value, "cut")
+    assert said in str(refused.value)
+
+
+def test_the_ends_of_a_range() -> None:
+    assert numbers([0.0, 1.0], "x", low=0.0, high=1.0).tolist() == [0.0, 1.0]
+    for wrong in (0.0, -1.0):
+        with pytest.raises(InputError, match="above 0"):
+            numbers(wrong, "x", low=0.0, open_low=True)
+    with pytest.raises(InputError, match="give at least 1e-50"):
+        numbers(5e-324, "x", low=0.0, open_low=True)
+    with pytest.raises(InputError, match="from 0 to 1"):
+        numbers(np.nextafter(1.0, 2.0), "x", low=0.0, high=1.0)
+    assert numbers(-LARGEST, "x") == -LARGEST
+
+
+def test_no_numbers_are_numbers() -> None:
+    assert numbers([], "x", low=0.0).shape == (0,)
+
+
+def test_plain() -> None:
+    assert type(plain(np.float64(2.0))) is float
+    assert plain(np.ones((1, 1))).shape == (1, 1)
