@@ -1,0 +1,46 @@
+"""The plots of sections 1 to 4: Figs. 3.1 to 3.4, 4.4, 4.5, 4.7 and 4.8, all computed anew."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+from evenbreak.reports.physics.collision_figures import gearing_tips, sensitivity, throw_factors
+from evenbreak.reports.physics.deflection_figure import deflections
+from evenbreak.reports.physics.tip_figures import (
+    lag_speeds,
+    same_sidespin,
+    small_circle,
+    stick_speeds,
+)
+from evenbreak.reports.style import our_look
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["figures"]
+
+
+def figures() -> Mapping[str, Callable[[], Figure]]:
+    """Return the plots of sections 3 and 4 by name, each a function that draws it.
+
+    Notes
+    -----
+    Source: Figs. 3.1 to 3.4, 4.4, 4.5, 4.7 and 4.8; `evenbreak.reports.physics.chosen` says
+    what is chosen where the text's values are lost.
+
+    >>> sorted(figures())
+    ['figure_3_1', 'figure_3_2', 'figure_3_3', 'figure_3_4', 'figure_4_4', 'figure_4_5', \
+'figure_4_7', 'figure_4_8']
+    """
+    plots = {
+        "figure_3_1": same_sidespin,
+        "figure_3_2": small_circle,
+        "figure_3_3": stick_speeds,
+        "figure_3_4": lag_speeds,
+        "figure_4_4": throw_factors,
+        "figure_4_5": sensitivity,
+        "figure_4_7": deflections,
+        "figure_4_8": gearing_tips,
+    }
+    return {name: our_look()(plot) for name, plot in plots.items()}
