@@ -209,6 +209,8 @@ ANSWERS: Answers = {
         _estimated_right_angle() / DEGREE
     ),
     ("P4.25", "error of that, %"): _estimate_error,
-    ("P4.25", "midway between a half-ball hit and 45, deg"): _in(DEGREE, right_angle_cut),
+    ("P4.25", "cut of a right angle, about midway between a half-ball hit and 45, deg"): _in(
+        DEGREE, right_angle_cut
+    ),
 }
 """What the text answers."""

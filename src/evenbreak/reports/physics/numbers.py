@@ -6,6 +6,7 @@ is computed from its inputs.
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -14,13 +15,24 @@ from evenbreak.reports.physics.inputs import Answers, parse_inputs
 from evenbreak.reports.published import PublishedNumber, physics_numbers
 from evenbreak.reports.section5.numbers import deciding_tolerance
 
-__all__ = ["ANSWERS", "PARTS", "PhysicsFinding", "compute", "physics_findings", "verdict_of"]
+__all__ = [
+    "ANSWERS",
+    "PARTS",
+    "PhysicsFinding",
+    "compute",
+    "physics_findings",
+    "place_of",
+    "verdict_of",
+]
 
 PARTS = (equipment, natural_roll, tip, collisions, deflections)
 """The modules that answer the problems."""
 
 ANSWERS: Answers = {key: function for part in PARTS for key, function in part.ANSWERS.items()}
 """How each quantity is computed from its inputs, by problem and quantity."""
+
+
+_PROBLEM = re.compile(r"(\d)\.(\d+)")
 
 
 class PhysicsFinding(NamedTuple):
@@ -81,6 +93,20 @@ def physics_findings() -> tuple[PhysicsFinding, ...]:
     ('diameter, in', 2.25, 'given')
     """
     return tuple(map(_found, physics_numbers()))
+
+
+def place_of(where: str) -> tuple[int, int]:
+    """Return the section and the number of the first problem that a place names.
+
+    >>> place_of("P4.3 and P4.10"), place_of("Section 2"), place_of("Exercise 2.1")
+    ((4, 3), (2, 0), (2, 2))
+    """
+    if where.startswith("Section "):
+        return int(where.removeprefix("Section ")), 0
+    if where.startswith("Exercise "):
+        return 2, 2  # It stands after P2.2, whose numbers it needs.
+    section, number = _PROBLEM.findall(where)[0]
+    return int(section), int(number)
 
 
 def _found(published: PublishedNumber) -> PhysicsFinding:
