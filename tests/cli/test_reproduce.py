@@ -22,9 +22,10 @@ def test_files_are_written_and_named(made):
     tables = sum(name.endswith(".csv") for name in names)
     figures = sum(name.endswith(".png") for name in names)
     assert result.stderr.splitlines()[-1] == (
-        f"Wrote index.md, {tables} tables (CSV) and {figures} figures (PNG and SVG) to {folder}"
+        f"Wrote index.md, physics.md, {tables} tables (CSV) and {figures} figures (PNG and SVG) "
+        f"to {folder}"
     )
-    assert len(names) == 1 + tables + 2 * figures
+    assert len(names) == 2 + tables + 2 * figures
 
 
 def test_another_process_writes_the_same_bytes(made, tmp_path):

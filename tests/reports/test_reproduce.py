@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from evenbreak.reports.physics.numbers import physics_findings
 from evenbreak.reports.reproduce import differing, reproduction
 from evenbreak.reports.section5.numbers import findings
 
@@ -25,7 +26,10 @@ def test_everything_is_written(files):
     assert {f"problem_5_{n:02}.csv" for n in range(1, 28)} <= set(files)
     assert {f"figure_5_{n}.{kind}" for n in range(1, 12) for kind in ("png", "svg")} <= set(files)
     assert {"figure_p5_24.png", "npl_ladder.csv", "published.csv", "errata.csv"} <= set(files)
-    assert next(iter(files)) == "index.md"
+    assert {"published_physics.csv", "errata_physics.csv"} <= set(files)
+    assert {f"figure_{n}.svg" for n in ("3_1", "3_2", "3_3", "3_4")} <= set(files)
+    assert {f"figure_{n}.svg" for n in ("4_4", "4_5", "4_7", "4_8")} <= set(files)
+    assert list(files)[:2] == ["index.md", "physics.md"]
     assert all(files.values())
 
 
@@ -44,6 +48,7 @@ def test_tables_are_even_and_no_text_is_a_formula(files):
 
 def test_nothing_differs():
     assert list(differing(findings())) == []
+    assert list(differing(physics_findings())) == []
 
 
 def test_what_differs_is_told():
@@ -51,6 +56,14 @@ def test_what_differs_is_told():
     wrong = finding._replace(verdict="differs", computed=2.5)
     assert list(differing([wrong])) == [
         "P5.1: mean (x=0 1 1 4 5): printed 2.2, computed 2.5: differs, not agrees"
+    ]
+
+
+def test_a_number_of_the_table_side_that_differs_is_told():
+    wrong = physics_findings()[0]._replace(verdict="differs", computed=None)
+    assert list(differing([wrong])) == [
+        "Section 1: diameter, in (balls=pool n=1): printed 2.25, computed nothing: "
+        "differs, not given"
     ]
 
 

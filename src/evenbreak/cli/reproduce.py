@@ -1,4 +1,4 @@
-"""`evenbreak reproduce`: every table, figure and number of section 5 of the source text."""
+"""`evenbreak reproduce`: every table, figure and number of the source text."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["reproduce"]
 
 EXAMPLES = """\b
 Examples:
-  evenbreak reproduce --out section5
+  evenbreak reproduce --out text
 """
 
 
@@ -28,15 +28,17 @@ Examples:
 )
 @click.pass_context
 def reproduce(ctx: click.Context, out: str) -> None:
-    """Write every table, figure and number of section 5 of the source text, computed anew.
+    """Write every table, figure and number of the source text, computed anew.
 
-    Begin with DIR/index.md: it shows and explains them all, names the slips of the text
-    and links to the CSV files. Printed numbers stand beside computed ones. The files are
-    the same to the byte each time; if a number differs from what is expected of it, the
-    command says so and ends with 1.
+    Begin with DIR/index.md for section 5, statistics, or DIR/physics.md for sections 1 to
+    4, the table: they show and explain it all, name the slips of the text and link to the
+    CSV files. Printed numbers stand beside computed ones. The files are the same to the byte
+    each time; if a number differs from what is expected of it, the command says so and ends
+    with 1.
     """
     if not out.strip():
         refuse("--out is empty; name a folder, or . for this one")
+    from evenbreak.reports.physics.numbers import physics_findings
     from evenbreak.reports.reproduce import differing, reproduction
     from evenbreak.reports.section5.numbers import findings
     from evenbreak.reports.write_files import write_files
@@ -44,7 +46,7 @@ def reproduce(ctx: click.Context, out: str) -> None:
     files = reproduction(say)
     write_files(out, files)
     say(f"Wrote {_kinds(files)} to {out}")
-    if problems := list(differing(findings())):
+    if problems := list(differing([*physics_findings(), *findings()])):
         for problem in problems:
             say(f"Differs: {problem}")
         ctx.exit(1)
@@ -53,9 +55,11 @@ def reproduce(ctx: click.Context, out: str) -> None:
 def _kinds(names: Iterable[str]) -> str:
     """Return what was written, in short.
 
-    >>> _kinds(["index.md", "a.csv", "b.csv", "a.png", "a.svg"])
-    'index.md, 2 tables (CSV) and 1 figure (PNG and SVG)'
+    >>> _kinds(["index.md", "physics.md", "a.csv", "b.csv", "a.png", "a.svg"])
+    'index.md, physics.md, 2 tables (CSV) and 1 figure (PNG and SVG)'
     """
+    names = list(names)
     count = Counter(name.rsplit(".", 1)[1] for name in names)
+    pages = ", ".join(name for name in names if name.endswith(".md"))
     figures = "1 figure" if count["png"] == 1 else f"{count['png']} figures"
-    return f"index.md, {count['csv']} tables (CSV) and {figures} (PNG and SVG)"
+    return f"{pages}, {count['csv']} tables (CSV) and {figures} (PNG and SVG)"

@@ -1,4 +1,4 @@
-"""All of section 5 as files: tables, problems, printed numbers, figures and the page on top."""
+"""The source text as files: tables, problems, printed numbers, figures and the page on top."""
 
 from __future__ import annotations
 
@@ -6,7 +6,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from evenbreak.reports.draw import image_bytes
-from evenbreak.reports.published import errata
+from evenbreak.reports.physics.figure_frames import figure_frames as physics_figure_frames
+from evenbreak.reports.physics.figures import figures as physics_figures
+from evenbreak.reports.physics.frames import published_physics_frame
+from evenbreak.reports.physics.numbers import PhysicsFinding, physics_findings
+from evenbreak.reports.physics.page import physics_page
+from evenbreak.reports.published import errata, physics_errata
 from evenbreak.reports.section5.diagrams import diagrams
 from evenbreak.reports.section5.figures import figures
 from evenbreak.reports.section5.index import index_page
@@ -25,11 +30,11 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-__all__ = ["differing", "reproduction", "section_frames"]
+__all__ = ["differing", "physics_frames", "reproduction", "section_frames"]
 
 
 def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, bytes]:
-    """Return every file of section 5 by name: the same bytes each time.
+    """Return every file by name: the same bytes each time.
 
     Parameters
     ----------
@@ -39,9 +44,13 @@ def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, by
     say("Computing the tables and problems")
     found = findings()
     frames = section_frames(found)
-    files = {"index.md": index_page(found, frames).encode()}
-    files |= {f"{name}.csv": to_csv(frame) for name, frame in frames.items()}
-    drawn = {**figures(), **diagrams()}
+    table_side = physics_frames()
+    files = {
+        "index.md": index_page(found, frames).encode(),
+        "physics.md": physics_page(physics_findings(), table_side).encode(),
+    }
+    files |= {f"{name}.csv": to_csv(frame) for name, frame in {**frames, **table_side}.items()}
+    drawn = {**figures(), **diagrams(), **physics_figures()}
     say(f"Drawing {len(drawn)} figures")
     for name, figure in drawn.items():
         files |= _images(name, figure())
@@ -65,17 +74,30 @@ def section_frames(found: Iterable[Finding]) -> Mapping[str, pd.DataFrame]:
     }
 
 
-def differing(found: Iterable[Finding]) -> Iterator[str]:
+def physics_frames() -> Mapping[str, pd.DataFrame]:
+    """Return the tables of sections 1 to 4, by the name of their file without `.csv`."""
+    import pandas as pd
+
+    slips = pd.DataFrame(physics_errata(), dtype=object)
+    return {
+        "published_physics": published_physics_frame(physics_findings()),
+        "errata_physics": slips.rename(columns={"class_": "class"}),
+        **physics_figure_frames(),
+    }
+
+
+def differing(found: Iterable[Finding | PhysicsFinding]) -> Iterator[str]:
     """Yield a line for each number whose verdict is not the one that is expected.
 
-    >>> list(differing(findings()))
+    >>> list(differing([*physics_findings(), *findings()]))
     []
     """
     for row, computed, verdict in found:
         if verdict != row.verdict:
+            number = "nothing" if computed is None else f"{computed:.10g}"
             yield (
                 f"{row.problem}: {row.quantity} ({row.inputs}): printed {row.printed}, "
-                f"computed {computed:.10g}: {verdict}, not {row.verdict}"
+                f"computed {number}: {verdict}, not {row.verdict}"
             )
 
 

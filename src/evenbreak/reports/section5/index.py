@@ -24,7 +24,7 @@ from evenbreak.reports.section5.numbers import Finding
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["index_page", "slips_of"]
+__all__ = ["errata_table", "index_page", "slip_block", "slips_of"]
 
 _PLACE = re.compile(r"\{\{(\w+)(?: ([^}]*))?\}\}")
 _SHOWN_ELSEWHERE = {"mean of two", "W(1/2;n,n)", "W infinite look-ahead", "W two-shot look-ahead"}
@@ -84,7 +84,7 @@ def _blocks(found: Sequence[Finding], frames: Frames) -> Mapping[str, Callable[[
         "polynomials": lambda _: markdown_table(
             ["match", "W"], [[f"{m}:{n}", f"`{ahead_formula(m, n)}`"] for m, n in HANDICAPS]
         ),
-        "errata": _errata,
+        "errata": lambda class_: errata_table(errata(), class_),
     }
 
 
@@ -143,10 +143,11 @@ def _given(inputs: str) -> str:
     return "both lists" if inputs == "as above" or inputs.startswith("N=5;5") else inputs
 
 
-def _errata(class_: str) -> str:
+def errata_table(slips: Sequence[Erratum], class_: str) -> str:
+    """Return all slips of a class, or all remarks, as a table."""
     rows = [
         [slip.where, slip.printed, slip.correct, slip.kind, slip.why]
-        for slip in errata()
+        for slip in slips
         if slip.class_ == class_
     ]
     right = "right" if class_ == "slip" else "what holds"
@@ -154,10 +155,11 @@ def _errata(class_: str) -> str:
 
 
 def _slips(place: str) -> str:
-    return "\n>\n".join(map(_slip, slips_of(place)))
+    return "\n>\n".join(map(slip_block, slips_of(place)))
 
 
-def _slip(slip: Erratum) -> str:
+def slip_block(slip: Erratum) -> str:
+    """Return a slip as a block to set in where it occurs."""
     names = {"slip": "Slip", "remark": "Remark", "copy": "The copy used"}
     name = names[slip.class_] + (f": {slip.kind}" if slip.class_ != "copy" else "")
     label = "What holds" if slip.class_ == "remark" else "Right"
