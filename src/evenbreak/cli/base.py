@@ -29,6 +29,7 @@ COMMANDS = {
     "straight": "Answer who wins at straight pool, and what handicap is even.",
     "drill": "Find where a progressive drill settles, and what to practise.",
     "practice": "Tell what practice scores say: was it luck, did it help?",
+    "physics": "Answer what ball, cloth and cue do: throw, aim, spin.",
     "reproduce": "Write section 5 of the source text, computed anew.",
     "chain": "Find the stochastic limit of any chain, from a file of arcs.",
 }

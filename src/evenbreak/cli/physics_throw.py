@@ -1,0 +1,80 @@
+"""`evenbreak physics throw`: what friction between the balls does to the object ball's path."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import click
+
+from evenbreak.cli.options import wants_json
+from evenbreak.cli.physics_hit import Hit, hit_options
+from evenbreak.cli.physics_units import decimals, print_answer
+
+__all__ = ["physics_throw", "throw_text"]
+
+SHOWN = {
+    "throw_deg": ("throw, degrees", 2),
+    "object_cut_deg": ("cut angle at which the object ball leaves, degrees", 2),
+    "throw_factor": ("share of the friction that throws it sideways, -1 to 1", 3),
+    "sensitivity": ("sensitivity: change of that share by a unit of spin", 2),
+    "friction_stops": ("slip ends within the hit, so that the throw is less", 0),
+    "no_throw_side": ("english that cancels the throw, --side", 3),
+    "object_side": ("english that the object ball gets, J", 3),
+}
+
+EXAMPLES = """\b
+Examples:
+  evenbreak physics throw --cut 30
+  evenbreak physics throw --cut 30 --topspin 1 --side -0.3 --mu 0.0556
+  evenbreak physics throw --cut 10 --topspin 0 --friction shepard
+"""
+
+
+@click.command("throw", epilog=EXAMPLES)
+@hit_options
+@wants_json
+def physics_throw(as_json: bool, **how: Any) -> None:
+    """Tell how far friction throws the object ball off its line.
+
+    The line is that of the two centres. A throw above 0 is forward: the ball misses thick.
+    The speed does not matter.
+    """
+    from evenbreak.physics import collide, gearing_side, throw_factor, throw_sensitivity
+
+    hit = Hit(**how)
+    shot = (hit.angle, hit.topspin, hit.side_in_frame)
+    found = collide(*shot, mu=hit.mu, friction=hit.friction)
+    sensitivity = throw_sensitivity(*shot)
+    mirror = -1.0 if hit.cut < 0.0 else 1.0
+    # Friction at its full gives mu times the speed along the line of centres; less, where a
+    # seventh of the slip is less.
+    full = hit.mu * math.cos(hit.angle)
+    pull = math.hypot(found.sideways, found.upward)
+    throw = math.degrees(found.throw)
+    object_speed = math.hypot(found.ahead, found.sideways)
+    answer = {
+        **hit.as_answer(),
+        "throw_deg": throw,
+        "object_cut_deg": mirror * (abs(hit.cut) - throw),
+        "throw_factor": throw_factor(*shot),
+        "sensitivity": sensitivity if math.isfinite(sensitivity) else None,
+        "friction_stops": pull < full * (1.0 - 1e-12),
+        "no_throw_side": mirror * gearing_side(hit.angle),
+        "object_side": -2.5 * mirror * found.sideways / object_speed,
+    }
+    print_answer(answer, shown=SHOWN, heading=f"{hit.text}\n{throw_text(throw)}", as_json=as_json)
+
+
+def throw_text(throw: float) -> str:
+    """Return what a throw in degrees does, in a sentence.
+
+    >>> throw_text(1.591), throw_text(-0.5)  # doctest: +NORMALIZE_WHITESPACE
+    ('The object ball is thrown 1.59 degrees forward: it misses thick (fuller).',
+     'The object ball is thrown 0.50 degrees backward: it misses thin.')
+    """
+    amount = decimals(abs(throw))
+    if float(amount) == 0.0:
+        return "The object ball is not thrown: it leaves along the line of centres."
+    way = "forward: it misses thick (fuller)" if throw > 0.0 else "backward: it misses thin"
+    return f"The object ball is thrown {amount} degrees {way}."
