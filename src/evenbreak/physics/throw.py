@@ -6,10 +6,11 @@ The point of the cue ball that touches the object ball slips across it at
 
 to the left and up. Friction pulls the object ball that way, by a share mu of what the hit
 gives it along the line of centres: tan(throw) = mu cos(gamma), where gamma is the angle of the
-slip above the level. That holds only while the balls slip: the hit takes the slip away at
-seven times the speed that it gives, so
+slip above the level. That holds only while the balls slip: the hit takes level slip away at
+seven times the speed that it gives, upright slip at six times, as the table holds one of the
+balls. So
 
-    V_b,sideways <= |V_cp| / 7
+    |V_b,sideways| <= |V_cp,sideways| / 7,   |V_b,upward| <= |V_cp,upward| / 6
 
 and a stun shot has its full throw only where tan(cut) >= 7 mu. `friction="limited"` keeps to
 that, `friction="shepard"` is the law of the text, which knows no limit and there adds energy.
@@ -256,9 +257,11 @@ def thrown(cos: Any, left: Any, up: Any, mu: Any, friction: str) -> tuple[Any, A
     law = one_of(friction, "friction", FRICTION_LAWS)
     length = _length(left, up)
     pull = numbers(mu, "mu", low=0.0) * cos
-    if law == "limited":
-        pull = np.minimum(pull, length / 7.0)
-    return left / length * pull, up / length * pull
+    if law == "shepard":
+        return left / length * pull, up / length * pull
+    return left / length * np.minimum(pull, length / 7.0), (
+        up / length * np.minimum(pull, length / 6.0)
+    )
 
 
 def _length(left: Any, up: Any) -> Any:
