@@ -5,7 +5,6 @@ direction that stays. It vouches for `collide(friction="limited")`, and says how
 is where topspin or draw turns the slip during the hit.
 """
 
-import math
 from typing import Any
 
 import numpy as np
