@@ -250,7 +250,7 @@ ANSWERS: Answers = {
         collide(i["alpha"], i["Jy"], gearing_side(i["alpha"])).departure / DEGREE
     ),
     ("P4.12", "L_b of the orbit over M R V_0"): lambda i: _momenta(i)[0][2],
-    ("P4.12", "-2 I omega_bz over M R V_0"): _spin_reaction,
+    ("P4.12", "L_b = -2 I omega_bz over M R V_0"): _spin_reaction,
     ("P4.12", "L_y - L_0y without the jump over M R V_0"): lambda i: _gained(i, jump=False)[1],
     ("P4.12", "L_x and L_z gained over M R V_0"): lambda i: np.max(
         np.abs(_gained(i, jump=True)[[0, 2]])
@@ -259,7 +259,7 @@ ANSWERS: Answers = {
     ("P4.26", "J_0z for no level friction"): lambda i: gearing_side(i["alpha"]),
     ("P4.27", "y_tip/R just after the tip"): _tip,
     ("P4.27", "y_cp/R"): _contact,
-    ("P4.27", "-2/5 y_cp/R"): lambda i: -NATURAL_ROLL_OFFSET * _contact(i),
+    ("P4.27", "y_tip = -2/5 y_cp, over R"): lambda i: -NATURAL_ROLL_OFFSET * _contact(i),
     ("P4.27", "y_tip/R in natural roll"): _rolling_tip,
     ("P4.27", "y_tip/(-y_cp) at z = 7/5 R"): lambda i: (
         _rolling_tip({**i, "z/R": 1.0 + NATURAL_ROLL_OFFSET}) / -_contact(i)
