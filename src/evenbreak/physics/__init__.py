@@ -14,6 +14,7 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
+        "aimed": ["AimedShot", "aimed_shot"],
         "collision": ["Collision", "Jump", "axis_tilt", "collide"],
         "deflection": [
             "EnergyShares",
@@ -45,6 +46,7 @@ __getattr__, __dir__, __all__ = attach(
             "sliding_speed",
             "tip_friction_of",
         ],
+        "leg": ["Leg", "Phase", "State"],
         "objects": ["Ball", "Cloth", "Cue", "Table"],
         "offset": [
             "ContactPoint",
@@ -62,6 +64,7 @@ __getattr__, __dir__, __all__ = attach(
             "strike_side",
             "stun_offset",
         ],
+        "pockets": ["POCKET_NAMES", "Pocket", "pockets"],
         "rolling": [
             "Energy",
             "MOON_GRAVITY",
@@ -72,6 +75,7 @@ __getattr__, __dir__, __all__ = attach(
             "rolling_time",
             "spin_stop",
         ],
+        "shot": ["Shot", "shot"],
         "slide": [
             "Slide",
             "drag_distance",
@@ -81,6 +85,7 @@ __getattr__, __dir__, __all__ = attach(
             "sliding_ball_speed",
             "stun_distance",
         ],
+        "strike": ["Strike", "strike", "strike_for_speed"],
         "table_speed": [
             "TABLE_SPEEDS",
             "lag_distance",

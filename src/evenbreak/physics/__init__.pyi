@@ -1,3 +1,5 @@
+from evenbreak.physics.aimed import AimedShot as AimedShot
+from evenbreak.physics.aimed import aimed_shot as aimed_shot
 from evenbreak.physics.collision import Collision as Collision
 from evenbreak.physics.collision import Jump as Jump
 from evenbreak.physics.collision import axis_tilt as axis_tilt
@@ -26,6 +28,9 @@ from evenbreak.physics.friction import sliding_distance as sliding_distance
 from evenbreak.physics.friction import sliding_power as sliding_power
 from evenbreak.physics.friction import sliding_speed as sliding_speed
 from evenbreak.physics.friction import tip_friction_of as tip_friction_of
+from evenbreak.physics.leg import Leg as Leg
+from evenbreak.physics.leg import Phase as Phase
+from evenbreak.physics.leg import State as State
 from evenbreak.physics.objects import Ball as Ball
 from evenbreak.physics.objects import Cloth as Cloth
 from evenbreak.physics.objects import Cue as Cue
@@ -44,6 +49,9 @@ from evenbreak.physics.offset import small_circle_point as small_circle_point
 from evenbreak.physics.offset import spin_of_offset as spin_of_offset
 from evenbreak.physics.offset import strike_side as strike_side
 from evenbreak.physics.offset import stun_offset as stun_offset
+from evenbreak.physics.pockets import POCKET_NAMES as POCKET_NAMES
+from evenbreak.physics.pockets import Pocket as Pocket
+from evenbreak.physics.pockets import pockets as pockets
 from evenbreak.physics.rolling import MOON_GRAVITY as MOON_GRAVITY
 from evenbreak.physics.rolling import SHAPES as SHAPES
 from evenbreak.physics.rolling import Energy as Energy
@@ -52,6 +60,8 @@ from evenbreak.physics.rolling import kinetic_energy as kinetic_energy
 from evenbreak.physics.rolling import rolling_friction as rolling_friction
 from evenbreak.physics.rolling import rolling_time as rolling_time
 from evenbreak.physics.rolling import spin_stop as spin_stop
+from evenbreak.physics.shot import Shot as Shot
+from evenbreak.physics.shot import shot as shot
 from evenbreak.physics.slide import Slide as Slide
 from evenbreak.physics.slide import drag_distance as drag_distance
 from evenbreak.physics.slide import parabola as parabola
@@ -59,6 +69,9 @@ from evenbreak.physics.slide import roll_speed as roll_speed
 from evenbreak.physics.slide import roll_velocity as roll_velocity
 from evenbreak.physics.slide import sliding_ball_speed as sliding_ball_speed
 from evenbreak.physics.slide import stun_distance as stun_distance
+from evenbreak.physics.strike import Strike as Strike
+from evenbreak.physics.strike import strike as strike
+from evenbreak.physics.strike import strike_for_speed as strike_for_speed
 from evenbreak.physics.table_speed import TABLE_SPEEDS as TABLE_SPEEDS
 from evenbreak.physics.table_speed import lag_distance as lag_distance
 from evenbreak.physics.table_speed import lag_speed as lag_speed

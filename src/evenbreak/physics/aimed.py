@@ -1,0 +1,196 @@
+"""A shot that allows for throw: aimed so that the object ball goes where it should (P4.6).
+
+The throw depends on the spin that the cue ball has when it gets there, that on how far it
+goes, and that on where it is aimed. So the cut is found for the whole shot at once, from where
+the balls stand.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.physics.arrays import Floats, numbers
+from evenbreak.physics.leg import State, on_table, time_to
+from evenbreak.physics.objects import Cloth, Table
+from evenbreak.physics.shot import Shot, shot, sound_strike, spin_ratios, travel_for
+from evenbreak.physics.slide import Slide
+from evenbreak.physics.strike import Strike
+from evenbreak.physics.throw import BALL_FRICTION, throw_angle
+
+__all__ = ["AimedShot", "aimed_shot"]
+
+_THINNEST = 0.5 * math.pi - 1e-9
+"""Short of a right angle, at which nothing is hit."""
+
+
+@dataclass(frozen=True, eq=False)
+class AimedShot:
+    """A shot that sends the object ball to a target, and the one that would but for throw.
+
+    Parameters
+    ----------
+    shot
+        the shot that allows for throw.
+    unaided
+        the same strike with the line of centres at the target: how the shot misses.
+    target
+        metres; shape (2,).
+    """
+
+    shot: Shot
+    unaided: Shot
+    target: Floats
+
+    @property
+    def distance(self) -> float:
+        """From the object ball to the target, in metres."""
+        return float(np.linalg.norm(self.target - self.shot.object_position))
+
+    @property
+    def turn(self) -> float:
+        """By how much the line of centres points beside the target, in radians.
+
+        Above 0 on the side of the thinner cut.
+        """
+        thinner = math.copysign(1.0, self.unaided.cut)
+        return thinner * _between(self.shot.line_of_centres, self.unaided.line_of_centres)
+
+    @property
+    def offset(self) -> float:
+        """How far beside the target the line of centres points, in metres; as `turn`."""
+        return self.distance * math.tan(self.turn)
+
+    @property
+    def miss(self) -> float:
+        """How far beside the target the object ball would go unaided, in metres.
+
+        Above 0 on the side of the thicker cut, where throw takes it as a rule; 0 without a hit.
+        """
+        return self.distance * math.tan(self.unaided.throw or 0.0)
+
+
+def aimed_shot(
+    strike: Strike,
+    cue_ball: Sequence[float],
+    object_ball: Sequence[float],
+    target: Sequence[float],
+    *,
+    cloth: Cloth | None = None,
+    table: Table | None = None,
+    mu: float = BALL_FRICTION,
+    friction: str = "limited",
+) -> AimedShot:
+    """Trace the shot that sends an object ball towards a target, throw allowed for.
+
+    Parameters
+    ----------
+    strike, cloth, table, mu, friction
+        as `shot` takes them.
+    cue_ball, object_ball, target
+        where they are on the table, x and y in metres.
+
+    Raises
+    ------
+    InputError
+        if no shot sends the ball there: it would have to be cut by a right angle or more.
+
+    Notes
+    -----
+    Source: P4.6, which takes the spin as given.
+
+    >>> from evenbreak.physics.pockets import pockets
+    >>> from evenbreak.physics.strike import strike
+    >>> corner = pockets(Table())[3]
+    >>> found = aimed_shot(strike(1.5, -0.2), (0.7, 0.4), (1.2, 0.4), (corner.x, corner.y))
+    >>> found.shot.object_leg.ending, found.unaided.object_leg.ending
+    ('pocket', 'cushion')
+    >>> round(math.degrees(found.turn), 2), round(math.degrees(found.shot.throw), 2)
+    (3.16, 3.16)
+    """
+    cloth, table = cloth or Cloth(), table or Table()
+    sound_strike(strike)
+    places = {"cue_ball": cue_ball, "object_ball": object_ball, "target": target}
+    start, standing, goal = (_place(value, name) for name, value in places.items())
+    diameter = strike.ball.diameter
+    distance = float(np.linalg.norm(standing - start))
+    if np.linalg.norm(goal - standing) <= strike.ball.radius:
+        raise InputError("target is within the object ball; give a point farther away")
+    for name, place in (("cue_ball", start), ("object_ball", standing)):
+        on_table(place, name, table, strike.ball.radius)
+    travel_for(0.0, distance, diameter)  # refuses balls that overlap
+    # How far to the right of the line through the balls the target lies.
+    wanted = -_between(standing - start, goal - standing)
+
+    def trace(cut: float) -> Shot:
+        return shot(
+            strike,
+            cut,
+            distance,
+            cloth=cloth,
+            table=table,
+            cue_ball=start.tolist(),
+            direction=_heading(standing - start) + math.asin(diameter * math.sin(cut) / distance),
+            mu=mu,
+            friction=friction,
+        )
+
+    def throw(cut: float) -> float:
+        spin = _spin_after(strike, cloth, travel_for(cut, distance, diameter))
+        if spin is None:
+            return 0.0
+        turn = math.copysign(1.0, cut)
+        return turn * float(
+            throw_angle(abs(cut), spin[0], turn * spin[1], mu=mu, friction=friction)
+        )
+
+    def short(cut: float, thrown: float) -> float:
+        return wanted - (cut - thrown - math.asin(diameter * math.sin(cut) / distance))
+
+    plain = _solve(lambda cut: short(cut, 0.0))
+    return AimedShot(trace(_solve(lambda cut: short(cut, throw(cut)))), trace(plain), goal)
+
+
+def _spin_after(strike: Strike, cloth: Cloth, travel: float) -> tuple[float, float] | None:
+    """Return J_y and J_z once the cue ball has gone so far; None where it does not get there."""
+    slide = Slide(strike.ball, cloth, np.zeros(2), strike.velocity, strike.spin)
+    time = time_to(slide, np.array([1.0, 0.0]), travel)
+    if time >= (1.0 - 1e-9) * float(slide.stop_time):
+        return None
+    now = State(time, slide.at(time), slide.velocity_at(time), slide.spin_at(time))
+    return spin_ratios(now, strike.ball.radius)
+
+
+def _solve(short: Callable[[float], float]) -> float:
+    """Return the cut angle at which the object ball is not short of its direction."""
+    low, high = -_THINNEST, _THINNEST
+    if short(low) < 0.0 or short(high) > 0.0:
+        raise InputError(
+            "target is where no cut sends the object ball: it would take a right angle or more; "
+            "give a target farther ahead of the cue ball, or other places of the balls"
+        )
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if short(middle) > 0.0 else (low, middle)
+    return 0.5 * (low + high)
+
+
+def _place(value: Sequence[float], name: str) -> Floats:
+    place = numbers(value, name)
+    if place.shape != (2,):
+        raise InputError(f"{name} has shape {place.shape}; give x and y")
+    return place
+
+
+def _heading(vector: Floats) -> float:
+    return math.atan2(vector[1], vector[0])
+
+
+def _between(first: Floats, second: Floats) -> float:
+    """Return the angle from one vector to another, counterclockwise, in radians."""
+    across = float(first[0] * second[1] - first[1] * second[0])
+    return math.atan2(across, float(first @ second))

@@ -1,0 +1,96 @@
+"""The six pockets of a table, as gaps in its cushions that a ball fits through or does not.
+
+The table's corner is (0, 0), x runs along it from the head cushion to the foot cushion and y
+to the left of that. A pocket is a straight mouth between the noses of two cushions: across
+the corner, or along the side. The source text has no pockets; the mouths are 4 1/2 inches at
+the corners and 5 at the sides, the smallest that are usual.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from evenbreak.physics.objects import Table
+from evenbreak.physics.units import INCH
+
+__all__ = ["CORNER_MOUTH", "POCKET_NAMES", "SIDE_MOUTH", "Pocket", "pockets"]
+
+CORNER_MOUTH = 4.5 * INCH
+"""Between the noses at a corner, in metres."""
+
+SIDE_MOUTH = 5.0 * INCH
+"""Between the noses at a side pocket, in metres."""
+
+POCKET_NAMES = ("head-right", "side-right", "foot-right", "foot-left", "side-left", "head-left")
+"""The pockets, counterclockwise from the corner (0, 0)."""
+
+
+class Pocket(NamedTuple):
+    """A pocket: the middle of its mouth, the unit vector that leads into it, and its width.
+
+    Parameters
+    ----------
+    name
+        one of `POCKET_NAMES`.
+    x, y
+        the middle of the mouth, metres.
+    into_x, into_y
+        the direction straight into it.
+    mouth
+        between the noses of the cushions, metres.
+    """
+
+    name: str
+    x: float
+    y: float
+    into_x: float
+    into_y: float
+    mouth: float
+
+    def takes(self, x: float, y: float, along_x: float, along_y: float, radius: float) -> bool:
+        """Return whether a ball that goes straight on from (x, y) fits through the mouth.
+
+        Parameters
+        ----------
+        x, y
+            the ball's centre, no farther away than the mouth is wide.
+        along_x, along_y
+            its direction, of any length.
+        radius
+            of the ball.
+
+        >>> pocket = pockets(Table())[1]
+        >>> pocket.takes(pocket.x, 0.03, 0.0, -1.0, 0.0286)
+        True
+        >>> pocket.takes(pocket.x, 0.03, 1.0, -0.3, 0.0286)
+        False
+        """
+        length = math.hypot(along_x, along_y)
+        near = math.hypot(self.x - x, self.y - y) <= self.mouth
+        if not near or length == 0.0:
+            return False
+        # A ball that comes at a slant finds the mouth as narrow as it looks from there.
+        facing = (along_x * self.into_x + along_y * self.into_y) / length
+        beside = abs((self.x - x) * along_y - (self.y - y) * along_x) / length
+        return beside <= 0.5 * self.mouth * facing - radius + 1e-9
+
+
+def pockets(table: Table) -> tuple[Pocket, ...]:
+    """Return the six pockets of a table, in the order of `POCKET_NAMES`.
+
+    >>> [pocket.name for pocket in pockets(Table())][2]
+    'foot-right'
+    """
+    slant = math.sqrt(0.5)
+    inset = 0.5 * slant * CORNER_MOUTH
+    far, across, middle = table.length - inset, table.width - inset, 0.5 * table.length
+    places = (
+        (inset, inset, -slant, -slant, CORNER_MOUTH),
+        (middle, 0.0, 0.0, -1.0, SIDE_MOUTH),
+        (far, inset, slant, -slant, CORNER_MOUTH),
+        (far, across, slant, slant, CORNER_MOUTH),
+        (middle, table.width, 0.0, 1.0, SIDE_MOUTH),
+        (inset, across, -slant, slant, CORNER_MOUTH),
+    )
+    return tuple(Pocket(name, *place) for name, place in zip(POCKET_NAMES, places, strict=True))

@@ -1,0 +1,328 @@
+"""A shot traced whole: the tip, the slide, the hit, and both balls until they rest.
+
+The cue ball goes straight, since a level cue turns it about level axes across its way and
+about the upright one only. It slides and rolls until it touches the object ball; the spin that
+it has by then goes into the hit; after that both balls slide, the cue ball on a parabola, and
+roll to rest. The way of a ball ends at the first cushion or pocket: there are no cushions in
+the model. A ball that friction makes hop stays on the cloth here, and the energy of its hop is
+lost at the hit.
+
+On the table (0, 0) is a corner, x runs along it and y to the left of that.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from evenbreak.checks import one_of
+from evenbreak.errors import InputError
+from evenbreak.physics.arrays import Floats, numbers
+from evenbreak.physics.collision import Collision, collide
+from evenbreak.physics.friction import miscue_offset
+from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, time_to
+from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.rolling import Energy
+from evenbreak.physics.slide import Slide
+from evenbreak.physics.strike import Strike
+from evenbreak.physics.throw import BALL_FRICTION, FRICTION_LAWS
+
+__all__ = ["Shot", "shot", "spin_ratios", "travel_for"]
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """A shot from the tip until both balls rest, or the table ends.
+
+    Parameters
+    ----------
+    strike
+        how the cue ball was struck.
+    cloth, table
+        what it is played on.
+    direction
+        of the shot on the table, in radians from x, counterclockwise.
+    cut
+        the cut angle in radians, above 0 where the object ball is cut to the right.
+    object_position
+        where the object ball stands at first, metres; shape (2,).
+    approach
+        the cue ball until the hit, or until what kept it from one.
+    collision
+        the hit, for a cut to the left its mirror image; None where there is none.
+    cue_leg, object_leg
+        the balls after it; None where there is none.
+    """
+
+    strike: Strike
+    cloth: Cloth
+    table: Table
+    direction: float
+    cut: float
+    object_position: Floats
+    approach: Leg
+    collision: Collision | None
+    cue_leg: Leg | None
+    object_leg: Leg | None
+
+    @property
+    def reached(self) -> bool:
+        """Whether the cue ball hits the object ball."""
+        return self.collision is not None
+
+    @property
+    def at_hit(self) -> State | None:
+        """The cue ball just before the hit."""
+        return self.approach.state(self.approach.end) if self.reached else None
+
+    @property
+    def ghost_position(self) -> Floats:
+        """Where the cue ball's centre is at the hit, or would be; shape (2,)."""
+        return self.object_position - self.strike.ball.diameter * self.line_of_centres
+
+    @property
+    def line_of_centres(self) -> Floats:
+        """The unit vector from the cue ball to the object ball at the hit; shape (2,)."""
+        return _unit(self.direction - self.cut)
+
+    @property
+    def tangent(self) -> Floats:
+        """The unit vector along which the cue ball would leave without friction; shape (2,)."""
+        return _unit(self.direction - self.cut + math.copysign(0.5 * math.pi, self.cut))
+
+    @property
+    def throw(self) -> float | None:
+        """By how much the object ball leaves the line of centres, in radians.
+
+        Above 0 where it is thrown forward, towards the direction of the shot. None without
+        a hit.
+        """
+        return None if self.collision is None else float(self.collision.throw)
+
+    @property
+    def object_direction(self) -> float | None:
+        """The direction in which the object ball leaves, as `direction`; None without a hit."""
+        turn = math.copysign(1.0, self.cut)
+        return None if self.throw is None else self.direction - self.cut + turn * self.throw
+
+    @property
+    def deflection(self) -> float | None:
+        """The angle between the shot and the cue ball's path once it rolls, in radians.
+
+        Above 0 away from the object ball's side. None where there is no hit, or where the
+        cue ball stands still after it.
+        """
+        if self.cue_leg is None:
+            return None
+        x, y = _turned(self.cue_leg.slide.roll_velocity, -self.direction)
+        if math.hypot(x, y) <= 1e-9 * self.strike.speed:
+            return None
+        return math.copysign(1.0, self.cut) * math.atan2(y, x)
+
+    @property
+    def legs(self) -> tuple[Leg, ...]:
+        """The ways of the balls: the cue ball's until the hit, its own after, the object ball's."""
+        return tuple(
+            leg for leg in (self.approach, self.cue_leg, self.object_leg) if leg is not None
+        )
+
+    @property
+    def phases(self) -> tuple[Phase, ...]:
+        """What each ball does, one after the other."""
+        return tuple(phase for leg in self.legs for phase in leg.phases)
+
+    @property
+    def end(self) -> float:
+        """When the last ball rests, or leaves what is modelled, in seconds."""
+        return max(leg.end for leg in self.legs)
+
+    def energy(self, time: float) -> Energy:
+        """Return the kinetic energy of both balls at a time, in joules; at the hit, after it."""
+        begun = [leg for leg in self.legs if leg.begin <= time]
+        if len(begun) > 1:
+            begun = begun[1:]  # The cue ball's second leg takes over from its first.
+        found = [leg.energy(time) for leg in begun]
+        return Energy(sum(e.translational for e in found), sum(e.rotational for e in found))
+
+
+def shot(
+    strike: Strike,
+    cut: float,
+    distance: float,
+    *,
+    cloth: Cloth | None = None,
+    table: Table | None = None,
+    cue_ball: Sequence[float] | None = None,
+    direction: float = 0.0,
+    mu: float = BALL_FRICTION,
+    friction: str = "limited",
+) -> Shot:
+    """Trace a shot at an object ball.
+
+    Parameters
+    ----------
+    strike
+        one strike that is no miscue; the object ball is like its ball.
+    cut
+        the cut angle in radians, above 0 to the right and below 0 to the left, less than a
+        right angle either way.
+    distance
+        between the centres of the two balls at first, metres.
+    cloth, table
+        a cloth of speed 100 and a nine-foot table where they are not given.
+    cue_ball
+        where its centre is, metres; on the middle of the head string where it is not given.
+    direction
+        of the shot, in radians from x, the way along the table.
+    mu, friction
+        as `collide` takes them.
+
+    Raises
+    ------
+    InputError
+        if a number is out of range, the strike a miscue, or a ball not on the table.
+
+    Notes
+    -----
+    Source: P3.10, P2.1 to P2.3 and P4.2, one after the other.
+
+    >>> from evenbreak.physics.strike import strike
+    >>> from evenbreak.physics.units import INCH
+    >>> found = shot(strike(0.7, 0.1), math.radians(30.0), 20.0 * INCH)
+    >>> [(phase.ball, phase.motion) for phase in found.phases[:3]]
+    [('cue ball', 'slides'), ('cue ball', 'rolls'), ('cue ball', 'slides')]
+    >>> [leg.ending for leg in found.legs], round(math.degrees(found.deflection), 1)
+    (['hit', 'rest', 'rest'], 35.7)
+    """
+    cloth, table = cloth or Cloth(), table or Table()
+    sound_strike(strike)
+    one_of(friction, "friction", FRICTION_LAWS)
+    cut, direction = _one(cut, "cut"), _one(direction, "direction")
+    if abs(cut) >= 0.5 * math.pi:
+        raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2, not those")
+    ball = strike.ball
+    travel = travel_for(cut, _one(distance, "distance"), ball.diameter)
+    place = numbers(
+        (0.25 * table.length, 0.5 * table.width) if cue_ball is None else cue_ball, "cue_ball"
+    )
+    if place.shape != (2,):
+        raise InputError(f"cue_ball has shape {place.shape}; give x and y")
+    struck = place + travel * _unit(direction)
+    standing = struck + ball.diameter * _unit(direction - cut)
+    on_table(place, "cue_ball", table, ball.radius)
+    on_table(standing, "the object ball", table, ball.radius)
+    slide = Slide(
+        ball, cloth, place, _turned(strike.velocity, direction), _turned(strike.spin, direction)
+    )
+    hit = time_to(slide, _unit(direction), float(struck @ _unit(direction)))
+    approach = leg_until("cue ball", slide, 0.0, table, hit=hit)
+    found = None
+    cue_leg = object_leg = None
+    if approach.ending == "hit":
+        found = _collision(approach, cut, mu, friction)
+        turn = (math.copysign(1.0, cut), direction)
+        after = {
+            "cue ball": (struck, found.cue_velocity, found.cue_spin),
+            "object ball": (standing, found.object_velocity, found.object_spin),
+        }
+        cue_leg, object_leg = (
+            leg_until(name, _set_off(ball, cloth, *state, *turn), approach.end, table)
+            for name, state in after.items()
+        )
+    return Shot(
+        strike, cloth, table, direction, cut, standing, approach, found, cue_leg, object_leg
+    )
+
+
+def sound_strike(strike: Strike) -> None:
+    """Refuse a strike that is several, or a miscue."""
+    if np.ndim(strike.speed):
+        raise InputError(f"strike is {np.size(strike.speed)} strikes; give one")
+    if strike.miscue:
+        raise InputError(
+            f"offset is {strike.off_centre:.4g} of the radius in all, a miscue: this tip slips "
+            f"beyond {miscue_offset(strike.cue.tip_friction):.4g}; give less, or a tip with more "
+            "friction"
+        )
+
+
+def travel_for(cut: float, distance: float, diameter: float) -> float:
+    """Return how far the cue ball goes to the hit, from the distance between the centres.
+
+    Parameters
+    ----------
+    cut
+        in radians.
+    distance, diameter
+        of the centres, and of the balls, in any unit of length.
+
+    >>> travel_for(0.0, 10.0, 2.0)
+    8.0
+    """
+    if distance < diameter:
+        raise InputError(
+            f"distance is {distance:.4g} m between the centres; give {diameter:.4g} m, where "
+            "the balls touch, or more"
+        )
+    sideways = diameter * math.sin(cut)
+    return math.sqrt((distance - sideways) * (distance + sideways)) - diameter * math.cos(cut)
+
+
+def spin_ratios(state: State, radius: float) -> tuple[float, float]:
+    """Return J_y and J_z of a ball that moves along its way as it was struck.
+
+    >>> ball = State(0.0, np.zeros(2), np.array([2.0, 0.0]), np.array([0.0, 40.0, -8.0]))
+    >>> spin_ratios(ball, 0.025)
+    (0.5, -0.1)
+    """
+    around = (state.velocity[0] * state.spin[1] - state.velocity[1] * state.spin[0]) / state.speed
+    return float(radius * around / state.speed), float(radius * state.spin[2] / state.speed)
+
+
+def _collision(approach: Leg, cut: float, mu: float, friction: str) -> Collision:
+    """Return the hit; a cut to the left as its mirror image, in which sidespin turns round."""
+    state = approach.state(approach.end)
+    ball = approach.slide.ball
+    topspin, side = spin_ratios(state, ball.radius)
+    turn = math.copysign(1.0, cut)
+    return collide(
+        abs(cut), topspin, turn * side, speed=state.speed, mu=mu, friction=friction, ball=ball
+    )
+
+
+def _set_off(
+    ball: Ball,
+    cloth: Cloth,
+    position: Floats,
+    velocity: Floats,
+    spin: Floats,
+    mirror: float,
+    direction: float,
+) -> Slide:
+    """Return a ball that leaves the hit, from the frame of the shot and its mirror image."""
+    velocity = velocity[:2] * [1.0, mirror]
+    # Spin is an axial vector: what the mirror keeps of it is what it turns of a velocity.
+    spin = spin * [mirror, 1.0, mirror]
+    return Slide(ball, cloth, position, _turned(velocity, direction), _turned(spin, direction))
+
+
+def _turned(vector: Floats, angle: float) -> Floats:
+    """Return a vector whose level part is turned counterclockwise."""
+    sin, cos = math.sin(angle), math.cos(angle)
+    found = np.array(vector, dtype=float)
+    found[0], found[1] = vector[0] * cos - vector[1] * sin, vector[0] * sin + vector[1] * cos
+    return found
+
+
+def _unit(angle: float) -> Floats:
+    return np.array([math.cos(angle), math.sin(angle)])
+
+
+def _one(value: float, name: str) -> float:
+    number = numbers(value, name)
+    if number.ndim:
+        raise InputError(f"{name} has shape {number.shape}; give one number")
+    return float(number)

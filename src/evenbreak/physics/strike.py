@@ -1,0 +1,178 @@
+"""The hit of the tip, off centre, as one result (section 3, P3.4 to P3.10 and P1.7).
+
+The cue is level, free while the tip touches, and the hit loses nothing. With b the distance
+of the tip from the centre in units of R, up and to the right together, the ball gets
+
+    V = 2 V_s / (1 + m/M_s + 5/2 b^2),   J_y = 5/2 up,   J_z = 5/2 right
+
+and the stick keeps V_s - m/M_s V.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.friction import miscue_offset
+from evenbreak.physics.objects import Ball, Cue
+from evenbreak.physics.offset import ball_speed_ratio, spin_of_offset
+from evenbreak.physics.rolling import Energy, kinetic_energy
+
+__all__ = ["Strike", "strike", "strike_for_speed"]
+
+
+@dataclass(frozen=True, eq=False)
+class Strike:
+    """A cue ball just after the tip: arrays over strikes, or floats for one.
+
+    Parameters
+    ----------
+    ball, cue
+        what is struck, with what.
+    stick_speed
+        of the stick just before, m/s.
+    offset, side_offset
+        of the tip from the ball's centre over R, up and to the right.
+    """
+
+    ball: Ball
+    cue: Cue
+    stick_speed: Any
+    offset: Any
+    side_offset: Any
+
+    @property
+    def off_centre(self) -> Any:
+        """How far from the centre the tip meets the ball, over R."""
+        return plain(np.hypot(self.offset, self.side_offset))
+
+    @property
+    def miscue(self) -> Any:
+        """Whether the tip slips off the ball, so that nothing else here comes true (P1.7)."""
+        slips = np.asarray(self.off_centre) > miscue_offset(self.cue.tip_friction)
+        return bool(slips) if slips.ndim == 0 else slips
+
+    @property
+    def speed(self) -> Any:
+        """The ball's speed, m/s (P3.10)."""
+        ratio = self.ball.mass / self.cue.mass
+        return plain(self.stick_speed * ball_speed_ratio(self.off_centre, ratio))
+
+    @property
+    def stick_speed_after(self) -> Any:
+        """The stick's speed once the ball has left it, below 0 where it bounces back, m/s."""
+        return plain(self.stick_speed - self.ball.mass / self.cue.mass * self.speed)
+
+    @property
+    def topspin(self) -> Any:
+        """J_y, below 0 for draw (P3.4)."""
+        return spin_of_offset(self.offset)
+
+    @property
+    def side(self) -> Any:
+        """J_z, above 0 for right english (P3.6)."""
+        return spin_of_offset(self.side_offset)
+
+    @property
+    def velocity(self) -> Floats:
+        """The ball's velocity ahead and to the left, m/s; shape (..., 2)."""
+        return np.stack(np.broadcast_arrays(self.speed, 0.0), axis=-1)
+
+    @property
+    def spin(self) -> Floats:
+        """The ball's angular velocity, rad/s; shape (..., 3)."""
+        around = np.asarray(self.speed) / self.ball.radius
+        parts = np.broadcast_arrays(0.0, around * self.topspin, around * self.side)
+        return np.stack(parts, axis=-1)
+
+    @property
+    def energy(self) -> Energy:
+        """The ball's kinetic energy, in joules."""
+        return kinetic_energy(self.ball, self.speed, 2.5 * self.off_centre * self.speed)
+
+
+def strike(
+    stick_speed: Any,
+    offset: Any = 0.0,
+    side_offset: Any = 0.0,
+    *,
+    ball: Ball | None = None,
+    cue: Cue | None = None,
+) -> Strike:
+    """Return what a stick of a speed makes of a ball that it strikes off centre.
+
+    Parameters
+    ----------
+    stick_speed
+        of the stick just before, m/s.
+    offset, side_offset
+        of the tip from the ball's centre over R: above 0 up and to the right. Together they
+        are 1 at most.
+    ball, cue
+        a pool ball of 6 ounces and a cue of 18 where they are not given.
+
+    Raises
+    ------
+    InputError
+        if a number is not finite or the tip is beside the ball.
+
+    Notes
+    -----
+    Source: P3.4, P3.6 and P3.10. Where the tip would slip the result says so, as `miscue`.
+
+    >>> hit = strike(2.0, -0.3)
+    >>> round(hit.speed, 4), hit.topspin, round(hit.stick_speed_after, 4), hit.miscue
+    (2.5668, -0.75, 1.1444, False)
+    """
+    speed = numbers(stick_speed, "stick_speed", low=0.0)
+    up, right = _on_the_ball(offset, side_offset)
+    return Strike(ball or Ball(), cue or Cue(), plain(speed), plain(up), plain(right))
+
+
+def strike_for_speed(
+    ball_speed: Any,
+    offset: Any = 0.0,
+    side_offset: Any = 0.0,
+    *,
+    ball: Ball | None = None,
+    cue: Cue | None = None,
+) -> Strike:
+    """Return the strike that gives the ball a speed.
+
+    Parameters
+    ----------
+    ball_speed
+        of the ball just after the tip, m/s.
+    offset, side_offset, ball, cue
+        as `strike` takes them.
+
+    Raises
+    ------
+    InputError
+        as `strike` does.
+
+    >>> hit = strike_for_speed(3.0)
+    >>> round(hit.stick_speed, 9), round(hit.speed, 9)
+    (2.0, 3.0)
+    """
+    ball, cue = ball or Ball(), cue or Cue()
+    wanted = numbers(ball_speed, "ball_speed", low=0.0)
+    up, right = _on_the_ball(offset, side_offset)
+    ratio = ball_speed_ratio(np.hypot(up, right), ball.mass / cue.mass)
+    return Strike(ball, cue, plain(wanted / ratio), plain(up), plain(right))
+
+
+def _on_the_ball(offset: Any, side_offset: Any) -> tuple[Floats, Floats]:
+    """Return the two offsets, or refuse those of a tip beside the ball."""
+    up = numbers(offset, "offset", low=-1.0, high=1.0)
+    right = numbers(side_offset, "side_offset", low=-1.0, high=1.0)
+    if np.any(np.hypot(up, right) > 1.0):
+        raise InputError(
+            "offset and side_offset put the tip beside the ball; give two whose squares "
+            "together are 1 at most"
+        )
+    return up, right

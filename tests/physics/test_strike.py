@@ -1,0 +1,80 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from evenbreak import InputError
+from evenbreak.physics.objects import Ball, Cue
+from evenbreak.physics.strike import strike, strike_for_speed
+from evenbreak.physics.units import OUNCE
+
+OFFSETS = st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 2.0 * math.pi)).map(
+    lambda polar: (polar[0] * math.sin(polar[1]), polar[0] * math.cos(polar[1]))
+)
+
+
+@given(OFFSETS, st.floats(0.01, 20.0), st.floats(1.0, 30.0))
+def test_the_hit_keeps_momentum_and_energy(offsets, speed, ounces):
+    cue = Cue(mass=ounces * OUNCE)
+    hit = strike(speed, *offsets, cue=cue)
+    momentum = cue.mass * hit.stick_speed_after + hit.ball.mass * hit.speed
+    assert momentum == pytest.approx(cue.mass * speed)
+    after = 0.5 * cue.mass * hit.stick_speed_after**2 + hit.energy.total
+    assert after == pytest.approx(0.5 * cue.mass * speed**2)
+    # The spin is what the blow b p gives the ball: I omega = b p.
+    blow = hit.off_centre * hit.ball.radius * hit.ball.mass * hit.speed
+    assert hit.ball.inertia * np.linalg.norm(hit.spin) == pytest.approx(blow)
+
+
+def test_signs_of_the_spin():
+    follow_right = strike(1.0, 0.2, 0.1)
+    assert follow_right.spin[1] > 0.0 < follow_right.spin[2]
+    assert (follow_right.topspin, follow_right.side) == (0.5, 0.25)
+    assert strike(1.0, -0.2, -0.1).spin[1:].tolist() == (-follow_right.spin[1:]).tolist()
+
+
+def test_in_the_centre_it_is_the_centre_hit_of_p3_2():
+    hit = strike(2.0)
+    assert (hit.speed, hit.stick_speed_after) == (pytest.approx(3.0), pytest.approx(1.0))
+
+
+@given(OFFSETS, st.floats(0.01, 20.0))
+def test_the_stick_for_a_speed_gives_that_speed(offsets, speed):
+    assert strike_for_speed(speed, *offsets).speed == pytest.approx(speed)
+
+
+def test_a_miscue_is_told_on_either_side_of_the_tip_s_offset():
+    assert not strike(1.0, 0.3, 0.39).miscue
+    assert strike(1.0, -0.31, 0.4).miscue
+    assert not strike(1.0, -0.31, 0.4, cue=Cue(tip_friction=1.0)).miscue
+
+
+def test_strikes_as_arrays():
+    hits = strike(np.array([1.0, 2.0]), -0.4, [0.0, 0.4])
+    assert hits.miscue.tolist() == [False, True]
+    assert hits.spin.shape == (2, 3)
+    assert hits.velocity.shape == (2, 2)
+    for index, single in enumerate((strike(1.0, -0.4, 0.0), strike(2.0, -0.4, 0.4))):
+        assert hits.spin[index] == pytest.approx(single.spin)
+        assert hits.stick_speed_after[index] == pytest.approx(single.stick_speed_after)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ((-1.0,), "stick_speed is -1.0; give a finite number, 0 or more"),
+        ((1.0, 1.2), "offset is 1.2; give a number from -1 to 1"),
+        ((1.0, 0.8, 0.8), "beside the ball"),
+        ((math.nan,), "stick_speed"),
+    ],
+)
+def test_what_cannot_be_is_refused(words, message):
+    with pytest.raises(InputError, match=message):
+        strike(*words)
+
+
+def test_other_balls_and_cues():
+    light = strike(1.0, ball=Ball(mass=3.0 * OUNCE), cue=Cue(mass=3.0 * OUNCE))
+    assert (light.speed, light.stick_speed_after) == (pytest.approx(1.0), pytest.approx(0.0))
