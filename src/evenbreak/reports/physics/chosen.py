@@ -1,4 +1,4 @@
-"""What the plots of sections 3 and 4 are drawn for.
+"""What the figures of sections 1 to 4 are drawn for.
 
 The copy of the text that was read has lost the legends of its plots, and with them the values
 of most of their curves. The values here are chosen; only the half-ball cut is the text's.
@@ -61,6 +61,18 @@ TIP_LINE_CUT = math.pi / 6.0
 
 CAPTIONS: Mapping[str, str] = MappingProxyType(
     {
+        "figure_1_1": (
+            "Two balls that touch, from above: the normal force, the friction across it, the two "
+            "together, and the turn that friction gives, the same way round for both. A sketch."
+        ),
+        "figure_1_2": (
+            "The force of the tip, from above: one part goes to the centre of the ball, the "
+            "other one is friction, which holds up to the miscue. A sketch, with b = R/2."
+        ),
+        "figure_2_1": (
+            "A draw shot from the side: the ball slides to the right and spins back, and the "
+            "cloth slows both. Clockwise is positive. A sketch."
+        ),
         "figure_3_1": (
             "The cue ball from behind, with the contact points of equal sidespin: upright lines "
             "just after the tip (a), lines from the point that stands on the cloth in natural "
@@ -78,6 +90,21 @@ CAPTIONS: Mapping[str, str] = MappingProxyType(
             "Speed of natural roll over that of the stick, by the height of the tip, with the "
             "best height for a lag marked. The mass ratios are chosen, as in Fig. 3.3."
         ),
+        "figure_4_1": (
+            "The velocities of object ball and cue ball after a hit add up to that before it; C "
+            "and the departure angle D add up to 180 degrees. A sketch: a cut of 45 degrees, "
+            "with more friction between the balls than there is."
+        ),
+        "figure_4_2": (
+            "A hit from above, in the frame of the shot (x', y') and in that of the line of "
+            "centres (x, y), with what friction gives the object ball and takes from the cue "
+            "ball. A sketch, with more friction than there is."
+        ),
+        "figure_4_3": (
+            "Which way friction pushes the object ball, as the cue ball sees it, for a half-ball "
+            "cut with topspin or draw, without english and with more outside english than "
+            "takes the throw away. A sketch, for natural roll and as much draw."
+        ),
         "figure_4_4": (
             "The throw factor of a half-ball cut, by sidespin. The topspins are chosen: stun, "
             "0.1, 0.25, 0.5 and natural roll, or as much draw."
@@ -86,6 +113,10 @@ CAPTIONS: Mapping[str, str] = MappingProxyType(
             "The sensitivity of the throw factor to the spin, for a half-ball cut. Each contour "
             "stands for twice the sensitivity of the one before. The spins, up to 2, and the "
             "part that the inset enlarges are chosen."
+        ),
+        "figure_4_6": (
+            "A thrown ball that rolls away, from behind: its axis is tilted by about 7/2 of the "
+            "throw, and the equator with it. A sketch, for a throw of 5.7 degrees."
         ),
         "figure_4_7": (
             "The deflection of the cue ball by the cut angle, for natural roll, stun and reverse "
@@ -97,4 +128,4 @@ CAPTIONS: Mapping[str, str] = MappingProxyType(
         ),
     }
 )
-"""What each plot shows, and for which values where these are not the text's."""
+"""What each figure shows, and for which values where these are not the text's."""

@@ -1,4 +1,4 @@
-"""The plots of sections 1 to 4: Figs. 3.1 to 3.4, 4.4, 4.5, 4.7 and 4.8, all computed anew."""
+"""The figures of sections 1 to 4, all computed anew."""
 
 from __future__ import annotations
 
@@ -7,6 +7,15 @@ from typing import TYPE_CHECKING
 
 from evenbreak.reports.physics.collision_figures import gearing_tips, sensitivity, throw_factors
 from evenbreak.reports.physics.deflection_figure import deflections
+from evenbreak.reports.physics.schematics import (
+    friction_at_hit,
+    hit_from_above,
+    sliding_draw,
+    slip_directions,
+    tilted_axis,
+    tip_forces,
+    velocity_triangle,
+)
 from evenbreak.reports.physics.tip_figures import (
     lag_speeds,
     same_sidespin,
@@ -22,24 +31,30 @@ __all__ = ["figures"]
 
 
 def figures() -> Mapping[str, Callable[[], Figure]]:
-    """Return the plots of sections 3 and 4 by name, each a function that draws it.
+    """Return the figures of sections 1 to 4 by name, each a function that draws it.
 
     Notes
     -----
-    Source: Figs. 3.1 to 3.4, 4.4, 4.5, 4.7 and 4.8; `evenbreak.reports.physics.chosen` says
-    what is chosen where the text's values are lost.
+    Source: Figs. 3.1 to 3.4, 4.4, 4.5, 4.7 and 4.8 are plots, the others sketches;
+    `evenbreak.reports.physics.chosen` says what is chosen where the text's values are lost.
 
-    >>> sorted(figures())
-    ['figure_3_1', 'figure_3_2', 'figure_3_3', 'figure_3_4', 'figure_4_4', 'figure_4_5', \
-'figure_4_7', 'figure_4_8']
+    >>> list(figures())[:4]
+    ['figure_1_1', 'figure_1_2', 'figure_2_1', 'figure_3_1']
     """
     plots = {
+        "figure_1_1": friction_at_hit,
+        "figure_1_2": tip_forces,
+        "figure_2_1": sliding_draw,
         "figure_3_1": same_sidespin,
         "figure_3_2": small_circle,
         "figure_3_3": stick_speeds,
         "figure_3_4": lag_speeds,
+        "figure_4_1": velocity_triangle,
+        "figure_4_2": hit_from_above,
+        "figure_4_3": slip_directions,
         "figure_4_4": throw_factors,
         "figure_4_5": sensitivity,
+        "figure_4_6": tilted_axis,
         "figure_4_7": deflections,
         "figure_4_8": gearing_tips,
     }
