@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.physics import collide
+from evenbreak.physics import collide, gearing_side, gearing_tip, roll_side
 from evenbreak.reports.physics.numbers import (
     ANSWERS,
     compute,
@@ -194,6 +194,15 @@ def test_energy_is_lost_where_the_law_of_the_text_makes_some() -> None:
     assert collide(thick, 0.0, friction="shepard").delta_inelastic < 0
     assert collide(thick, 0.0).delta_inelastic > 0
     assert math.tan(collide(thick, 0.0).throw) == pytest.approx(math.tan(thick) / 7)
+
+
+@pytest.mark.parametrize("height", [0.3, 1.0, 1.4])
+def test_a_ball_struck_on_the_gearing_line_throws_nothing_once_it_rolls(height: float) -> None:
+    tip = gearing_tip(0.7, height)
+    side = roll_side(*tip)
+    assert tip.y > 0.0 > side
+    assert side == pytest.approx(gearing_side(0.7))
+    assert collide(0.7, 1.0, side).throw == pytest.approx(0.0, abs=1e-15)
 
 
 def test_every_slip_of_the_list_is_here() -> None:

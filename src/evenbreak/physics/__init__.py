@@ -55,6 +55,7 @@ __getattr__, __dir__, __all__ = attach(
             "best_lag_offset",
             "contact_for_later",
             "effective_contact",
+            "gearing_tip",
             "largest_roll_side",
             "offset_for",
             "roll_side",

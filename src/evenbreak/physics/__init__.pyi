@@ -41,6 +41,7 @@ from evenbreak.physics.offset import ball_speed_ratio as ball_speed_ratio
 from evenbreak.physics.offset import best_lag_offset as best_lag_offset
 from evenbreak.physics.offset import contact_for_later as contact_for_later
 from evenbreak.physics.offset import effective_contact as effective_contact
+from evenbreak.physics.offset import gearing_tip as gearing_tip
 from evenbreak.physics.offset import largest_roll_side as largest_roll_side
 from evenbreak.physics.offset import offset_for as offset_for
 from evenbreak.physics.offset import roll_side as roll_side

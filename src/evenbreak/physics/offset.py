@@ -16,6 +16,7 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import numbers, plain
 from evenbreak.physics.objects import Cloth
+from evenbreak.physics.throw import gearing_side
 
 __all__ = [
     "NATURAL_ROLL_OFFSET",
@@ -24,6 +25,7 @@ __all__ = [
     "best_lag_offset",
     "contact_for_later",
     "effective_contact",
+    "gearing_tip",
     "largest_roll_side",
     "offset_for",
     "roll_side",
@@ -161,6 +163,27 @@ def contact_for_later(later: ContactPoint, z: Any) -> ContactPoint:
     z = numbers(z, "z", low=0.0, high=2.0, open_low=True)
     height = numbers(later.z, "z", low=0.0, high=2.0, open_low=True)
     return ContactPoint(plain(_offset(later.y, "y") * z / height), plain(z))
+
+
+def gearing_tip(cut: Any, z: Any = 1.0 + NATURAL_ROLL_OFFSET) -> ContactPoint:
+    """Return where to strike so that the ball, once it rolls, hits another without throw (P4.27).
+
+    The points for one cut lie on a straight line through (0, 0). A ball that hits at once, before
+    the cloth slows it, is struck at the y of z = 7/5, at any height.
+
+    Parameters
+    ----------
+    cut
+        cut angle to the right, in radians.
+    z
+        the height at which to strike, over R; 7/5, natural roll at once, where it is not given.
+
+    >>> tip = gearing_tip(np.pi / 6.0)
+    >>> round(tip.y, 9), round(tip.z, 9)
+    (0.2, 1.4)
+    """
+    z = numbers(z, "z", low=0.0, high=2.0, open_low=True)
+    return ContactPoint(plain(-gearing_side(cut) * z / 3.5), plain(z))
 
 
 def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:

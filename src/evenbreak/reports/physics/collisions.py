@@ -10,12 +10,7 @@ import numpy as np
 
 from evenbreak.physics.collision import Collision, axis_tilt, collide
 from evenbreak.physics.objects import Ball, Cloth, Table
-from evenbreak.physics.offset import (
-    NATURAL_ROLL_OFFSET,
-    ContactPoint,
-    contact_for_later,
-    offset_for,
-)
+from evenbreak.physics.offset import NATURAL_ROLL_OFFSET, gearing_tip, offset_for
 from evenbreak.physics.slide import roll_velocity
 from evenbreak.physics.throw import (
     BALL_FRICTION,
@@ -164,16 +159,6 @@ def _contact(i: Inputs) -> float:
     return -math.sin(i["alpha"])
 
 
-def _tip(i: Inputs) -> float:
-    """Return y of the tip, to the left, whose spin leaves no slip: J_z = -5/2 y/R."""
-    return -float(offset_for(gearing_side(i["alpha"])))
-
-
-def _rolling_tip(i: Inputs) -> float:
-    at_once = ContactPoint(_tip(i), 1.0 + NATURAL_ROLL_OFFSET)
-    return float(contact_for_later(at_once, i["z/R"]).y)
-
-
 def _of_hit(name: str, *, scale: float = 1.0) -> Callable[[Inputs], Any]:
     return lambda i: scale * getattr(_hit(i), name)
 
@@ -257,12 +242,10 @@ ANSWERS: Answers = {
     ),
     ("P4.12", "L_y - L_0y with the jump over M R V_0"): lambda i: _gained(i, jump=True)[1],
     ("P4.26", "J_0z for no level friction"): lambda i: gearing_side(i["alpha"]),
-    ("P4.27", "y_tip/R just after the tip"): _tip,
+    ("P4.27", "y_tip/R just after the tip"): lambda i: -offset_for(gearing_side(i["alpha"])),
     ("P4.27", "y_cp/R"): _contact,
     ("P4.27", "y_tip = -2/5 y_cp, over R"): lambda i: -NATURAL_ROLL_OFFSET * _contact(i),
-    ("P4.27", "y_tip/R in natural roll"): _rolling_tip,
-    ("P4.27", "y_tip/(-y_cp) at z = 7/5 R"): lambda i: (
-        _rolling_tip({**i, "z/R": 1.0 + NATURAL_ROLL_OFFSET}) / -_contact(i)
-    ),
+    ("P4.27", "y_tip/R in natural roll"): lambda i: gearing_tip(i["alpha"], i["z/R"]).y,
+    ("P4.27", "y_tip/(-y_cp) at z = 7/5 R"): lambda i: gearing_tip(i["alpha"]).y / -_contact(i),
 }
 """What the text answers."""
