@@ -152,3 +152,65 @@ def test_hits_of_all_kinds_are_answered_and_mirrored(ask, cut, topspin, side, mu
                 assert left[key] == -right[key]
             else:
                 assert left[key] == right[key]
+
+
+weights = st.floats(0.01, 1e5)
+metric = st.sampled_from(["", "--metric"])
+
+
+@settings(max_examples=40)
+@given(
+    st.floats(-0.999, 0.999),
+    st.floats(-0.999, 0.999),
+    weights,
+    weights,
+    st.floats(0.01, 1e5),
+    st.floats(0, 1e5),
+    st.floats(0.01, 10),
+    metric,
+)
+def test_strikes_of_all_kinds_are_answered(ask, up, right, stick, ball, speed, far, tip, units):
+    right = math.copysign(min(abs(right), math.sqrt(1.0 - up * up) * 0.999), right)
+    told = ask(
+        "strike",
+        f"--offset {up!r} --side-offset {right!r} --stick {stick!r} --ball {ball!r} "
+        f"--stick-speed {speed!r} --distance {far!r} --tip-mu {tip!r} {units}",
+    )
+    if told["miscue"]:
+        assert told["spin_speed_ratio"] is None
+        return
+    spins = [told["spin_speed_ratio"], told["later_spin_speed_ratio"]]
+    # Sliding only ever brings the ball nearer to natural roll.
+    assert abs(spins[1] - 1.0) <= abs(spins[0] - 1.0) + 1e-9
+    assert 0.0 < told["ball_speed_ratio"] < 2.0
+
+
+@settings(max_examples=20)
+@given(st.floats(0, 85), spins, spins, st.floats(0, 0.05), st.floats(0, 1e5), metric)
+def test_aims_of_all_kinds_go_where_they_should(ask, cut, topspin, side, mu, far, units):
+    told = ask(
+        "aim",
+        f"--cut {cut!r} --topspin {topspin!r} --side {side!r} --mu {mu!r} "
+        f"--distance {far!r} {units}",
+    )
+    assert told["aim_cut_deg"] - told["throw_deg"] == pytest.approx(cut, abs=1e-6)
+
+
+@settings(max_examples=20)
+@given(st.floats(0, 1e6), weights, weights, metric)
+def test_no_cue_breaks_better_than_the_best(ask, arm, ball, stick, units):
+    told = ask("breakcue", f"--forearm {arm!r} --ball {ball!r} --stick {stick!r} {units}")
+    assert told["stick_speed_share"] <= 1.0 + 1e-12
+    assert 0.0 < told["energy_share"] <= 1.0 + 1e-12
+
+
+@settings(max_examples=20)
+@given(st.floats(0.1, 1000), st.floats(1, 1e5), st.floats(0.01, 0.9), metric)
+def test_lags_of_all_kinds_are_answered(ask, seconds, length, share, units):
+    told = ask(
+        "speed",
+        f"--lag-time {seconds!r} --table-length {length!r} "
+        f"--ball-diameter {max(0.01, share * length)!r} {units}",
+    )
+    assert told["table_speed"] * told["mu_roll"] == pytest.approx(1.0)
+    assert told["cloth"]

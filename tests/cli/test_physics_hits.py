@@ -59,6 +59,8 @@ def test_the_slip_ends_within_a_full_stun_shot(ask):
     text = ask("throw", f"{line} --friction shepard")
     assert text["throw_deg"] == pytest.approx(3.17983012)
     assert text["friction_stops"] is False
+    assert ask("throw", "--cut 90")["friction_stops"] is False
+    assert ask("throw", "--cut 0 --side 0")["friction_stops"] is False
     assert ask("throw", "--cut 21.3 --topspin 0")["friction_stops"] is False
     assert ask("throw", "--cut 21.2 --topspin 0")["friction_stops"] is True
 

@@ -47,19 +47,16 @@ def physics_throw(as_json: bool, **how: Any) -> None:
     found = collide(*shot, mu=hit.mu, friction=hit.friction)
     sensitivity = throw_sensitivity(*shot)
     mirror = -1.0 if hit.cut < 0.0 else 1.0
-    # Friction at its full gives mu times the speed along the line of centres; less, where a
-    # seventh of the slip is less.
-    full = hit.mu * math.cos(hit.angle)
-    pull = math.hypot(found.sideways, found.upward)
+    factor = throw_factor(*shot)
     throw = math.degrees(found.throw)
     object_speed = math.hypot(found.ahead, found.sideways)
     answer = {
         **hit.as_answer(),
         "throw_deg": throw,
         "object_cut_deg": mirror * (abs(hit.cut) - throw),
-        "throw_factor": throw_factor(*shot),
+        "throw_factor": factor,
         "sensitivity": sensitivity if math.isfinite(sensitivity) else None,
-        "friction_stops": pull < full * (1.0 - 1e-12),
+        "friction_stops": math.tan(abs(found.throw)) < (1.0 - 1e-9) * hit.mu * abs(factor),
         "no_throw_side": mirror * gearing_side(hit.angle),
         "object_side": -2.5 * mirror * found.sideways / object_speed,
     }
