@@ -39,7 +39,7 @@ def physics_aim(distance: float, units: Units, as_json: bool, **how: Any) -> Non
     --cut is the angle at which the object ball has to leave. The answer is a point beside
     the middle of the pocket: aim for it as if there were no throw. The rule by hand is
     friction x distance x share of the friction that throws; for natural roll without
-    english that share is the sine of the cut angle, how full the hit is.
+    english that share is the sine of the cut angle, 1/2 for a half-ball hit.
     """
     from evenbreak.physics import aim
 
