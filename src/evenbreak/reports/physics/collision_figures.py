@@ -7,13 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.physics.offset import (
-    NATURAL_ROLL_OFFSET,
-    ContactPoint,
-    contact_for_later,
-    offset_for,
-    small_circle_point,
-)
+from evenbreak.physics.offset import ContactPoint, gearing_tip, small_circle_point
 from evenbreak.physics.throw import gearing_side, throw_factor, throw_sensitivity
 from evenbreak.reports.physics.ball_view import (
     ball_view,
@@ -159,11 +153,11 @@ def gearing_tips() -> Figure:
     figure, axes = new_axes("", "", size=(6.1, 6.1))
     degrees = math.degrees(TIP_LINE_CUT)
     ball_view(axes, rf"No throw in natural roll: cut to the right by {degrees:g}° (chosen)")
-    at_once = ContactPoint(-offset_for(gearing_side(TIP_LINE_CUT)), 1.0 + NATURAL_ROLL_OFFSET)
+    at_once = gearing_tip(TIP_LINE_CUT)
     nearest = small_circle_point(gearing_side(TIP_LINE_CUT))
     draw_small_circle(axes)
     roll_height(axes)
-    line = contact_for_later(at_once, np.array([1e-9, roll_chord(nearest).z]))
+    line = gearing_tip(TIP_LINE_CUT, np.array([1e-9, roll_chord(nearest).z]))
     draw_line(axes, line.y, line.z, lw=1.6)
     name_point(axes, at_once, r"$(-2/5\;y_{cp},\ 7/5\;R)$", (8, 13), "left")
     name_point(axes, nearest, "nearest to the centre", (-10, 9), "right")

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from evenbreak.physics.deflection import deflection, deflection_slope
 from evenbreak.physics.offset import (
-    NATURAL_ROLL_OFFSET,
     ContactPoint,
     ball_speed_ratio,
     best_lag_offset,
-    contact_for_later,
+    gearing_tip,
     offset_for,
     roll_speed_ratio,
     small_circle_point,
@@ -171,17 +170,15 @@ def _points() -> Rows:
 
 def _tip_line() -> Rows:
     """Yield the points of the line of Fig. 4.8, from the cloth to the edge of the ball."""
-    side = gearing_side(TIP_LINE_CUT)
-    at_once = ContactPoint(-offset_for(side), 1.0 + NATURAL_ROLL_OFFSET)
-    nearest = small_circle_point(side)
+    nearest = small_circle_point(gearing_side(TIP_LINE_CUT))
     heights = {
         "on the cloth": 0.0,
         "nearest to the centre": nearest.z,
-        "rolls at once": at_once.z,
+        "rolls at once": gearing_tip(TIP_LINE_CUT).z,
         "edge of the ball": roll_chord(nearest).z,
     }
     for name, z in heights.items():
-        y = contact_for_later(at_once, z).y if z else 0.0
+        y = gearing_tip(TIP_LINE_CUT, z).y if z else 0.0
         yield {"point": name, "y": fixed_cell(y), "z": fixed_cell(z)}
     touched = {"y": fixed_cell(-math.sin(TIP_LINE_CUT)), "z": fixed_cell(1.0)}
     yield {"point": "touches the object ball", **touched}
