@@ -162,7 +162,9 @@ def contact_for_later(later: ContactPoint, z: Any) -> ContactPoint:
     """
     z = numbers(z, "z", low=0.0, high=2.0, open_low=True)
     height = numbers(later.z, "z", low=0.0, high=2.0, open_low=True)
-    return ContactPoint(plain(_offset(later.y, "y") * z / height), plain(z))
+    # Where sidespin lasts, `later` may lie beyond the ball; what the tip can strike may not.
+    y = _offset(numbers(later.y, "y") * z / height, "y")
+    return ContactPoint(plain(y), plain(z))
 
 
 def gearing_tip(cut: Any, z: Any = 1.0 + NATURAL_ROLL_OFFSET) -> ContactPoint:
