@@ -13,8 +13,7 @@ from evenbreak.cli.physics_units import Measure, Units, decimals, print_answer, 
 from evenbreak.physics.units import OUNCE
 
 if TYPE_CHECKING:
-    from evenbreak.physics import Cloth
-    from evenbreak.physics.strike import Strike
+    from evenbreak.physics import Cloth, Strike
 
 __all__ = ["physics_strike"]
 
@@ -101,8 +100,7 @@ def physics_strike(
 
     Offsets are shares of the ball's radius: 0.4 above the centre is natural roll at once.
     """
-    from evenbreak.physics import Ball, Cloth, Cue
-    from evenbreak.physics.strike import strike
+    from evenbreak.physics import Ball, Cloth, Cue, strike
 
     if distance is not None and stick_speed is None:
         refuse(f"--distance {distance:g} needs the speed of the cue; give --stick-speed")
