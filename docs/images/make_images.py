@@ -9,6 +9,8 @@ import networkx as nx
 from matplotlib.figure import Figure
 
 from evenbreak.games import Ahead, OneBall, Race, Rack
+from evenbreak.physics import Table, aimed_shot, pockets, strike_for_speed
+from evenbreak.physics.units import INCH
 from evenbreak.ratings import fit
 from evenbreak.reports import (
     RaceLimits,
@@ -19,6 +21,7 @@ from evenbreak.reports import (
     ratings_frame,
     read_results,
     sheet_pages,
+    shot_on_table,
 )
 
 HERE = Path(__file__).resolve().parent
@@ -44,6 +47,14 @@ def sheet() -> Figure:
     return page
 
 
+def cut_shot() -> Figure:
+    """Draw a cut with draw into the far corner, throw allowed for."""
+    corner = pockets(Table())[2]
+    hit = strike_for_speed(80.0 * INCH, -0.4)
+    places = ((30.0, 15.0), (50.0, 15.0), (corner.x / INCH, corner.y / INCH))
+    return shot_on_table(aimed_shot(hit, *((x * INCH, y * INCH) for x, y in places)))
+
+
 def main() -> None:
     """Write every picture beside this file."""
     diagrams = {
@@ -51,6 +62,7 @@ def main() -> None:
         "ahead": draw(Ahead(3, 2, Rack(2 / 3)), title="Player 1 must lead by 3, player 2 by 2"),
         "drill": draw(drill(4)),
         "race": draw(Race(3, 2, Rack(0.6)), title="Race 3:2"),
+        "shot": cut_shot(),
     }
     for name, figure in diagrams.items():
         (HERE / f"{name}.svg").write_bytes(image_bytes(figure, "svg"))

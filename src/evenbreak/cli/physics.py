@@ -15,6 +15,7 @@ PHYSICS_COMMANDS = {
     "deflect": "Tell where the cue ball goes after the hit.",
     "strike": "Tell what spin and speed a hit off centre gives.",
     "breakcue": "Tell which cue breaks best for an arm.",
+    "shot": "Trace a shot, and draw it on its table.",
 }
 """Each command with its line of help; `physics_speed` of the module `physics_speed`, and so on."""
 

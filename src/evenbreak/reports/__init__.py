@@ -36,6 +36,7 @@ __getattr__, __dir__, __all__ = attach(
         "reproduce": ["reproduction"],
         "sheet": ["sheet_text"],
         "sheet_pages": ["sheet_pages"],
+        "shot_on_table": ["shot_on_table"],
         "shot_plots": ["shots_figure"],
         "to_csv": ["to_csv"],
         "workbook": ["report_tables", "workbook_bytes"],

@@ -38,6 +38,7 @@ from evenbreak.reports.read_table import read_table as read_table
 from evenbreak.reports.reproduce import reproduction as reproduction
 from evenbreak.reports.sheet import sheet_text as sheet_text
 from evenbreak.reports.sheet_pages import sheet_pages as sheet_pages
+from evenbreak.reports.shot_on_table import shot_on_table as shot_on_table
 from evenbreak.reports.shot_plots import shots_figure as shots_figure
 from evenbreak.reports.to_csv import to_csv as to_csv
 from evenbreak.reports.workbook import report_tables as report_tables
