@@ -110,7 +110,9 @@ def on_a_terminal(run, monkeypatch, line):
         ),
         ("--cut 30 --distance 24 --speed 80 --offset -0.3", "still sliding"),
         ("--cut 30 --distance 24 --speed 200", "it is not followed from there"),
-        ("--cut 0 --distance 2.25 --speed 50", "hits after 0.00 s with stun"),
+        ("--cut 0 --distance 2.25 --speed 50", "hits at once with stun."),
+        ("--cut 0 --distance 9 --speed 50 --offset 0.4", "natural roll, rolling from the tip on."),
+        ("--cut 0 --distance 9 --speed 0", "it stops after 0.0 inches."),
         (AIMED + " --mu 0", "there is no throw to speak of"),
     ],
 )
@@ -147,7 +149,7 @@ def test_refusals_name_option_value_and_remedy(run, line, words):
     assert words in " ".join(result.stderr.split())
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(
     st.floats(-89.0, 89.0),
     st.floats(2.3, 20.0),

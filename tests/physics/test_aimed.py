@@ -17,7 +17,7 @@ HUGE = Table(length=400.0, width=400.0)
 START = np.array([200.0, 200.0])
 RADIUS = Ball().radius
 
-few = settings(max_examples=15)
+few = settings(max_examples=10)
 
 
 def aimed(tip, angle, *, gap=0.5, far=1.0, **how):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -15,6 +15,8 @@ from evenbreak.physics.slide import Slide
 
 BALL, CLOTH, TABLE = Ball(), Cloth(), Table()
 HUGE = Table(length=400.0, width=400.0)
+
+few = settings(max_examples=30)
 
 
 def sliding(velocity, rim, place=(200.0, 200.0)):
@@ -54,6 +56,31 @@ def test_the_slide_is_that_of_the_equations_of_motion(velocity, rim):
         assert now.spin[2] == rim[2] / BALL.radius
 
 
+def rolled(_, state):
+    """Return the motion of a ball that the cloth slows against its way: x, y, V_x, V_y."""
+    velocity = state[2:4]
+    pull = CLOTH.mu_roll * CLOTH.gravity / np.linalg.norm(velocity)
+    return [*velocity, *(-pull * velocity)]
+
+
+def test_the_roll_is_that_of_the_equations_of_motion():
+    leg = leg_until("cue ball", sliding((0.3, 0.8), (-0.4, -2.0, -1.0)), 0.0, HUGE)
+    start = leg.state(leg.roll_begin)
+    times = np.linspace(leg.roll_begin, leg.end - 1e-3, 8)
+    found = solve_ivp(
+        rolled,
+        (times[0], times[-1]),
+        [*start.position, *start.velocity],
+        t_eval=times,
+        rtol=1e-10,
+        atol=1e-12,
+    )
+    for time, state in zip(times, found.y.T, strict=True):
+        assert leg.state(time).position == pytest.approx(state[:2], abs=1e-7)
+        assert leg.state(time).velocity == pytest.approx(state[2:], abs=1e-7)
+
+
+@few
 @given(*[st.floats(-4.0, 4.0)] * 4)
 def test_in_natural_roll_nothing_slips_and_the_ball_slows_as_the_cloth_has_it(vx, vy, wx, wy):
     leg = leg_until("cue ball", sliding((vx, vy), (wx, wy, 0.0)), 1.0, HUGE)
@@ -67,6 +94,7 @@ def test_in_natural_roll_nothing_slips_and_the_ball_slows_as_the_cloth_has_it(vx
     assert leg.ending == "rest"
 
 
+@few
 @given(*[st.floats(-4.0, 4.0)] * 4)
 def test_the_way_is_as_long_as_its_many_small_steps(vx, vy, wx, wy):
     leg = leg_until("cue ball", sliding((vx, vy), (wx, wy, 0.0)), 0.0, HUGE)
@@ -90,6 +118,7 @@ def test_a_ball_at_rest_has_no_phases_and_a_path_of_one_point():
     assert leg.path(motion="rolls").shape == (0, 3)
 
 
+@few
 @given(st.floats(0.0, 2.0 * math.pi), st.floats(0.5, 5.0), st.floats(-4.0, 4.0))
 def test_no_ball_leaves_the_table(angle, speed, rim):
     ahead = np.array([math.cos(angle), math.sin(angle)])

@@ -170,8 +170,9 @@ def physics_shot(
         print_json({**found, "phases": rows, "schema_version": SCHEMA_VERSION})
         return
     print_answer(found, shown=shown(units), heading=sentences(traced, units), as_json=False)
-    if to_terminal():
-        click.echo("\n" + phases_text(traced, units), nl=False)
+    phases = phases_text(traced, units)
+    if phases and to_terminal():
+        click.echo(f"\n{phases}", nl=False)
 
 
 def _strike(how: dict[str, Any], units: Units) -> Strike:

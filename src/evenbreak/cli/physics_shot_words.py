@@ -143,12 +143,14 @@ def _phase_row(leg: Leg, phase: Phase, units: Units) -> dict[str, Any]:
 
 
 def phases_text(traced: Shot | AimedShot, units: Units) -> str:
-    """Return the phases as a table for a terminal."""
+    """Return the phases as a table for a terminal; nothing where nothing moves."""
+    found, _ = _parts(traced)
+    if not found.phases:
+        return ""
     far, fast = units.length_key, units.speed_key.replace("_", "/")
     headings = ["", "\n", "from\ns", "to\ns", f"way\n{far}", f"speed\n{fast}", "ends with\n" + fast]
     headings += ["energy\nJ", "ends with\nJ"]
     rows = heading_lines(headings)
-    found, _ = _parts(traced)
     for leg in found.legs:
         for phase in leg.phases:
             begin, end = phase.begin, phase.end
@@ -172,19 +174,17 @@ def sentences(traced: Shot | AimedShot, units: Units) -> str:
         )
     told = [_aim_text(aimed, units)] if aimed else []
     topspin = answer(found, units)["hit_spin_speed_ratio"]
-    told.append(
-        f"The cue ball hits after {decimals(state.time)} s with {spin_text(round(topspin, 3))}, "
-        f"{_slid_text(found.approach)}."
-    )
+    spin = spin_text(round(topspin, 3))
+    after = f"after {decimals(state.time)} s" if found.approach.phases else "at once"
+    told.append(f"The cue ball hits {after} with {spin}{_slid_text(found.approach)}.")
     told += [_end_text(leg, units) for leg in (found.object_leg, found.cue_leg) if leg]
     return "\n".join(told)
 
 
 def _slid_text(leg: Leg) -> str:
-    motions = {phase.motion for phase in leg.phases}
-    if motions == {"slides", "rolls"}:
-        return "rolling by then"
-    return "still sliding" if motions == {"slides"} else "rolling from the tip on"
+    motions = [phase.motion for phase in leg.phases]
+    words = {"slides": ", still sliding", "rolls": ", rolling from the tip on"}
+    return ", rolling by then" if len(motions) > 1 else words.get("".join(motions), "")
 
 
 def _end_text(leg: Leg, units: Units) -> str:

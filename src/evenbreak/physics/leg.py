@@ -27,6 +27,10 @@ _SLACK = 1e-9
 """A nanometre: what rounding may push a ball into the cushion that it rolls along."""
 
 
+_INSTANT = 1e-12
+"""What rounding may let a ball slide that is struck into natural roll, in seconds."""
+
+
 class State(NamedTuple):
     """A ball at a time: seconds, metres (2), m/s (2), rad/s (3)."""
 
@@ -117,7 +121,7 @@ class Leg:
         return tuple(
             Phase(self.name, motion, self.state(begin), self.state(end), self._length(begin, end))
             for motion, (begin, end) in times.items()
-            if end > begin
+            if end - begin > _INSTANT
         )
 
     @property
