@@ -1,11 +1,21 @@
 """Numbers in, numbers out, and what is refused."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
+from evenbreak.physics import (
+    collide,
+    friction_of_stop,
+    rolling_time,
+    sliding_distance,
+    sliding_power,
+    sliding_speed,
+    table_speed,
+)
 from evenbreak.physics.arrays import LARGEST, numbers, plain
 
 
@@ -42,6 +52,22 @@ def test_the_ends_of_a_range() -> None:
 
 def test_no_numbers_are_numbers() -> None:
     assert numbers([], "x", low=0.0).shape == (0,)
+    assert collide([], 1.0).object_velocity.shape == (0, 3)
+
+
+@pytest.mark.parametrize("gravity", [0.0, -1.0, math.nan])
+def test_gravity_pulls_down(gravity: float) -> None:
+    for answer in (
+        collide(0.1, -1.0).jump,
+        partial(friction_of_stop, 1.0, 1.0),
+        partial(sliding_speed, 1.0, 0.2, 1.0),
+        partial(sliding_distance, 1.0, 0.2, 1.0),
+        partial(sliding_power, 1.0, 0.2, 1.0),
+        partial(rolling_time, 1.0, 0.01),
+        partial(table_speed, 7.0),
+    ):
+        with pytest.raises(InputError, match=r"gravity is .*; give a finite number above 0"):
+            answer(gravity=gravity)
 
 
 def test_plain() -> None:

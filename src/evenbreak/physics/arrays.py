@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["LARGEST", "Floats", "numbers", "plain"]
+__all__ = ["LARGEST", "Floats", "numbers", "plain", "positive"]
 
 Floats = NDArray[np.float64]
 
@@ -67,6 +67,17 @@ def numbers(
     return array
 
 
+def positive(value: Any, name: str) -> Floats:
+    """Return finite numbers above 0 as a float array, or refuse them by name.
+
+    >>> positive(0.0, "gravity")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: gravity is 0.0; give a finite number above 0
+    """
+    return numbers(value, name, low=0.0, open_low=True)
+
+
 def plain(value: Any) -> Any:
     """Return a float for an array without axes, and any other array as it is.
 
@@ -87,4 +98,6 @@ def _wanted(low: float, high: float, open_low: bool) -> str:
         return "a finite number"
     if math.isinf(high):
         return f"a finite number above {low:g}" if open_low else f"a finite number, {low:g} or more"
+    if open_low:
+        return f"a number above {low:.6g}, at most {high:.6g}"
     return f"a number from {low:.6g} to {high:.6g}"

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.arrays import Floats, numbers, plain, positive
 from evenbreak.physics.objects import Ball
 from evenbreak.physics.throw import BALL_FRICTION, shot_of, slip_of, thrown
 from evenbreak.physics.units import STANDARD_GRAVITY
@@ -155,9 +155,10 @@ class Collision:
         (0.00518, 0.373)
         """
         up = np.maximum(self.upward, 0.0)
-        time = 2.0 * up / gravity
+        pull = positive(gravity, "gravity")
+        time = 2.0 * up / pull
         level = np.hypot(self.ahead, self.sideways)
-        return Jump(plain(time), plain(up**2 / (2.0 * gravity)), plain(level * time))
+        return Jump(plain(time), plain(up**2 / (2.0 * pull)), plain(level * time))
 
     @property
     def _cue_across(self) -> Any:

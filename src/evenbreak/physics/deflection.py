@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.arrays import numbers, plain, positive
 from evenbreak.physics.throw import cut_of
 
 __all__ = [
@@ -93,7 +93,7 @@ def largest_deflection_cut(topspin: Any = 1.0) -> Any:
     >>> round(math.degrees(cut), 3), round(math.degrees(deflection(cut)), 3)
     (28.126, 33.749)
     """
-    spin = numbers(topspin, "topspin", low=0.0, open_low=True)
+    spin = positive(topspin, "topspin")
     return plain(np.arcsin(np.sqrt(2.0 * spin / (5.0 + 4.0 * spin))))
 
 

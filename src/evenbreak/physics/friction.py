@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.arrays import numbers, plain, positive
 from evenbreak.physics.units import STANDARD_GRAVITY
 
 __all__ = [
@@ -49,7 +49,7 @@ def friction_of_throw(sideways: Any, ahead: Any) -> Any:
     0.0556
     """
     sideways = numbers(sideways, "sideways", low=0.0)
-    return plain(sideways / numbers(ahead, "ahead", low=0.0, open_low=True))
+    return plain(sideways / positive(ahead, "ahead"))
 
 
 def friction_of_stop(distance: Any, time: Any, *, gravity: float = STANDARD_GRAVITY) -> Any:
@@ -72,8 +72,10 @@ def friction_of_stop(distance: Any, time: Any, *, gravity: float = STANDARD_GRAV
     >>> friction_of_stop(1.0, 1.0, gravity=10.0)
     0.2
     """
-    time = numbers(time, "time", low=0.0, open_low=True)
-    return plain(numbers(distance, "distance", low=0.0) / (0.5 * gravity * time**2))
+    time = positive(time, "time")
+    return plain(
+        numbers(distance, "distance", low=0.0) / (0.5 * positive(gravity, "gravity") * time**2)
+    )
 
 
 def sliding_speed(
@@ -85,7 +87,7 @@ def sliding_speed(
     11.4
     """
     speed, friction, time = _block(speed, friction, time, "time")
-    return plain(np.maximum(speed - friction * gravity * time, 0.0))
+    return plain(np.maximum(speed - friction * positive(gravity, "gravity") * time, 0.0))
 
 
 def sliding_distance(
@@ -97,7 +99,7 @@ def sliding_distance(
     15.35
     """
     speed, friction, time = _block(speed, friction, time, "time")
-    slowing = friction * gravity
+    slowing = friction * positive(gravity, "gravity")
     moving = np.minimum(time, speed / slowing)
     return plain(speed * moving - 0.5 * slowing * moving**2)
 
@@ -111,7 +113,7 @@ def sliding_power(
     -2.0
     """
     speed, friction, mass = _block(speed, friction, mass, "mass")
-    return plain(-friction * mass * gravity * speed)
+    return plain(-friction * mass * positive(gravity, "gravity") * speed)
 
 
 def miscue_offset(friction: Any) -> Any:
@@ -143,6 +145,6 @@ def tip_friction_of(offset: Any) -> Any:
 def _block(speed: Any, friction: Any, third: Any, name: str) -> tuple[Any, Any, Any]:
     return (
         numbers(speed, "speed", low=0.0),
-        numbers(friction, "friction", low=0.0, open_low=True),
+        positive(friction, "friction"),
         numbers(third, name, low=0.0),
     )

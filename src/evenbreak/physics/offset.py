@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.arrays import numbers, plain, positive
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
 
@@ -142,7 +142,7 @@ def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth
     (0.2222, 0.8889)
     """
     y, z = _offset(contact.y, "y"), numbers(contact.z, "z", low=0.0, high=2.0, open_low=True)
-    speed = numbers(speed, "speed", low=0.0, open_low=True)
+    speed = positive(speed, "speed")
     slowing = cloth.mu_slide * cloth.gravity
     # Natural roll ends it, whether the ball slides too slowly or too fast for its spin.
     slip = 1.0 - 2.5 * (z - 1.0)
@@ -216,7 +216,7 @@ def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
     >>> round(stun_offset(2.0, 0.36, Cloth(mu_slide=0.2, gravity=10.0)), 9)
     -0.2
     """
-    speed = numbers(speed, "speed", low=0.0, open_low=True)
+    speed = positive(speed, "speed")
     distance = numbers(distance, "distance", low=0.0)
     lost = 2.0 * cloth.mu_slide * cloth.gravity * distance / speed**2
     if np.any(lost > 1.0):

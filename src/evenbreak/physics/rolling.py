@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.arrays import numbers, plain, positive
 from evenbreak.physics.objects import Ball, Cloth
 from evenbreak.physics.units import INCH, STANDARD_GRAVITY
 
@@ -81,7 +81,7 @@ def rolling_friction(mu_roll: Any, *, shape: float = SHAPES["ball"]) -> Any:
     >>> round(rolling_friction(1 / 96.7), 4)
     0.0145
     """
-    return plain((1.0 + shape) * numbers(mu_roll, "mu_roll", low=0.0))
+    return plain((1.0 + _inertia(shape)) * numbers(mu_roll, "mu_roll", low=0.0))
 
 
 def rolling_time(
@@ -108,9 +108,9 @@ def rolling_time(
     >>> round(rolling_time(length, 0.0145, shape=SHAPES["cylinder"], gravity=MOON_GRAVITY), 1)
     17.8
     """
-    friction = numbers(friction, "friction", low=0.0, open_low=True)
+    pull = positive(gravity, "gravity") * positive(friction, "friction")
     distance = numbers(distance, "distance", low=0.0)
-    return plain(np.sqrt(2.0 * (1.0 + shape) * distance / (gravity * friction)))
+    return plain(np.sqrt(2.0 * (1.0 + _inertia(shape)) * distance / pull))
 
 
 class SpinStop(NamedTuple):
@@ -168,3 +168,7 @@ def spin_stop(rim_speed: Any, cloth: Cloth) -> SpinStop:
         speed**2 / (2.0 * resistance),
     )
     return SpinStop(*map(plain, parts))
+
+
+def _inertia(shape: float) -> Any:
+    return numbers(shape, "shape", low=0.0)

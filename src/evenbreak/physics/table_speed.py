@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.arrays import numbers, plain, positive
 from evenbreak.physics.objects import Ball, Cloth, Table
 from evenbreak.physics.units import STANDARD_GRAVITY
 
@@ -49,8 +49,9 @@ def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = STANDAR
     96.7
     """
     metres = _nine_feet() if distance is None else distance
-    time = numbers(lag_time, "lag_time", low=0.0, open_low=True)
-    return plain(0.5 * gravity * time**2 / numbers(metres, "distance", low=0.0, open_low=True))
+    time = positive(lag_time, "lag_time")
+    pull = positive(gravity, "gravity")
+    return plain(0.5 * pull * time**2 / positive(metres, "distance"))
 
 
 def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
@@ -63,7 +64,7 @@ def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
     27.9
     """
     metres = _nine_feet() if distance is None else distance
-    time = numbers(lag_time, "lag_time", low=0.0, open_low=True)
+    time = positive(lag_time, "lag_time")
     return plain(2.0 * numbers(metres, "distance", low=0.0) / time)
 
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain
+from evenbreak.physics.arrays import numbers, plain, positive
 
 __all__ = [
     "CentreHit",
@@ -48,7 +48,7 @@ def stroke_speed(force: Any, length: Any, mass: Any) -> Any:
     3.6515
     """
     force, length = numbers(force, "force", low=0.0), numbers(length, "length", low=0.0)
-    return plain(np.sqrt(2.0 * force * length / numbers(mass, "mass", low=0.0, open_low=True)))
+    return plain(np.sqrt(2.0 * force * length / positive(mass, "mass")))
 
 
 def centre_hit(stick_ratio: Any) -> CentreHit:
@@ -95,7 +95,7 @@ def stroke_energy(stick_energy: Any, stick_ratio: Any, forearm_ratio: Any) -> An
     >>> stroke_energy(3.0, 3.0, 6.0)
     5.0
     """
-    stick = numbers(stick_ratio, "stick_ratio", low=0.0, open_low=True)
+    stick = positive(stick_ratio, "stick_ratio")
     forearm = numbers(forearm_ratio, "forearm_ratio", low=0.0)
     return plain(numbers(stick_energy, "stick_energy", low=0.0) * (1.0 + forearm / (3.0 * stick)))
 
@@ -106,7 +106,7 @@ def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
     >>> break_energy_share(3.0, 6.0)
     0.45
     """
-    stick = numbers(stick_ratio, "stick_ratio", low=0.0, open_low=True)
+    stick = positive(stick_ratio, "stick_ratio")
     forearm = numbers(forearm_ratio, "forearm_ratio", low=0.0)
     return plain(4.0 * stick**2 / ((1.0 + stick) ** 2 * (stick + forearm / 3.0)))
 
