@@ -45,6 +45,19 @@ def test_balls_and_table_are_to_scale():
     assert whole.get_xlim()[1] - whole.get_xlim()[0] > 100.0
 
 
+@pytest.mark.parametrize("cut", [-60, -30, 30, 60])
+def test_a_word_on_the_end_of_a_way_lies_beside_its_ball(cut):
+    found = shot(strike_for_speed(150 * INCH, -0.3), math.radians(cut), 24 * INCH)
+    figure = shot_on_table(found)
+    whole = figure.axes[0]
+    image_bytes(figure)
+    for leg, text in zip(found.legs[-2:], whole.texts, strict=True):
+        box = text.get_window_extent().transformed(whole.transData.inverted())
+        x, y = leg.state(leg.end).position / INCH
+        gap = max(box.x0 - x, x - box.x1, box.y0 - y, y - box.y1)
+        assert gap > 1.0
+
+
 def test_the_angles_are_written():
     told = words(shot_on_table(FOUND))
     assert "cut 30.0° to the right" in told

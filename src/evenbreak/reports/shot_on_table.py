@@ -27,6 +27,11 @@ _LINE_OF_CENTRES: dict[str, Any] = {"color": "0.35", "ls": (0, (1, 1.5)), "lw": 
 _TANGENT: dict[str, Any] = {"color": "0.35", "ls": (0, (6, 2, 1, 2)), "lw": 1.0}
 _REACH = 14.0
 """How far the line of centres and the tangent line go on, in inches."""
+_ALIGNED: dict[str, dict[int, Any]] = {
+    "x": {-1: "right", 0: "center", 1: "left"},
+    "y": {-1: "top", 0: "center", 1: "bottom"},
+}
+"""How a word stands at a point, so that it runs away from what is on its other side."""
 _NEAR = 5.6
 """What is shown on each side of the hit where it is enlarged, in inches."""
 
@@ -104,8 +109,10 @@ def _draw_end(axes: Axes, leg: Leg) -> None:
     along = along / length if length else np.array([1.0, 0.0])
     beside = np.array([-along[1], along[0]])
     middle = [np.mean(axes.get_xlim()), np.mean(axes.get_ylim())]
-    place = at + (np.sign(beside @ (middle - at)) or 1.0) * beside * [4.0, 2.6]
-    axes.text(place[0], place[1], word, color=color, ha="center", va="center", fontsize=9)
+    beside *= np.sign(beside @ (middle - at)) or 1.0
+    place = at + 2.0 * radius * beside
+    ha, va = (_ALIGNED[key][int(np.rint(part))] for key, part in zip("xy", beside, strict=True))
+    axes.text(place[0], place[1], word, color=color, ha=ha, va=va, fontsize=9)
 
 
 def _write_key(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
