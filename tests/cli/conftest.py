@@ -1,6 +1,8 @@
 """A command run in this process, its output and its exit code."""
 
+import json
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
@@ -20,3 +22,16 @@ def run() -> Run:
         return result
 
     return run_words
+
+
+@pytest.fixture(scope="session")
+def ask_physics(run: Run) -> Callable[[str, str], dict[str, Any]]:
+    """Return the JSON that a command of `physics` answers to a line of options."""
+
+    def answer(name: str, line: str) -> dict[str, Any]:
+        result = run("physics", name, "--json", *line.split())
+        assert (result.exit_code, result.stderr) == (0, "")
+        told: dict[str, Any] = json.loads(result.stdout)
+        return told
+
+    return answer

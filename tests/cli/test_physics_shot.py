@@ -1,7 +1,7 @@
 """`evenbreak physics shot`: both ways to say where the balls are, and what it answers."""
 
-import json
 import math
+from functools import partial
 
 import pytest
 from hypothesis import given, settings
@@ -15,13 +15,8 @@ AIMED = "--cue-ball 25,16 --object-ball 50,25 --pocket foot-left --speed 60"
 
 
 @pytest.fixture(scope="session")
-def ask(run):
-    def answer(line):
-        result = run("physics", "shot", "--json", *line.split())
-        assert (result.exit_code, result.stderr) == (0, "")
-        return json.loads(result.stdout)
-
-    return answer
+def ask(ask_physics):
+    return partial(ask_physics, "shot")
 
 
 def test_it_answers_what_the_library_finds(ask):
@@ -38,6 +33,18 @@ def test_it_answers_what_the_library_finds(ask):
     assert motions[-1] == ("object ball", "rolls")
     assert told["phases"][0]["begin_energy_j"] == pytest.approx(found.strike.energy.total)
     assert told["aim_offset_in"] is None
+
+
+@pytest.mark.parametrize("offset", [-0.4, 0.0, 0.4])
+def test_the_energy_of_the_phases_and_of_the_hit_adds_up(ask, offset):
+    told = ask(f"--cut 20 --distance 20 --speed 80 --offset {offset} --side-offset 0.2 --mu 0.2")
+    before = [row for row in told["phases"] if row["end_s"] == told["hit_s"]]
+    after = [row for row in told["phases"] if row["begin_s"] == told["hit_s"]]
+    assert (len(before), len(after)) == (1, 2)
+    left = sum(row["begin_energy_j"] for row in after)
+    lost = told["energy_lost_at_hit_j"]
+    assert lost > 0.0
+    assert before[0]["end_energy_j"] == pytest.approx(left + lost)
 
 
 def test_units_change_the_words_and_not_the_shot(ask):

@@ -27,7 +27,7 @@ Examples:
 @click.option(
     "--distance",
     metavar="LENGTH",
-    type=Measure(0.0, 1e5, "36"),
+    type=Measure(0.1, 1e5, "36"),
     required=True,
     help="From the object ball to the pocket.",
 )
@@ -85,7 +85,7 @@ def _advice(offset: float, hit: Hit, units: Units) -> str:
     """Return where to aim, in a sentence; an offset above 0 is to the right."""
     amount = decimals(abs(offset))
     if float(amount) == 0.0:
-        return "Aim at the pocket's centre: there is no throw to speak of."
+        return f"Aim at the pocket's centre: throw is less than 0.01 {units.length_word} there."
     turn = "right" if offset > 0.0 else "left"
     thin = "" if hit.cut == 0.0 else ", a thinner cut" if turn == hit.turn else ", a fuller cut"
     return (

@@ -43,7 +43,7 @@ def physics_deflect(as_json: bool, **how: Any) -> None:
 
     The deflection is the angle from where the cue ball was going to where it goes once it
     rolls, 0 to 180 degrees, away from the object ball's side. --side, --mu and --friction
-    only matter for what is said of throw.
+    only matter where friction between the balls or throw is named.
     """
     from evenbreak.physics import collide, deflection_slope
 
@@ -55,7 +55,7 @@ def physics_deflect(as_json: bool, **how: Any) -> None:
         "deflection_deg": at,
         "deflection_thrown_deg": thrown,
         "throw_deg": math.degrees(found.throw),
-        "departure_deg": math.degrees(found.departure),
+        "departure_deg": _departure(found),
         "sensitivity": None if at is None else deflection_slope(hit.angle, hit.topspin),
         **_marks(hit.topspin),
         **_shares(hit),
@@ -72,6 +72,12 @@ def _deflection(hit: Hit) -> float | None:
     if hit.cut == 0.0 and hit.topspin == 0.0:
         return None
     return math.degrees(deflection(hit.angle, hit.topspin))
+
+
+def _departure(found: Any) -> float | None:
+    """Return the angle between the two paths in degrees, or None for a ball that stands still."""
+    slowest = min(math.hypot(*ball[:2]) for ball in (found.object_velocity, found.cue_velocity))
+    return None if slowest < 1e-12 else math.degrees(found.departure)
 
 
 def _thrown_deflection(found: Any) -> float | None:
@@ -123,12 +129,18 @@ def _shares(hit: Hit) -> dict[str, float]:
 
 def _where(deflection: float | None, thrown: float | None, hit: Hit) -> str:
     """Return where the cue ball goes, in a sentence."""
-    friction = "" if thrown is None else f", and {decimals(thrown)} with friction between the balls"
-    if deflection is None:
-        return f"The cue ball stands still{friction and ' without friction between the balls'}."
-    if hit.cut == 0.0 and hit.side == 0.0:
-        return f"The cue ball {'goes straight on' if deflection < 90.0 else 'comes straight back'}."
+    smooth, rough = _way(deflection, hit), _way(thrown, hit)
+    first = f"{'The' if deflection is None else 'Once it rolls, the'} cue ball {smooth}"
     return (
-        f"Once it rolls, the cue ball goes {decimals(deflection)} degrees to the "
-        f"{hit.other_turn} of where it was going{friction}."
+        f"{first}." if smooth == rough else f"{first}; with friction between the balls it {rough}."
     )
+
+
+def _way(deflection: float | None, hit: Hit) -> str:
+    """Return which way a deflection is; below 0 it is to the side of the object ball."""
+    if deflection is None:
+        return "stands still"
+    amount = decimals(abs(deflection))
+    straight = {"0.00": "goes straight on", "180.00": "comes straight back"}
+    side = hit.other_turn if deflection > 0.0 else hit.turn
+    return straight.get(amount, f"goes {amount} degrees to the {side}")

@@ -75,7 +75,9 @@ class Hit(NamedTuple):
         >>> Hit(30.0, 1.0, -0.3, 0.0556, "limited").text
         'A cut of 30 degrees to the right; natural roll, outside (left) english.'
         """
-        cut = f"A cut of {abs(self.cut):g} degrees to the {self.turn}" if self.cut else "A full hit"
+        size = abs(self.cut)
+        degrees = f"{size:g} degree{'' if size == 1.0 else 's'}"
+        cut = f"A cut of {degrees} to the {self.turn}" if self.cut else "A full hit"
         return f"{cut}; {spin_text(self.topspin)}, {self._english_text}."
 
     @property
@@ -147,7 +149,7 @@ def hit_options(command: Command) -> Command:
             metavar="DEGREES",
             type=Measure(-MOST_CUT, MOST_CUT, "30"),
             required=True,
-            help="Cut angle, 0 to 90; below 0 to the left.",
+            help="Cut angle, 0 to 90, the limit of thin cuts; below 0 to the left.",
         ),
     ):
         command = option(command)

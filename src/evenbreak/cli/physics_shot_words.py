@@ -75,7 +75,7 @@ def _at_hit(found: Shot, units: Units) -> dict[str, Any]:
         math.copysign(1.0, found.cut) * math.degrees(cut - throw),
         smooth,
         None if thrown is None else math.degrees(thrown),
-        float(found.collision.energy_lost),
+        found.approach.energy(state.time).total - found.energy(state.time).total,
     )
     return dict(zip(names, values, strict=True))
 

@@ -17,6 +17,9 @@ from evenbreak.physics.units import INCH
 
 __all__ = ["cloth_class", "physics_speed"]
 
+LEAST, MOST = 40.0, 250.0
+"""Beyond these speeds a wrong time or unit is likelier than such a table."""
+
 NINE_FEET, POOL_BALL = 100.0 * INCH, 2.25 * INCH
 
 EXAMPLES = """\b
@@ -90,9 +93,18 @@ def physics_speed(
             length_key: (f"how far the ball's centre rolls, {units.length_word}", 2),
             speed_key: (f"its speed off the cushion, {units.speed_word}", 2),
         },
-        heading=f"The table speed is {decimals(found, 0)}: {answer['cloth']}.",
+        heading=(
+            f"The table speed is {decimals(found, 0)}: {answer['cloth']}.{_doubt(found, units)}"
+        ),
         as_json=as_json,
     )
+
+
+def _doubt(speed: float, units: Units) -> str:
+    """Return what to look at if hardly any table has such a speed."""
+    if LEAST <= speed <= MOST:
+        return ""
+    return f"\nHardly any table has that: check the time, and that lengths are {units.length_word}."
 
 
 def cloth_class(speed: float) -> str:

@@ -60,18 +60,24 @@ def physics_throw(as_json: bool, **how: Any) -> None:
         "no_throw_side": mirror * gearing_side(hit.angle),
         "object_side": -2.5 * mirror * found.sideways / object_speed,
     }
-    print_answer(answer, shown=SHOWN, heading=f"{hit.text}\n{throw_text(throw)}", as_json=as_json)
+    print_answer(
+        answer, shown=SHOWN, heading=f"{hit.text}\n{throw_text(throw, hit)}", as_json=as_json
+    )
 
 
-def throw_text(throw: float) -> str:
+def throw_text(throw: float, hit: Hit) -> str:
     """Return what a throw in degrees does, in a sentence.
 
-    >>> throw_text(1.591), throw_text(-0.5)  # doctest: +NORMALIZE_WHITESPACE
-    ('The object ball is thrown 1.59 degrees forward: it misses thick (fuller).',
-     'The object ball is thrown 0.50 degrees backward: it misses thin.')
+    >>> throw_text(1.591, Hit(30.0, 1.0, 0.0, 0.0556, "limited"))
+    'The object ball is thrown 1.59 degrees forward: it misses thick (fuller).'
+    >>> throw_text(1.418, Hit(0.0, 1.0, 0.5, 0.0556, "limited"))
+    'The object ball is thrown 1.42 degrees to the left.'
     """
     amount = decimals(abs(throw))
     if float(amount) == 0.0:
         return "The object ball is not thrown: it leaves along the line of centres."
+    if hit.cut == 0.0:  # neither thick nor thin
+        side = hit.other_turn if throw > 0.0 else hit.turn
+        return f"The object ball is thrown {amount} degrees to the {side}."
     way = "forward: it misses thick (fuller)" if throw > 0.0 else "backward: it misses thin"
     return f"The object ball is thrown {amount} degrees {way}."
