@@ -4,6 +4,7 @@ import itertools
 
 import pytest
 
+from evenbreak.errors import InputError
 from evenbreak.physics import BALL_SETS, LIQUIDS, Ball, density_range, floats_in, volume_range
 
 
@@ -27,3 +28,8 @@ def test_what_floats_is_lighter_than_the_liquid() -> None:
             assert floats_in(balls, liquid) == (density_range(balls)[1] < density)
     assert floats_in(BALL_SETS["pool"], "mercury")
     assert not floats_in(BALL_SETS["pool"], "water")
+
+
+def test_only_liquids_that_are_listed() -> None:
+    with pytest.raises(InputError, match="liquid is 'milk'; give 'water' or"):
+        floats_in(BALL_SETS["pool"], "milk")

@@ -79,6 +79,13 @@ def test_the_effective_contact_by_the_slide(y: float, z: float, speed: float, ti
     assert list(back) == pytest.approx([y, z], abs=1e-12)
 
 
+@pytest.mark.parametrize("z", [1e-50, 1e-20, 1e-3, 1.4, 2.0])
+def test_the_effective_contact_ends_in_natural_roll(z: float) -> None:
+    for speed in (1e-50, 1e-20, 1.0, 8.0):
+        found = effective_contact(ContactPoint(0.1 * z, z), speed, 1e6, CLOTH)
+        assert found == pytest.approx((0.14, 1.4), rel=1e-12)
+
+
 @given(st.floats(-3.4, 3.4))
 def test_the_small_circle_by_search(side: float) -> None:
     def distance(z: float) -> float:
@@ -93,7 +100,7 @@ def test_the_small_circle_by_search(side: float) -> None:
 
 @given(st.floats(0.05, 0.9))
 def test_the_largest_sidespin_in_roll_by_search(offset: float) -> None:
-    turns = np.linspace(0.0, 2.0 * math.pi, 100_001)
+    turns = np.linspace(0.0, 2.0 * math.pi, 20_001)
     y, z = offset * np.cos(turns), 1.0 + offset * np.sin(turns)
     assert largest_roll_side(offset) == pytest.approx(roll_side(y, z).max(), rel=1e-6)
 

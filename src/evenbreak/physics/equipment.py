@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+from evenbreak.checks import one_of
 from evenbreak.physics.objects import Ball
 from evenbreak.physics.units import INCH, OUNCE
 
@@ -82,7 +83,12 @@ def density_range(balls: BallSet) -> tuple[float, float]:
 def floats_in(balls: BallSet, liquid: str) -> bool:
     """Return whether every ball of a set floats in one of `LIQUIDS` (P1.2).
 
+    Raises
+    ------
+    InputError
+        if it is none of those liquids.
+
     >>> [name for name in LIQUIDS if floats_in(BALL_SETS["pool"], name)]
     ['caesium chloride solution', 'mercury']
     """
-    return density_range(balls)[1] < LIQUIDS[liquid]
+    return density_range(balls)[1] < LIQUIDS[one_of(liquid, "liquid", tuple(LIQUIDS))]

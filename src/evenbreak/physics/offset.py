@@ -15,6 +15,7 @@ import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import numbers, plain, positive
+from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
 
@@ -115,16 +116,14 @@ def largest_roll_side(offset: Any) -> Any:
     >>> round(largest_roll_side(2.0**-0.5), 9)
     3.5
     """
-    offset = numbers(offset, "offset", low=0.0, high=1.0)
-    with np.errstate(divide="ignore"):
-        return plain(3.5 * offset / np.sqrt((1.0 - offset) * (1.0 + offset)))
+    return plain(3.5 * tip_friction_of(offset))
 
 
 def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth) -> ContactPoint:
     """Return where a standing ball would have to be struck to move as this one does now (P3.9).
 
-    As the ball slides, the point moves out along a straight line from (0, 0) until natural
-    roll begins at z = 7/5.
+    As the ball slides, the point moves along a straight line through (0, 0), out from a lower
+    point and in from a higher one, until natural roll begins at z = 7/5.
 
     Parameters
     ----------
@@ -144,11 +143,12 @@ def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth
     y, z = _offset(contact.y, "y"), numbers(contact.z, "z", low=0.0, high=2.0, open_low=True)
     speed = positive(speed, "speed")
     slowing = cloth.mu_slide * cloth.gravity
-    # Natural roll ends it, whether the ball slides too slowly or too fast for its spin.
-    slip = 1.0 - 2.5 * (z - 1.0)
-    longest = 2.0 * np.abs(slip) * speed / (7.0 * slowing)
-    lost = np.sign(slip) * slowing * np.minimum(numbers(time, "time", low=0.0), longest)
-    stretch = speed / (speed - lost)
+    # Natural roll ends it at 5/7 z of the speed, slower or faster than the ball began.
+    rolls = 5.0 / 7.0 * z
+    lost = np.minimum(slowing * numbers(time, "time", low=0.0) / speed, np.abs(1.0 - rolls))
+    now = 1.0 - np.sign(1.0 - rolls) * lost
+    # What is lost by then may round to all there is.
+    stretch = 1.0 / np.where(rolls < 1.0, np.maximum(now, rolls), np.minimum(now, rolls))
     return ContactPoint(plain(y * stretch), plain(z * stretch))
 
 
