@@ -7,12 +7,11 @@ import math
 import click
 
 from evenbreak.cli.options import wants_json
+from evenbreak.cli.physics_kit import ball_of
 from evenbreak.cli.physics_units import Measure, Units, decimals, print_answer, wants_metric
 from evenbreak.physics.units import OUNCE
 
 __all__ = ["physics_breakcue"]
-
-POOL_BALL = 6.0 * OUNCE
 
 EXAMPLES = """\b
 Examples:
@@ -54,7 +53,7 @@ def physics_breakcue(
     """
     from evenbreak.physics import best_stick_ratio, break_energy_share
 
-    mass = POOL_BALL if ball is None else ball * units.mass
+    mass = ball_of(ball, units).mass
     arm = forearm * units.mass / mass
     best = best_stick_ratio(arm)
     most = break_energy_share(best, arm)

@@ -11,17 +11,15 @@ import click
 
 from evenbreak.cli.options import NUMBER, refuse, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, print_json, to_terminal
+from evenbreak.cli.physics_kit import ball_of, cue_of, kit_options
 from evenbreak.cli.physics_units import Measure, Units, print_answer, wants_metric
 from evenbreak.cli.plot import plot_option, write_plot
-from evenbreak.physics.units import INCH, OUNCE
 
 if TYPE_CHECKING:
     from evenbreak.cli.options import Command
     from evenbreak.physics import AimedShot, Cloth, Shot, Strike, Table
 
 __all__ = ["physics_shot"]
-
-STICK, BALL, NINE_FEET = 18.0 * OUNCE, 6.0 * OUNCE, 100.0 * INCH
 
 EXAMPLES = """\b
 Examples:
@@ -111,8 +109,6 @@ def _option(
     "Between the end cushions; half as wide.  [default: 100 inches]",
     metavar="LENGTH",
 )
-@_option("--stick", 0.01, 1e5, "18", "Of the cue.  [default: 18 ounces]", metavar="WEIGHT")
-@_option("--ball", 0.01, 1e5, "6", "Of a ball.  [default: 6 ounces]", metavar="WEIGHT")
 @_option(
     "--mu", 0.0, 1.0, "0.06", "Friction between the balls.  [default: 4/72]", default=4.0 / 72.0
 )
@@ -123,23 +119,7 @@ def _option(
     show_default=True,
     help="Let friction end when the slip does, or be the law of the source text.",
 )
-@_option(
-    "--cloth-mu",
-    0.01,
-    1.0,
-    "0.2",
-    "Sliding friction between ball and cloth.",
-    default=0.2,
-    show_default=True,
-)
-@_option(
-    "--tip-mu",
-    0.01,
-    10.0,
-    "0.6",
-    "Static friction between tip and ball.  [default: 0.577, a miscue beyond half the radius]",
-    default=1.0 / math.sqrt(3.0),
-)
+@kit_options
 @wants_metric
 @wants_json
 @plot_option
@@ -155,8 +135,10 @@ def physics_shot(
     from evenbreak.cli.physics_shot_words import answer, phase_rows, phases_text, sentences, shown
     from evenbreak.physics import Cloth, Table
 
-    length = NINE_FEET if how["table_length"] is None else how["table_length"] * units.length
-    table = Table(length=length, width=0.5 * length)
+    table = Table()
+    if how["table_length"] is not None:
+        length = how["table_length"] * units.length
+        table = Table(length=length, width=0.5 * length)
     cloth = Cloth(mu_slide=how["cloth_mu"], mu_roll=1.0 / how["table_speed"])
     hit = _strike(how, units)
     traced = _traced(hit, how, units, cloth=cloth, table=table, mu=mu, friction=friction)
@@ -177,7 +159,7 @@ def physics_shot(
 
 def _strike(how: dict[str, Any], units: Units) -> Strike:
     """Return the hit of the tip, or refuse it."""
-    from evenbreak.physics import Ball, Cue, miscue_offset
+    from evenbreak.physics import miscue_offset
     from evenbreak.physics.strike import strike, strike_for_speed
 
     if (how["speed"] is None) == (how["stick_speed"] is None):
@@ -190,11 +172,8 @@ def _strike(how: dict[str, Any], units: Units) -> Strike:
             f"{most:.3g} of the radius; give less, or a higher --tip-mu"
         )
     kit: dict[str, Any] = {
-        "ball": Ball(mass=BALL if how["ball"] is None else how["ball"] * units.mass),
-        "cue": Cue(
-            mass=STICK if how["stick"] is None else how["stick"] * units.mass,
-            tip_friction=how["tip_mu"],
-        ),
+        "ball": ball_of(how["ball"], units),
+        "cue": cue_of(how["stick"], how["tip_mu"], units),
     }
     if how["speed"] is not None:
         return strike_for_speed(how["speed"] * units.speed, up, right, **kit)

@@ -13,14 +13,11 @@ from evenbreak.cli.physics_units import (
     print_answer,
     wants_metric,
 )
-from evenbreak.physics.units import INCH
 
 __all__ = ["cloth_class", "physics_speed"]
 
 LEAST, MOST = 40.0, 250.0
 """Beyond these speeds a wrong time or unit is likelier than such a table."""
-
-NINE_FEET, POOL_BALL = 100.0 * INCH, 2.25 * INCH
 
 EXAMPLES = """\b
 Examples:
@@ -64,10 +61,10 @@ def physics_speed(
     Roll a ball off the foot cushion so that it just comes to the head cushion, time it from
     cushion to cushion, and take the mean of several. A table speed of 80 to 100 is normal.
     """
-    from evenbreak.physics import lag_speed, table_speed
+    from evenbreak.physics import Ball, Table, lag_speed, table_speed
 
-    length = NINE_FEET if table_length is None else table_length * units.length
-    diameter = POOL_BALL if ball_diameter is None else ball_diameter * units.length
+    length = Table().length if table_length is None else table_length * units.length
+    diameter = Ball().diameter if ball_diameter is None else ball_diameter * units.length
     if length <= diameter:
         refuse(
             f"--table-length {length / units.length:g} leaves no room for a ball of "

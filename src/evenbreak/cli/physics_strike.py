@@ -9,15 +9,13 @@ import click
 
 from evenbreak.cli.options import refuse, wants_json
 from evenbreak.cli.physics_hit import spin_text
+from evenbreak.cli.physics_kit import ball_of, cue_of, kit_options
 from evenbreak.cli.physics_units import Measure, Units, decimals, print_answer, wants_metric
-from evenbreak.physics.units import OUNCE
 
 if TYPE_CHECKING:
     from evenbreak.physics import Cloth, Strike
 
 __all__ = ["physics_strike"]
-
-STICK, BALL = 18.0 * OUNCE, 6.0 * OUNCE
 
 EXAMPLES = """\b
 Examples:
@@ -44,18 +42,6 @@ Examples:
     help="How far to the right of the centre; below 0 to the left.",
 )
 @click.option(
-    "--stick",
-    metavar="WEIGHT",
-    type=Measure(0.01, 1e5, "18"),
-    help="Of the cue.  [default: 18 ounces]",
-)
-@click.option(
-    "--ball",
-    metavar="WEIGHT",
-    type=Measure(0.01, 1e5, "6"),
-    help="Of the cue ball.  [default: 6 ounces]",
-)
-@click.option(
     "--stick-speed",
     metavar="SPEED",
     type=Measure(0.01, 1e5, "60"),
@@ -67,21 +53,7 @@ Examples:
     type=Measure(0.0, 1e5, "24"),
     help="Tell the spin that is left when the ball has gone so far; with --stick-speed.",
 )
-@click.option(
-    "--cloth-mu",
-    metavar="MU",
-    type=Measure(0.01, 1.0, "0.2"),
-    default=0.2,
-    show_default=True,
-    help="Sliding friction between ball and cloth.",
-)
-@click.option(
-    "--tip-mu",
-    metavar="MU",
-    type=Measure(0.01, 10.0, "0.6"),
-    default=1.0 / math.sqrt(3.0),
-    help="Static friction between tip and ball.  [default: 0.577, a miscue beyond half the radius]",
-)
+@kit_options
 @wants_metric
 @wants_json
 def physics_strike(
@@ -100,7 +72,7 @@ def physics_strike(
 
     Offsets are shares of the ball's radius: 0.4 above the centre is natural roll at once.
     """
-    from evenbreak.physics import Ball, Cloth, Cue, strike
+    from evenbreak.physics import Cloth, strike
 
     if distance is not None and stick_speed is None:
         refuse(f"--distance {distance:g} needs the speed of the cue; give --stick-speed")
@@ -114,8 +86,8 @@ def physics_strike(
         1.0 if stick_speed is None else stick_speed * units.speed,
         offset,
         side_offset,
-        ball=Ball(mass=BALL if ball is None else ball * units.mass),
-        cue=Cue(mass=STICK if stick is None else stick * units.mass, tip_friction=tip_mu),
+        ball=ball_of(ball, units),
+        cue=cue_of(stick, tip_mu, units),
     )
     cloth = Cloth(mu_slide=cloth_mu)
     answer = {

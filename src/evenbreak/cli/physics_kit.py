@@ -1,0 +1,68 @@
+"""What a shot is played with: the options for cue, ball and cloth, and what they stand for."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import click
+
+from evenbreak.cli.physics_units import Measure, Units
+
+if TYPE_CHECKING:
+    from evenbreak.cli.options import Command
+    from evenbreak.physics import Ball, Cue
+
+__all__ = ["ball_of", "cue_of", "kit_options"]
+
+
+def kit_options(command: Command) -> Command:
+    """Add the options --stick, --ball, --cloth-mu and --tip-mu."""
+    for option in (
+        click.option(
+            "--tip-mu",
+            metavar="MU",
+            type=Measure(0.01, 10.0, "0.6"),
+            default=1.0 / math.sqrt(3.0),
+            help="Static friction between tip and ball.  "
+            "[default: 0.577, a miscue beyond half the radius]",
+        ),
+        click.option(
+            "--cloth-mu",
+            metavar="MU",
+            type=Measure(0.01, 1.0, "0.2"),
+            default=0.2,
+            show_default=True,
+            help="Sliding friction between ball and cloth.",
+        ),
+        click.option(
+            "--ball",
+            metavar="WEIGHT",
+            type=Measure(0.01, 1e5, "6"),
+            help="Of a ball.  [default: 6 ounces]",
+        ),
+        click.option(
+            "--stick",
+            metavar="WEIGHT",
+            type=Measure(0.01, 1e5, "18"),
+            help="Of the cue.  [default: 18 ounces]",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def ball_of(weight: float | None, units: Units) -> Ball:
+    """Return a pool ball, of another weight if one was typed."""
+    from evenbreak.physics import Ball
+
+    return Ball() if weight is None else Ball(mass=weight * units.mass)
+
+
+def cue_of(weight: float | None, tip_mu: float, units: Units) -> Cue:
+    """Return a cue with such a tip, of another weight if one was typed."""
+    from evenbreak.physics import Cue
+
+    if weight is None:
+        return Cue(tip_friction=tip_mu)
+    return Cue(mass=weight * units.mass, tip_friction=tip_mu)
