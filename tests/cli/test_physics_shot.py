@@ -145,6 +145,7 @@ def test_a_terminal_tells_it_in_sentences(run, monkeypatch, line, words):
         (PLAIN + " --cue-ball 7", "'--cue-ball': '7'; give two numbers with a comma"),
         (PLAIN + " --side-offset 0.45", "is a miscue: the tip slips beyond 0.5"),
         (AIMED.replace("foot-left", "corner"), "--pocket 'corner'; give one of head-right"),
+        (AIMED.replace("50,25", "98.5,48.5"), "--object-ball hangs in --pocket foot-left, where"),
         (AIMED.replace("foot-left", "head-right"), "where no cut sends the object ball"),
         (AIMED.replace("25,16", "50,24"), "overlap; put them 2.25 inches apart or more"),
         (PLAIN + " --plot shot.gif", "name a file that ends in .png or .svg"),

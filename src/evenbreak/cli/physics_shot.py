@@ -207,6 +207,11 @@ def _traced(
         if how["pocket"] not in POCKET_NAMES:
             refuse(f"--pocket {how['pocket']!r}; give one of {', '.join(POCKET_NAMES)}")
         pocket = pockets(table)[POCKET_NAMES.index(how["pocket"])]
+        if math.dist(places[1] or start, (pocket.x, pocket.y)) <= hit.ball.radius:
+            refuse(
+                f"--object-ball hangs in --pocket {how['pocket']}, where any hit that pushes it "
+                "in will do; put it farther out, or say --cut and --distance"
+            )
         return aimed_shot(hit, start, places[1] or start, (pocket.x, pocket.y), **kit)
     except InputError:
         apart = math.dist(start, places[1]) if places[1] else how["distance"] * units.length
