@@ -40,6 +40,18 @@ def test_outside_english_is_on_the_side_away_from_the_cut(ask_physics):
     assert english == ["inside", "outside", "inside", "left"]
 
 
+@pytest.mark.parametrize("line", ["--cut 30 --side -0.5", "--cut -30 --side 0.5"])
+@pytest.mark.parametrize("friction", ["limited", "shepard"])
+def test_english_that_leaves_no_slip_leaves_no_throw(ask_physics, line, friction):
+    line = f"{line} --topspin 0 --friction {friction}"
+    told = ask_physics("throw", line)
+    assert told["throw_deg"] == told["throw_factor"] == 0.0
+    assert told["friction_stops"] is False
+    assert told["sensitivity"] is None
+    assert ask_physics("aim", f"{line} --distance 36")["offset_in"] == 0.0
+    assert ask_physics("deflect", line)["throw_deg"] == 0.0
+
+
 def test_the_slip_ends_within_a_full_stun_shot(ask_physics):
     line = "--cut 10 --topspin 0"
     told = ask_physics("throw", line)

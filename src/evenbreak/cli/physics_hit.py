@@ -46,8 +46,16 @@ class Hit(NamedTuple):
 
     @property
     def side_in_frame(self) -> float:
-        """J_z of this hit, or of its mirror image where the cut is to the left."""
-        return -self.side if self.cut < 0.0 else self.side
+        """J_z of this hit, or of its mirror image where the cut is to the left.
+
+        No decimal is sin(30 degrees) to the last bit, and what is left over would be a slip, to
+        which the law of the text gives its full throw.
+        """
+        from evenbreak.physics import gearing_side
+
+        side = -self.side if self.cut < 0.0 else self.side
+        without_slip = float(gearing_side(self.angle))
+        return without_slip if abs(side - without_slip) < 1e-12 else side
 
     @property
     def turn(self) -> str:
