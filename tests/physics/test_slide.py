@@ -179,6 +179,13 @@ def test_a_ball_that_hardly_moves_is_no_trouble(tiny: float) -> None:
     assert math.isfinite(shot.slide_time)
 
 
+def test_a_slide_keeps_its_own_numbers() -> None:
+    velocity = np.array([1.0, 0.0])
+    shot = Slide(BALL, CLOTH, [0.0, 0.0], velocity, [0.0, 0.0, 0.0])
+    velocity[0] = 9.0
+    assert shot.velocity.tolist() == [1.0, 0.0]
+
+
 def test_refusals() -> None:
     with pytest.raises(InputError, match=r"velocity has shape \(3,\); give \(\.\.\., 2\)"):
         Slide(BALL, CLOTH, [0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0])

@@ -16,6 +16,7 @@ whatever the friction.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -190,31 +191,31 @@ class Slide:
 
     def __post_init__(self) -> None:
         for name, size in (("position", 2), ("velocity", 2), ("spin", 3)):
-            array = numbers(getattr(self, name), name)
+            array = numbers(getattr(self, name), name).copy()
             if array.ndim == 0 or array.shape[-1] != size:
                 raise InputError(f"{name} has shape {array.shape}; give (..., {size})")
             object.__setattr__(self, name, array)
 
-    @property
+    @cached_property
     def slip(self) -> Floats:
         """The velocity of the point that touches the cloth, at time 0; shape (..., 2)."""
         return self.velocity - self.ball.radius * _forward(self.spin)
 
-    @property
+    @cached_property
     def slide_time(self) -> Any:
         """Seconds until natural roll begins."""
         pull = self.cloth.mu_slide * self.cloth.gravity
-        return plain(2.0 * np.hypot(*np.moveaxis(self.slip, -1, 0)) / (7.0 * pull))
+        return plain(2.0 * np.hypot(self.slip[..., 0], self.slip[..., 1]) / (7.0 * pull))
 
-    @property
+    @cached_property
     def roll_velocity(self) -> Floats:
         """The velocity with which natural roll begins; shape (..., 2)."""
         return roll_velocity(self.velocity, self.ball.radius * self.spin)
 
-    @property
+    @cached_property
     def stop_time(self) -> Any:
         """Seconds until the ball rests."""
-        speed = np.hypot(*np.moveaxis(self.roll_velocity, -1, 0))
+        speed = np.hypot(self.roll_velocity[..., 0], self.roll_velocity[..., 1])
         return plain(self.slide_time + speed / (self.cloth.mu_roll * self.cloth.gravity))
 
     @property
