@@ -17,7 +17,7 @@ HUGE = Table(length=400.0, width=400.0)
 START = np.array([200.0, 200.0])
 RADIUS = Ball().radius
 
-few = settings(max_examples=10)
+few = settings(max_examples=8)
 
 
 def aimed(tip, angle, *, gap=0.5, far=1.0, **how):
@@ -104,6 +104,12 @@ def test_a_shot_that_is_too_soft_is_aimed_without_throw():
     found = aimed_shot(strike_for_speed(0.1), START, (201.0, 200.0), (202.0, 200.5), table=HUGE)
     assert not found.shot.reached
     assert (found.turn, found.miss) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("mu", [-0.1, math.nan, [0.1, 0.2]])
+def test_one_friction_for_one_shot(mu):
+    with pytest.raises(InputError, match="mu "):
+        aimed((0.0, 0.0), 0.3, mu=mu)
 
 
 @pytest.mark.parametrize(

@@ -230,6 +230,8 @@ def test_where_a_ball_meets_a_cushion_its_path_ends():
         ({"strike": strike(1.0, 0.4, 0.4)}, "a miscue: this tip slips beyond 0.5"),
         ({"strike": strike([1.0, 2.0])}, "2 strikes; give one"),
         ({"mu": -1.0}, "mu is -1.0"),
+        ({"mu": -1.0, "strike": strike(0.01)}, "mu is -1.0"),
+        ({"mu": [0.1, 0.2]}, "mu has shape"),
         ({"friction": "none"}, "friction is 'none'"),
         ({"cut": [0.1, 0.2]}, "give one number"),
         ({"direction": math.nan}, "direction"),

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
-from evenbreak.physics.leg import State, on_table, time_to
+from evenbreak.physics.arrays import Floats
+from evenbreak.physics.leg import State, on_table, place_of, time_to
 from evenbreak.physics.objects import Cloth, Table
-from evenbreak.physics.shot import Shot, shot, sound_strike, spin_ratios, travel_for
+from evenbreak.physics.shot import Shot, one_number, shot, sound_strike, spin_ratios, travel_for
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
 from evenbreak.physics.throw import BALL_FRICTION, throw_angle
@@ -114,8 +114,9 @@ def aimed_shot(
     """
     cloth, table = cloth or Cloth(), table or Table()
     sound_strike(strike)
+    mu = one_number(mu, "mu", low=0.0)
     places = {"cue_ball": cue_ball, "object_ball": object_ball, "target": target}
-    start, standing, goal = (_place(value, name) for name, value in places.items())
+    start, standing, goal = (place_of(value, name) for name, value in places.items())
     diameter = strike.ball.diameter
     distance = float(np.linalg.norm(standing - start))
     if np.linalg.norm(goal - standing) <= strike.ball.radius:
@@ -177,13 +178,6 @@ def _solve(short: Callable[[float], float]) -> float:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if short(middle) > 0.0 else (low, middle)
     return 0.5 * (low + high)
-
-
-def _place(value: Sequence[float], name: str) -> Floats:
-    place = numbers(value, name)
-    if place.shape != (2,):
-        raise InputError(f"{name} has shape {place.shape}; give x and y")
-    return place
 
 
 def _heading(vector: Floats) -> float:

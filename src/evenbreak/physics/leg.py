@@ -6,26 +6,26 @@ It slides and then rolls, as `slide` has it; here the way has an end and a clock
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats
+from evenbreak.physics.arrays import Floats, numbers
 from evenbreak.physics.objects import Table
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.rolling import Energy, kinetic_energy
 from evenbreak.physics.slide import Slide
 
-__all__ = ["ENDINGS", "Leg", "Phase", "State", "leg_until", "on_table", "time_to"]
+__all__ = ["ENDINGS", "Leg", "Phase", "State", "leg_until", "on_table", "place_of", "time_to"]
 
 ENDINGS = ("rest", "hit", "cushion", "pocket")
 """How a leg can end."""
 
 _SLACK = 1e-9
 """A nanometre: what rounding may push a ball into the cushion that it rolls along."""
-
 
 _INSTANT = 1e-12
 """What rounding may let a ball slide that is struck into natural roll, in seconds."""
@@ -226,6 +226,14 @@ def time_to(slide: Slide, normal: Floats, level: float) -> float:
         if took <= end - begin:
             return begin + took
     return math.inf
+
+
+def place_of(value: Sequence[float], name: str) -> Floats:
+    """Return a place on the table as an array of x and y, or refuse it."""
+    place = numbers(value, name)
+    if place.shape != (2,):
+        raise InputError(f"{name} has shape {place.shape}; give x and y")
+    return place
 
 
 def on_table(position: Floats, name: str, table: Table, radius: float) -> None:

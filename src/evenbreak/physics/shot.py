@@ -23,14 +23,14 @@ from evenbreak.errors import InputError
 from evenbreak.physics.arrays import Floats, numbers
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import miscue_offset
-from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, time_to
+from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, place_of, time_to
 from evenbreak.physics.objects import Ball, Cloth, Table
 from evenbreak.physics.rolling import Energy
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
 from evenbreak.physics.throw import BALL_FRICTION, FRICTION_LAWS
 
-__all__ = ["Shot", "shot", "spin_ratios", "travel_for"]
+__all__ = ["Shot", "one_number", "shot", "sound_strike", "spin_ratios", "travel_for"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,17 +199,17 @@ def shot(
     """
     cloth, table = cloth or Cloth(), table or Table()
     sound_strike(strike)
+    # Also where no ball is hit, and nothing asks for them.
     one_of(friction, "friction", FRICTION_LAWS)
-    cut, direction = _one(cut, "cut"), _one(direction, "direction")
+    mu = one_number(mu, "mu", low=0.0)
+    cut, direction = one_number(cut, "cut"), one_number(direction, "direction")
     if abs(cut) >= 0.5 * math.pi:
         raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2, not those")
     ball = strike.ball
-    travel = travel_for(cut, _one(distance, "distance"), ball.diameter)
-    place = numbers(
-        (0.25 * table.length, 0.5 * table.width) if cue_ball is None else cue_ball, "cue_ball"
-    )
-    if place.shape != (2,):
-        raise InputError(f"cue_ball has shape {place.shape}; give x and y")
+    travel = travel_for(cut, one_number(distance, "distance"), ball.diameter)
+    if cue_ball is None:
+        cue_ball = (0.25 * table.length, 0.5 * table.width)
+    place = place_of(cue_ball, "cue_ball")
     struck = place + travel * _unit(direction)
     standing = struck + ball.diameter * _unit(direction - cut)
     on_table(place, "cue_ball", table, ball.radius)
@@ -321,8 +321,9 @@ def _unit(angle: float) -> Floats:
     return np.array([math.cos(angle), math.sin(angle)])
 
 
-def _one(value: float, name: str) -> float:
-    number = numbers(value, name)
+def one_number(value: float, name: str, *, low: float = -math.inf) -> float:
+    """Return a finite number, or refuse it, and arrays too."""
+    number = numbers(value, name, low=low)
     if number.ndim:
         raise InputError(f"{name} has shape {number.shape}; give one number")
     return float(number)
