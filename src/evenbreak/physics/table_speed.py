@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 from evenbreak.physics.arrays import numbers, plain, positive
@@ -10,12 +13,14 @@ from evenbreak.physics.units import STANDARD_GRAVITY
 
 __all__ = ["TABLE_SPEEDS", "lag_distance", "lag_speed", "roll_distance", "roll_time", "table_speed"]
 
-TABLE_SPEEDS = {
-    "very slow": (50.0, 70.0),
-    "normal": (80.0, 100.0),
-    "very fast": (120.0, 150.0),
-    "fast billiard": (150.0, float("inf")),
-}
+TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {
+        "very slow": (50.0, 70.0),
+        "normal": (80.0, 100.0),
+        "very fast": (120.0, 150.0),
+        "fast billiard": (150.0, math.inf),
+    }
+)
 """Table speeds as players call them; worsted cloth, when new, has 100 to 130."""
 
 

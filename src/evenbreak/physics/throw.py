@@ -207,7 +207,7 @@ def aim(
     (0.5, 0.528)
     """
     wanted, topspin, side = shot_of(cut, topspin, side)
-    distance = numbers(distance, "distance", low=0.0)
+    distance, mu = numbers(distance, "distance", low=0.0), numbers(mu, "mu", low=0.0)
 
     def throw(angle: Floats) -> Any:
         # Beyond a full hit the ball is cut the other way, and english changes its side.
@@ -215,7 +215,7 @@ def aim(
         found = throw_angle(np.abs(angle), topspin, turned, mu=mu, friction=friction)
         return np.where(angle < 0.0, -found, found)
 
-    largest = np.arctan(numbers(mu, "mu", low=0.0))
+    largest = np.arctan(mu)
     low, high = np.broadcast_arrays(wanted - largest, np.minimum(wanted + largest, math.pi / 2.0))
     if np.any(high - throw(high) < wanted - 1e-12):
         raise InputError(
