@@ -11,6 +11,8 @@ from evenbreak.physics import shot, strike_for_speed
 from evenbreak.physics.units import INCH
 
 PLAIN = "--cut 30 --distance 24 --speed 60 --offset -0.3"
+FROZEN = "--cue-ball 20,1.125 --object-ball 50,1.125 --pocket foot-right --speed 60"
+FLAT = "--cue-ball 90,40 --object-ball 70,44 --pocket side-left --speed 60"
 AIMED = "--cue-ball 25,16 --object-ball 50,25 --pocket foot-left --speed 60"
 
 
@@ -83,6 +85,15 @@ def test_aimed_at_a_pocket_the_ball_falls(ask):
     assert mirror["direction_deg"] == pytest.approx(-told["direction_deg"])
 
 
+def test_a_straight_shot_has_no_angles_that_rounding_made(ask):
+    backwards = ask("--cue-ball 60,5 --object-ball 30,25 --pocket head-left --speed 60")
+    assert -180.0 <= backwards["direction_deg"] <= 180.0
+    told = ask(FROZEN)
+    for key in ("cut_deg", "throw_deg", "object_cut_deg", "aim_turn_deg", "direction_deg"):
+        assert told[key] == 0.0
+    assert (told["target_y_in"], told["object_pocket"]) == (pytest.approx(1.125), "foot-right")
+
+
 def test_csv_has_what_json_has_but_the_phases(ask, run):
     told = ask(AIMED)
     del told["schema_version"], told["phases"]
@@ -121,6 +132,11 @@ def on_a_terminal(run, monkeypatch, line):
         ("--cut 0 --distance 9 --speed 50 --offset 0.4", "natural roll, rolling from the tip on."),
         ("--cut 0 --distance 9 --speed 0", "it stops after 0.0 inches."),
         (AIMED + " --mu 0", "there is no throw to speak of"),
+        (FROZEN, "so play it 0.47 inches to the right of that. Aim at that point: there is no"),
+        (FROZEN, "falls into the pocket foot-right"),
+        (FROZEN.replace("20,1.125", "20,10") + " --side-offset 0.1", "throw brings the ball back"),
+        (AIMED.replace("60", "30"), "The object ball does not fall: it comes to rest 35.7 inches"),
+        (FLAT, "The object ball does not fall: it comes so flat that the mouth is 1.43 inches"),
     ],
 )
 def test_a_terminal_tells_it_in_sentences(run, monkeypatch, line, words):
@@ -137,6 +153,8 @@ def test_a_terminal_tells_it_in_sentences(run, monkeypatch, line, words):
         ("--speed 60", "give --cut and --distance, or --cue-ball, --object-ball"),
         ("--cut 30 --speed 60", "give --cut and --distance, or"),
         (PLAIN + " --pocket foot-left", "give --cut and --distance, or"),
+        (AIMED + " --cut 30", "in one way, not with --cut beside --pocket: give"),
+        (FROZEN.replace("20,1.125", "20,10"), "so near a cushion that the cue ball would have to"),
         ("--object-ball 50,25 --speed 60", "give --cut and --distance, or"),
         ("--cut 95 --distance 9 --speed 60", "'--cut': '95'; give a number from -89 to 89"),
         ("--cut 5 --distance 1 --speed 60", "--distance 1 is between the centres; give 2.25"),

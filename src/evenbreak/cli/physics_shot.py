@@ -17,7 +17,7 @@ from evenbreak.cli.plot import plot_option, write_plot
 
 if TYPE_CHECKING:
     from evenbreak.cli.options import Command
-    from evenbreak.physics import AimedShot, Cloth, Shot, Strike, Table
+    from evenbreak.physics import AimedShot, Pocket, Shot, Strike, Table
 
 __all__ = ["physics_shot"]
 
@@ -54,7 +54,7 @@ def _option(
 
 
 @click.command("shot", epilog=EXAMPLES)
-@_option("--cut", -89.0, 89.0, "30", "Cut angle; below 0 to the left.", metavar="DEGREES")
+@_option("--cut", -89.0, 89.0, "30", "Cut angle, to 89; below 0 to the left.", metavar="DEGREES")
 @_option("--distance", 0.1, 1e4, "24", "Between the centres of the two balls.", metavar="LENGTH")
 @click.option(
     "--cue-ball",
@@ -141,7 +141,9 @@ def physics_shot(
         table = Table(length=length, width=0.5 * length)
     cloth = Cloth(mu_slide=how["cloth_mu"], mu_roll=1.0 / how["table_speed"])
     hit = _strike(how, units)
-    traced = _traced(hit, how, units, cloth=cloth, table=table, mu=mu, friction=friction)
+    pocket = _pocket(how, table)
+    kit: dict[str, Any] = {"cloth": cloth, "table": table, "mu": mu, "friction": friction}
+    traced = _traced(hit, how, units, pocket=pocket, **kit)
     if plot is not None:
         from evenbreak.reports.shot_on_table import shot_on_table
 
@@ -151,7 +153,7 @@ def physics_shot(
         rows = phase_rows(traced, units)
         print_json({**found, "phases": rows, "schema_version": SCHEMA_VERSION})
         return
-    print_answer(found, shown=shown(units), heading=sentences(traced, units), as_json=False)
+    print_answer(found, shown=shown(units), heading=sentences(traced, units, pocket), as_json=False)
     phases = phases_text(traced, units)
     if phases and to_terminal():
         click.echo(f"\n{phases}", nl=False)
@@ -180,42 +182,61 @@ def _strike(how: dict[str, Any], units: Units) -> Strike:
     return strike(how["stick_speed"] * units.speed, up, right, **kit)
 
 
+def _pocket(how: dict[str, Any], table: Table) -> Pocket | None:
+    """Return the pocket of that name, None where there is none; refuse half of a layout."""
+    from evenbreak.physics import POCKET_NAMES, pockets
+
+    angles = [f"--{name}" for name in ("cut", "distance") if how[name] is not None]
+    names = {"object_ball": "--object-ball", "pocket": "--pocket"}
+    where = [option for name, option in names.items() if how[name] is not None]
+    if len(angles) % 2 or len(where) % 2 or bool(angles) == bool(where):
+        both = angles and where
+        refuse(
+            "Say where the balls are"
+            + (f" in one way, not with {angles[0]} beside {where[-1]}" if both else "")
+            + ": give --cut and --distance, or --cue-ball, --object-ball and --pocket"
+        )
+    if angles:
+        return None
+    if how["pocket"] not in POCKET_NAMES:
+        refuse(f"--pocket {how['pocket']!r}; give one of {', '.join(POCKET_NAMES)}")
+    return pockets(table)[POCKET_NAMES.index(how["pocket"])]
+
+
 def _traced(
-    hit: Strike, how: dict[str, Any], units: Units, *, cloth: Cloth, table: Table, **ball_ball: Any
+    hit: Strike, how: dict[str, Any], units: Units, *, pocket: Pocket | None, **kit: Any
 ) -> Shot | AimedShot:
     """Return the shot of either way to say where the balls are, or refuse it."""
     from evenbreak.errors import InputError
-    from evenbreak.physics.aimed import aimed_shot
-    from evenbreak.physics.pockets import POCKET_NAMES, pockets
-    from evenbreak.physics.shot import shot
+    from evenbreak.physics import pocketed_shot, shot
 
-    where = [how[name] is not None for name in ("object_ball", "pocket")]
-    angles = [how[name] is not None for name in ("cut", "distance")]
-    if any(where) == any(angles) or not (all(where) or all(angles)):
-        refuse(
-            "Say where the balls are: give --cut and --distance, or --cue-ball, --object-ball "
-            "and --pocket"
-        )
+    table: Table = kit["table"]
     places = [_metres(how[name], units) for name in ("cue_ball", "object_ball")]
     _check_places(places, table, hit.ball.radius, units)
-    kit: dict[str, Any] = {"cloth": cloth, "table": table, **ball_ball}
     start = places[0] or (0.25 * table.length, 0.5 * table.width)
+    standing = places[1] or start
     try:
-        if all(angles):
+        if pocket is None:
             apart = how["distance"] * units.length
             return shot(hit, math.radians(how["cut"]), apart, cue_ball=start, **kit)
-        if how["pocket"] not in POCKET_NAMES:
-            refuse(f"--pocket {how['pocket']!r}; give one of {', '.join(POCKET_NAMES)}")
-        pocket = pockets(table)[POCKET_NAMES.index(how["pocket"])]
-        if math.dist(places[1] or start, (pocket.x, pocket.y)) <= hit.ball.radius:
+        if math.dist(standing, (pocket.x, pocket.y)) <= hit.ball.radius:
             refuse(
                 f"--object-ball hangs in --pocket {how['pocket']}, where any hit that pushes it "
                 "in will do; put it farther out, or say --cut and --distance"
             )
-        return aimed_shot(hit, start, places[1] or start, (pocket.x, pocket.y), **kit)
+        found = pocketed_shot(hit, start, standing, pocket, **kit)
     except InputError:
-        apart = math.dist(start, places[1]) if places[1] else how["distance"] * units.length
+        apart = how["distance"] * units.length if pocket is None else math.dist(start, standing)
         _refuse_layout(how, units, apart, hit.ball.diameter)
+    if found.shot.collision is None and found.shot.approach.ending != "rest":
+        x, y = how["object_ball"]
+        refuse(
+            f"--object-ball {x:g},{y:g} is so near a cushion that the cue ball would have to be "
+            f"in it to send the ball into --pocket {pocket.name}, throw allowed for; put it "
+            "farther out, name another pocket, or give outside english (--side-offset), which "
+            "throws less"
+        )
+    return found
 
 
 def _metres(place: tuple[float, float] | None, units: Units) -> tuple[float, float] | None:

@@ -10,7 +10,7 @@ from evenbreak.cli.physics_hit import spin_text
 from evenbreak.cli.physics_units import Units, decimals
 
 if TYPE_CHECKING:
-    from evenbreak.physics import AimedShot, Leg, Phase, Shot
+    from evenbreak.physics import AimedShot, Leg, Phase, Pocket, Shot
 
 __all__ = ["answer", "phase_rows", "phases_text", "sentences", "shown"]
 
@@ -31,17 +31,24 @@ def answer(traced: Shot | AimedShot, units: Units) -> dict[str, Any]:
         f"stick_speed_{speed}": hit.stick_speed / units.speed,
         "spin_speed_ratio": hit.topspin,
         "side_spin_speed_ratio": hit.side,
-        "direction_deg": -math.degrees(found.direction),
-        "cut_deg": math.degrees(found.cut),
+        "direction_deg": -_degrees(math.remainder(found.direction, 2.0 * math.pi)),
+        "cut_deg": _degrees(found.cut),
         "reached": found.reached,
         **_at_hit(found, units),
+        "target_x_" + length: aimed and float(aimed.target[0]) / units.length,
+        "target_y_" + length: aimed and float(aimed.target[1]) / units.length,
         "aim_offset_" + length: aimed and _right(aimed) * aimed.offset / units.length,
-        "aim_turn_deg": aimed and _right(aimed) * math.degrees(aimed.turn),
+        "aim_turn_deg": aimed and _right(aimed) * _degrees(aimed.turn),
         "miss_" + length: aimed and aimed.miss / units.length,
         **_way("approach", found.approach, units),
         **_way("cue", found.cue_leg, units),
         **_way("object", found.object_leg, units),
     }
+
+
+def _degrees(angle: float) -> float:
+    """Return an angle in degrees, without what rounding leaves of none."""
+    return math.degrees(angle) if abs(angle) > 1e-13 else 0.0
 
 
 def _right(aimed: AimedShot) -> float:
@@ -71,8 +78,8 @@ def _at_hit(found: Shot, units: Units) -> dict[str, Any]:
         state.speed / units.speed,
         topspin,
         side,
-        math.degrees(throw),
-        math.copysign(1.0, found.cut) * math.degrees(cut - throw),
+        _degrees(throw),
+        math.copysign(1.0, found.cut) * _degrees(cut - throw),
         smooth,
         None if thrown is None else math.degrees(thrown),
         found.approach.energy(state.time).total - found.energy(state.time).total,
@@ -162,8 +169,8 @@ def phases_text(traced: Shot | AimedShot, units: Units) -> str:
     return aligned(rows, left=2)
 
 
-def sentences(traced: Shot | AimedShot, units: Units) -> str:
-    """Return what happens, in sentences."""
+def sentences(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = None) -> str:
+    """Return what happens, in sentences; `pocket` is that of an aimed shot."""
     found, aimed = _parts(traced)
     state = found.at_hit
     if state is None:
@@ -172,13 +179,15 @@ def sentences(traced: Shot | AimedShot, units: Units) -> str:
             f"The cue ball never reaches the object ball: it {how[found.approach.ending]} after "
             f"{decimals(found.approach.length / units.length, 1)} {units.length_word}."
         )
-    told = [_aim_text(aimed, units)] if aimed else []
+    told = []
+    if aimed and pocket:
+        told += [_miss_text(found, pocket, units), _aim_text(aimed, pocket, units)]
     topspin = answer(found, units)["hit_spin_speed_ratio"]
     spin = spin_text(round(topspin, 3))
     after = f"after {decimals(state.time)} s" if found.approach.phases else "at once"
     told.append(f"The cue ball hits {after} with {spin}{_slid_text(found.approach)}.")
     told += [_end_text(leg, units) for leg in (found.object_leg, found.cue_leg) if leg]
-    return "\n".join(told)
+    return "\n".join(filter(None, told))
 
 
 def _slid_text(leg: Leg) -> str:
@@ -198,14 +207,47 @@ def _end_text(leg: Leg, units: Units) -> str:
     return f"{way} meets a cushion {pace}; it is not followed from there."
 
 
-def _aim_text(aimed: AimedShot, units: Units) -> str:
+def _miss_text(found: Shot, pocket: Pocket, units: Units) -> str:
+    """Return that the object ball does not fall, and why; nothing where it does."""
+    leg = found.object_leg
+    if leg is None or leg.ending == "pocket":
+        return ""
+    end = leg.state(leg.end)
+    if leg.ending == "rest":
+        left = math.dist(end.position, (pocket.x, pocket.y)) / units.length
+        why = f"it comes to rest {decimals(left, 1)} {units.length_word} short of the pocket"
+    elif (gap := pocket.width_from(*end.velocity)) < found.strike.ball.diameter:
+        why = (
+            f"it comes so flat that the mouth is {decimals(gap / units.length)} "
+            f"{units.length_word} wide for it, less than the ball"
+        )
+    else:
+        why = "it meets a cushion before the pocket"
+    return f"The object ball does not fall: {why}."
+
+
+def _aim_text(aimed: AimedShot, pocket: Pocket, units: Units) -> str:
+    goal, told = "the middle of the pocket", ""
+    x, y = aimed.target - aimed.shot.object_position
+    beside = (pocket.x - aimed.target[0]) * y - (pocket.y - aimed.target[1]) * x
+    # How far to the right of the middle the target is, seen from the object ball.
+    right = -float(beside) / aimed.distance / units.length
+    if right:
+        side = "right" if right > 0.0 else "left"
+        goal = "that point"
+        told = (
+            f"A cushion is in the way of a shot at the middle of the pocket, so play it "
+            f"{decimals(abs(right))} {units.length_word} to the {side} of that.\n"
+        )
     right = answer(aimed, units)[f"aim_offset_{units.length_key}"]
     amount = decimals(abs(right))
     if float(amount) == 0.0:
-        return "Aim at the middle of the pocket: there is no throw to speak of."
+        return f"{told}Aim at {goal}: there is no throw to speak of."
     turn = "right" if right > 0.0 else "left"
+    aim = f"{told}Aim {amount} {units.length_word} to the {turn} of {goal}: "
+    if aimed.unaided.throw is None:
+        return f"{aim}throw brings the ball back."
     return (
-        f"Aim {amount} {units.length_word} to the {turn} of the middle of the pocket: without "
-        f"that, throw takes the ball {decimals(abs(aimed.miss) / units.length)} "
+        f"{aim}without that, throw takes the ball {decimals(abs(aimed.miss) / units.length)} "
         f"{units.length_word} off it."
     )

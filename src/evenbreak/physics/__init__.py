@@ -65,6 +65,7 @@ __getattr__, __dir__, __all__ = attach(
             "strike_side",
             "stun_offset",
         ],
+        "pocketed": ["pocketed_shot"],
         "pockets": ["POCKET_NAMES", "Pocket", "pockets"],
         "rolling": [
             "Energy",

@@ -50,6 +50,7 @@ from evenbreak.physics.offset import small_circle_point as small_circle_point
 from evenbreak.physics.offset import spin_of_offset as spin_of_offset
 from evenbreak.physics.offset import strike_side as strike_side
 from evenbreak.physics.offset import stun_offset as stun_offset
+from evenbreak.physics.pocketed import pocketed_shot as pocketed_shot
 from evenbreak.physics.pockets import POCKET_NAMES as POCKET_NAMES
 from evenbreak.physics.pockets import Pocket as Pocket
 from evenbreak.physics.pockets import pockets as pockets

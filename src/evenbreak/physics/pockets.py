@@ -70,10 +70,21 @@ class Pocket(NamedTuple):
         near = math.hypot(self.x - x, self.y - y) <= self.mouth
         if not near or length == 0.0:
             return False
-        # A ball that comes at a slant finds the mouth as narrow as it looks from there.
-        facing = (along_x * self.into_x + along_y * self.into_y) / length
         beside = abs((self.x - x) * along_y - (self.y - y) * along_x) / length
-        return beside <= 0.5 * self.mouth * facing - radius + 1e-9
+        return beside <= 0.5 * self.width_from(along_x, along_y) - radius + 1e-9
+
+    def width_from(self, along_x: float, along_y: float) -> float:
+        """Return how wide the mouth is for a ball that comes in this direction, in metres.
+
+        A ball that comes at a slant finds it as narrow as it looks from there; from behind
+        it is below 0.
+
+        >>> pocket = pockets(Table())[1]
+        >>> pocket.width_from(0.0, -2.0) == pocket.mouth, pocket.width_from(1.0, 0.0)
+        (True, 0.0)
+        """
+        facing = along_x * self.into_x + along_y * self.into_y
+        return self.mouth * facing / math.hypot(along_x, along_y)
 
 
 def pockets(table: Table) -> tuple[Pocket, ...]:
