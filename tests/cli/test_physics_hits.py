@@ -110,14 +110,19 @@ def hit(cut, topspin=1.0, side=0.0):
 
 
 def test_advice_names_the_side():
-    assert _advice(0.5, hit(14.0), PLAYERS) == (
+    assert _advice(0.5, 0.2, hit(14.0), PLAYERS) == (
         "Aim 0.50 inches to the right of the pocket's centre, a thinner cut: the throw "
         "brings the ball back."
     )
-    assert "to the left of the pocket's centre, a thinner cut" in _advice(-0.5, hit(-14), PLAYERS)
-    assert "to the left of the pocket's centre, a fuller cut" in _advice(-0.5, hit(14), PLAYERS)
-    assert "to the left of the pocket's centre: the" in _advice(-0.5, hit(0.0), PLAYERS)
-    assert "throw is less than 0.01 inches there" in _advice(0.001, hit(14.0), PLAYERS)
+    assert "to the left of the pocket's centre, a thinner cut" in _advice(
+        -0.5, 0.2, hit(-14), PLAYERS
+    )
+    assert "to the left of the pocket's centre, a fuller cut" in _advice(
+        -0.5, 0.2, hit(14), PLAYERS
+    )
+    assert "to the left of the pocket's centre: the" in _advice(-0.5, 0.2, hit(0.0), PLAYERS)
+    assert "centre, a cut to the left: the" in _advice(-2.0, -0.04, hit(1.0), PLAYERS)
+    assert "throw is less than 0.01 inches there" in _advice(0.001, 0.2, hit(14.0), PLAYERS)
 
 
 def test_deflections_of_the_text(ask_physics):

@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.cli.physics_kit import ball_of, cue_of
+from evenbreak.cli.physics_kit import ball_of, cue_of, doubts
 from evenbreak.cli.physics_units import METRIC, PLAYERS
 from evenbreak.physics import Ball, Cue
 from evenbreak.physics.units import OUNCE
@@ -51,3 +51,40 @@ def test_a_rougher_tip_holds_farther_out_in_both(run):
     assert '"miscue": false' in run(*strike, "--tip-mu", "0.7").stdout
     assert "is a miscue" in run(*shot).stderr
     assert run(*shot, "--tip-mu", "0.7").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("units", "typed", "words"),
+    [
+        (METRIC, {"stick": 18.0}, "Is --stick 18 grams? 280 to 850 are usual; without --metric it"),
+        (
+            PLAYERS,
+            {"stick": 540.0},
+            "Is --stick 540 ounces? 10 to 30 are usual; --metric takes gra",
+        ),
+        (METRIC, {"forearm": 36.0}, "without --metric it is ounces."),
+        (METRIC, {"speed": 60.0}, "60 metres a second? 0 to 15 are usual; without --metric it is"),
+        (PLAYERS, {"stick_speed": 6e3}, "Is --stick-speed 6000 inches a second?"),
+    ],
+)
+def test_units_that_were_mistaken_are_asked_about(units, typed, words):
+    assert words in doubts(units, **typed)
+
+
+def test_what_players_use_is_not_doubted():
+    usual = {"stick": 19.0, "ball": 6.0, "forearm": 36.0, "speed": 80.0, "stick_speed": None}
+    assert doubts(PLAYERS, **usual) == ""
+    assert doubts(METRIC, stick=538.0, ball=170.0, forearm=1020.0, speed=2.0) == ""
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "strike --offset 0.1 --stick 540",
+        "shot --cut 30 --distance 24 --speed 80 --ball 170",
+        "breakcue --forearm 36 --metric",
+    ],
+)
+def test_the_commands_ask_on_a_terminal(run, monkeypatch, line):
+    monkeypatch.setattr("evenbreak.cli.output.to_terminal", lambda: True)
+    assert "are usual;" in " ".join(run("physics", *line.split()).stdout.split())

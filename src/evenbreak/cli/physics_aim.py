@@ -76,18 +76,25 @@ def physics_aim(distance: float, units: Units, as_json: bool, **how: Any) -> Non
             offset: (f"aim right of the pocket's centre, {units.length_word}", 2),
             rule: ("the same by the rule", 2),
         },
-        heading=f"{hit.text}\n{_advice(answer[offset], hit, units)}",
+        heading=f"{hit.text}\n{_advice(answer[offset], found.cut, hit, units)}",
         as_json=as_json,
     )
 
 
-def _advice(offset: float, hit: Hit, units: Units) -> str:
-    """Return where to aim, in a sentence; an offset above 0 is to the right."""
+def _advice(offset: float, cut: float, hit: Hit, units: Units) -> str:
+    """Return where to aim, in a sentence; an offset above 0 is to the right.
+
+    `cut` is the cut angle to aim for, below 0 where it is to the other side.
+    """
     amount = decimals(abs(offset))
     if float(amount) == 0.0:
         return f"Aim at the pocket's centre: throw is less than 0.01 {units.length_word} there."
     turn = "right" if offset > 0.0 else "left"
-    thin = "" if hit.cut == 0.0 else ", a thinner cut" if turn == hit.turn else ", a fuller cut"
+    thin = ", a thinner cut" if turn == hit.turn else ", a fuller cut"
+    if hit.cut == 0.0:
+        thin = ""
+    elif cut < 0.0:
+        thin = f", a cut to the {hit.other_turn}"
     return (
         f"Aim {amount} {units.length_word} to the {turn} of the pocket's centre{thin}: the throw "
         "brings the ball back."

@@ -7,7 +7,7 @@ import math
 import click
 
 from evenbreak.cli.options import wants_json
-from evenbreak.cli.physics_kit import ball_of
+from evenbreak.cli.physics_kit import ball_of, doubts
 from evenbreak.cli.physics_units import Measure, Units, decimals, print_answer, wants_metric
 from evenbreak.physics.units import OUNCE
 
@@ -71,9 +71,9 @@ def physics_breakcue(
     if share is not None:
         lost = 100.0 * (1.0 - math.sqrt(share / most))
         heading += (
-            f"\nOne of {stick:g} {units.mass_word} breaks {decimals(lost, 1)} % slower, "
-            "with the same effort."
+            f"\nOne of {stick:g} {units.mass_word} breaks {_slower(lost)}, with the same effort."
         )
+    heading += doubts(units, forearm=forearm, stick=stick, ball=ball)
     print_answer(
         answer,
         shown={
@@ -85,3 +85,13 @@ def physics_breakcue(
         heading=heading,
         as_json=as_json,
     )
+
+
+def _slower(lost: float) -> str:
+    """Return by how many per cent a break is slower, in words.
+
+    >>> _slower(1.23), _slower(0.0004)
+    ('1.2 % slower', 'as fast')
+    """
+    percent = decimals(lost, 1)
+    return f"{percent} % slower" if float(percent) else "as fast"

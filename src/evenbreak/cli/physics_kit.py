@@ -7,13 +7,22 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.cli.physics_units import Measure, Units
+from evenbreak.cli.physics_units import METRIC, PLAYERS, Measure, Units
 
 if TYPE_CHECKING:
     from evenbreak.cli.options import Command
     from evenbreak.physics import Ball, Cue
 
-__all__ = ["ball_of", "cue_of", "kit_options"]
+__all__ = ["ball_of", "cue_of", "doubts", "kit_options"]
+
+_USUAL = {
+    "stick": ((10.0, 30.0), (280.0, 850.0)),
+    "ball": ((3.0, 10.0), (85.0, 285.0)),
+    "forearm": ((10.0, 320.0), (280.0, 9000.0)),
+    "speed": ((0.0, 600.0), (0.0, 15.0)),
+    "stick_speed": ((0.0, 600.0), (0.0, 15.0)),
+}
+"""What is believed of an option: from where to where, in players' and in metric units."""
 
 
 def kit_options(command: Command) -> Command:
@@ -50,6 +59,34 @@ def kit_options(command: Command) -> Command:
     ):
         command = option(command)
     return command
+
+
+def doubts(units: Units, **typed: float | None) -> str:
+    """Return a line for each option with a number that no player has, as in wrong units.
+
+    >>> doubts(PLAYERS, stick=19.0, ball=None, stick_speed=60.0)
+    ''
+    >>> doubts(PLAYERS, ball=170.0).strip()
+    'Is --ball 170 ounces? 3 to 10 are usual; --metric takes grams.'
+    """
+    lines = []
+    for name, value in typed.items():
+        low, high = _USUAL[name][units is not PLAYERS]
+        if value is None or low <= value <= high:
+            continue
+        speed = name.endswith("speed")
+        read, other = (
+            (its.speed_word if speed else its.mass_word)
+            for its in (units, METRIC if units is PLAYERS else PLAYERS)
+        )
+        remedy = (
+            f"--metric takes {other}" if units is PLAYERS else f"without --metric it is {other}"
+        )
+        lines.append(
+            f"\nIs --{name.replace('_', '-')} {value:g} {read}? {low:g} to {high:g} are usual; "
+            f"{remedy}."
+        )
+    return "".join(lines)
 
 
 def ball_of(weight: float | None, units: Units) -> Ball:

@@ -11,7 +11,7 @@ import click
 
 from evenbreak.cli.options import NUMBER, refuse, wants_json
 from evenbreak.cli.output import SCHEMA_VERSION, print_json, to_terminal
-from evenbreak.cli.physics_kit import ball_of, cue_of, kit_options
+from evenbreak.cli.physics_kit import ball_of, cue_of, doubts, kit_options
 from evenbreak.cli.physics_units import Measure, Units, print_answer, wants_metric
 from evenbreak.cli.plot import plot_option, write_plot
 
@@ -153,7 +153,9 @@ def physics_shot(
         rows = phase_rows(traced, units)
         print_json({**found, "phases": rows, "schema_version": SCHEMA_VERSION})
         return
-    print_answer(found, shown=shown(units), heading=sentences(traced, units, pocket), as_json=False)
+    typed = {name: how[name] for name in ("stick", "ball", "speed", "stick_speed")}
+    heading = sentences(traced, units, pocket) + doubts(units, **typed)
+    print_answer(found, shown=shown(units), heading=heading, as_json=False)
     phases = phases_text(traced, units)
     if phases and to_terminal():
         click.echo(f"\n{phases}", nl=False)

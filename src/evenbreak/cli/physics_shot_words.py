@@ -183,7 +183,7 @@ def sentences(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = No
     if aimed and pocket:
         told += [_miss_text(found, pocket, units), _aim_text(aimed, pocket, units)]
     topspin = answer(found, units)["hit_spin_speed_ratio"]
-    spin = spin_text(round(topspin, 3))
+    spin = spin_text(round(topspin, 2) + 0.0)
     after = f"after {decimals(state.time)} s" if found.approach.phases else "at once"
     told.append(f"The cue ball hits {after} with {spin}{_slid_text(found.approach)}.")
     told += [_end_text(leg, units) for leg in (found.object_leg, found.cue_leg) if leg]

@@ -9,7 +9,7 @@ import click
 
 from evenbreak.cli.options import refuse, wants_json
 from evenbreak.cli.physics_hit import spin_text
-from evenbreak.cli.physics_kit import ball_of, cue_of, kit_options
+from evenbreak.cli.physics_kit import ball_of, cue_of, doubts, kit_options
 from evenbreak.cli.physics_units import Measure, Units, decimals, print_answer, wants_metric
 
 if TYPE_CHECKING:
@@ -98,7 +98,8 @@ def physics_strike(
     if hit.miscue:  # the tip slips, and none of this comes true
         answer = dict.fromkeys(answer)
     place = _place(hit)
-    print_answer({**place, **answer}, shown=_shown(units), heading=_text(hit), as_json=as_json)
+    heading = _text(hit) + doubts(units, stick=stick, ball=ball, stick_speed=stick_speed)
+    print_answer({**place, **answer}, shown=_shown(units), heading=heading, as_json=as_json)
 
 
 def _place(hit: Strike) -> dict[str, Any]:
