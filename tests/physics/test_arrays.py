@@ -8,13 +8,17 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.physics import (
+    aim,
     collide,
+    deflection,
     friction_of_stop,
     rolling_time,
     sliding_distance,
     sliding_power,
     sliding_speed,
+    strike,
     table_speed,
+    throw_angle,
 )
 from evenbreak.physics.arrays import LARGEST, numbers, plain
 
@@ -73,3 +77,20 @@ def test_gravity_pulls_down(gravity: float) -> None:
 def test_plain() -> None:
     assert type(plain(np.float64(2.0))) is float
     assert plain(np.ones((1, 1))).shape == (1, 1)
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: collide([0.1, 0.2], [0, 1, 2]), r"cut has shape \(2,\), topspin has shape \(3,\)"),
+        (lambda: collide([0.1, 0.2], speed=[1, 2, 3]), r"cut has shape .2,., speed has shape .3,."),
+        (lambda: throw_angle(0.1, [0, 1], mu=[0.1, 0.2, 0.3]), "topspin has shape .*, mu has"),
+        (lambda: aim([0.1, 0.2], [1, 2, 3]), "distance has shape"),
+        (lambda: deflection([0.1, 0.2], [1, 2, 3]), "give shapes that broadcast"),
+        (lambda: strike([1, 2], [0.1, 0.2, 0.3]), "stick_speed has shape"),
+        (lambda: collide(0.5, None), "topspin is None; give a finite number"),
+    ],
+)
+def test_shapes_that_do_not_fit_are_refused_by_name(ask, message):
+    with pytest.raises(InputError, match=message):
+        ask()

@@ -8,10 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
+from evenbreak.errors import InputError
 from evenbreak.physics.leg import leg_until, time_to
 from evenbreak.physics.objects import Ball, Cloth, Table
 from evenbreak.physics.rolling import spin_stop
+from evenbreak.physics.shot import shot
 from evenbreak.physics.slide import Slide
+from evenbreak.physics.strike import strike
 
 BALL, CLOTH, TABLE = Ball(), Cloth(), Table()
 HUGE = Table(length=400.0, width=400.0)
@@ -158,3 +161,10 @@ def test_a_ball_into_a_pocket_is_told_apart_from_one_at_the_cushion():
     beside = sliding((0.0, -1.0), (1.0, 0.0, 0.0), place=(0.5 * TABLE.length + 0.1, 0.5))
     legs = [leg_until("object ball", slide, 0.0, TABLE) for slide in (to_side, beside)]
     assert [(leg.ending, leg.pocket) for leg in legs] == [("pocket", "side-right"), ("cushion", "")]
+
+
+@pytest.mark.parametrize("points", [2.5, 1, 0, -5, "x", None])
+def test_a_path_has_two_points_or_more(points):
+    leg = shot(strike(1.0), 0.3, 0.5).approach
+    with pytest.raises(InputError, match=r"points is .*; give a whole number, 2 or more"):
+        leg.path(points)

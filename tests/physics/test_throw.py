@@ -168,3 +168,13 @@ def test_refusals(shot: tuple[float, ...], options: dict[str, object], said: str
     with pytest.raises(InputError) as refused:
         throw_angle(*shot, **options)  # type: ignore[arg-type]
     assert said in str(refused.value)
+
+
+@pytest.mark.parametrize("degrees", [10.0, 30.0, 45.0, 60.0])
+def test_english_that_is_the_sine_but_for_rounding_leaves_no_slip(degrees):
+    cut = math.radians(degrees)
+    for turn in (-math.inf, math.inf):
+        side = float(np.nextafter(gearing_side(cut), turn))
+        assert throw_factor(cut, 0.0, side) == 0.0
+        assert throw_angle(cut, 0.0, side, friction="shepard") == 0.0
+    assert throw_factor(cut, 0.0, gearing_side(cut) + 1e-12) == 1.0

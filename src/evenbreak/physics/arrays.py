@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["LARGEST", "Floats", "numbers", "plain", "positive"]
+__all__ = ["LARGEST", "Floats", "numbers", "plain", "positive", "together"]
 
 Floats = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ def numbers(
     evenbreak.errors.InputError: speed is -1.0; give a finite number, 0 or more
     """
     try:
-        if isinstance(value, str | bytes):
+        if value is None or isinstance(value, str | bytes):  # numpy takes None for NaN
             raise TypeError
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError, OverflowError):
@@ -76,6 +76,24 @@ def positive(value: Any, name: str) -> Floats:
     evenbreak.errors.InputError: gravity is 0.0; give a finite number above 0
     """
     return numbers(value, name, low=0.0, open_low=True)
+
+
+def together(**arrays: Floats) -> None:
+    """Refuse arrays whose shapes do not broadcast together, by their names.
+
+    >>> together(cut=np.zeros(2), mu=np.zeros(3))
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: cut has shape (2,), mu has shape (3,); give shapes that broadcast
+    """
+    shapes = {name: array.shape for name, array in arrays.items() if array.ndim}
+    if len(shapes) < 2:
+        return
+    try:
+        np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        held = ", ".join(f"{name} has shape {shape}" for name, shape in shapes.items())
+        raise InputError(f"{held}; give shapes that broadcast") from None
 
 
 def plain(value: Any) -> Any:

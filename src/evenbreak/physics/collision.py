@@ -222,8 +222,8 @@ def collide(
     >>> bool(hit.energy_lost > 0.0)
     True
     """
-    cut, topspin, side = shot_of(cut, topspin, side)
-    speed = numbers(speed, "speed", low=0.0)
+    speed, mu = numbers(speed, "speed", low=0.0), numbers(mu, "mu", low=0.0)
+    cut, topspin, side = shot_of(cut, topspin, side, speed=speed, mu=mu)
     sin, cos = np.sin(cut), np.cos(cut)
     left, up = thrown(cos, *slip_of(sin, cos, topspin, side), mu, friction)
     found = (cut, topspin, side, speed, speed * cos, speed * left, speed * up)

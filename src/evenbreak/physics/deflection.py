@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from evenbreak.physics.arrays import numbers, plain, positive
-from evenbreak.physics.throw import cut_of
+from evenbreak.physics.throw import shot_of
 
 __all__ = [
     "EnergyShares",
@@ -58,7 +58,7 @@ def deflection(cut: Any, topspin: Any = 1.0) -> Any:
     >>> [round(math.degrees(deflection(math.radians(30.0), spin)), 2) for spin in (1, 0, -1)]
     [33.67, 60.0, 109.11]
     """
-    cut, topspin = cut_of(cut), numbers(topspin, "topspin")
+    cut, topspin, _ = shot_of(cut, topspin, 0.0)
     # A full hit is the limit of small angles, by the smallest of them.
     sin = np.maximum(np.sin(cut), 1e-300)
     return plain(np.arctan2(sin * np.cos(cut), sin * sin + 0.4 * topspin))
@@ -72,7 +72,8 @@ def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:
     >>> round(deflection_slope(0.0), 9), round(deflection_slope(math.pi / 2.0), 4)
     (2.5, -0.7143)
     """
-    cut, k = cut_of(cut), 0.4 * numbers(topspin, "topspin")
+    cut, topspin, _ = shot_of(cut, topspin, 0.0)
+    k = 0.4 * topspin
     sin2 = np.sin(cut) ** 2
     below = k * k * (1.0 - sin2) + (1.0 + k) ** 2 * sin2
     # Nothing is left below only for a full hit with stun, where the ratio is 0 at every cut.
@@ -168,7 +169,7 @@ def energy_after_hit(cut: Any, topspin: Any = 1.0) -> EnergyShares:
     >>> round(shares.object_ball, 9), round(shares.cue_ball, 9)
     (0.7, 0.7)
     """
-    cut, spin = cut_of(cut), numbers(topspin, "topspin")
+    cut, spin, _ = shot_of(cut, topspin, 0.0)
     return EnergyShares(plain(np.cos(cut) ** 2), plain(np.sin(cut) ** 2 + 0.4 * spin**2))
 
 
@@ -181,7 +182,8 @@ def energy_in_roll(cut: Any, topspin: Any = 1.0) -> EnergyShares:
     >>> round(14.0 * shares.object_ball, 9), round(14.0 * shares.cue_ball, 9)
     (5.0, 5.0)
     """
-    cut, k = cut_of(cut), 0.4 * numbers(topspin, "topspin")
+    cut, topspin, _ = shot_of(cut, topspin, 0.0)
+    k = 0.4 * topspin
     sin2, scale = np.sin(cut) ** 2, 25.0 / 49.0
     return EnergyShares(
         plain(scale * np.cos(cut) ** 2),

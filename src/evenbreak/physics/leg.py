@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import Floats, numbers
 from evenbreak.physics.objects import Table
@@ -135,19 +136,23 @@ class Leg:
         Parameters
         ----------
         points
-            how many for each of its phases, at even times; where two phases meet, the point
-            stands once.
+            how many for each of its phases, at even times, 2 or more; where two phases meet,
+            the point stands once.
         motion
             'slides' or 'rolls' for that part alone; shape (0, 3) where there is none.
+
+        Raises
+        ------
+        InputError
+            if there are fewer than 2 points, or their number is not whole.
         """
+        points = whole(points, "points", at_least=2)
         spans = [phase for phase in self.phases if motion in (None, phase.motion)]
         if not spans:
             still = np.array([[*self.slide.position, self.begin]])
             return still if motion is None else still[:0]
         times = np.unique(
-            np.concatenate(
-                [np.linspace(span.begin.time, span.end.time, max(points, 2)) for span in spans]
-            )
+            np.concatenate([np.linspace(span.begin.time, span.end.time, points) for span in spans])
         )
         return np.column_stack([self.slide.at(times - self.begin), times])
 

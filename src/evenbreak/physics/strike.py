@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.arrays import Floats, numbers, plain, together
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.objects import Ball, Cue
 from evenbreak.physics.offset import ball_speed_ratio, spin_of_offset
@@ -129,7 +129,7 @@ def strike(
     (2.5668, -0.75, 1.1444, False)
     """
     speed = numbers(stick_speed, "stick_speed", low=0.0)
-    up, right = _on_the_ball(offset, side_offset)
+    up, right = _on_the_ball(offset, side_offset, stick_speed=speed)
     return Strike(ball or Ball(), cue or Cue(), plain(speed), plain(up), plain(right))
 
 
@@ -161,15 +161,16 @@ def strike_for_speed(
     """
     ball, cue = ball or Ball(), cue or Cue()
     wanted = numbers(ball_speed, "ball_speed", low=0.0)
-    up, right = _on_the_ball(offset, side_offset)
+    up, right = _on_the_ball(offset, side_offset, ball_speed=wanted)
     ratio = ball_speed_ratio(np.hypot(up, right), ball.mass / cue.mass)
     return Strike(ball, cue, plain(wanted / ratio), plain(up), plain(right))
 
 
-def _on_the_ball(offset: Any, side_offset: Any) -> tuple[Floats, Floats]:
-    """Return the two offsets, or refuse those of a tip beside the ball."""
+def _on_the_ball(offset: Any, side_offset: Any, **speed: Floats) -> tuple[Floats, Floats]:
+    """Return the two offsets, or refuse those of a tip beside the ball; the speed for its shape."""
     up = numbers(offset, "offset", low=-1.0, high=1.0)
     right = numbers(side_offset, "side_offset", low=-1.0, high=1.0)
+    together(offset=up, side_offset=right, **speed)
     if np.any(np.hypot(up, right) > 1.0):
         raise InputError(
             "offset and side_offset put the tip beside the ball; give two whose squares "

@@ -25,7 +25,7 @@ import numpy as np
 
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.arrays import Floats, numbers, plain, together
 
 __all__ = [
     "BALL_FRICTION",
@@ -41,6 +41,8 @@ __all__ = [
 
 BALL_FRICTION = 4.0 / 72.0
 """The coefficient of friction between two balls that P1.6 measures."""
+
+_ROUNDING = 4.0 * np.finfo(float).eps
 
 FRICTION_LAWS = ("limited", "shepard")
 """The laws of friction: limited by the slip, and that of the source text."""
@@ -104,7 +106,8 @@ def throw_angle(
     >>> round(math.degrees(throw_angle(math.radians(10.0), 0.0, friction="shepard")), 3)
     3.18
     """
-    cut, topspin, side = shot_of(cut, topspin, side)
+    mu = numbers(mu, "mu", low=0.0)
+    cut, topspin, side = shot_of(cut, topspin, side, mu=mu)
     # cos(pi/2) rounds to 6e-17, so that the throw at a right angle is the limit of thin cuts.
     sin, cos = np.sin(cut), np.cos(cut)
     sideways, _ = thrown(cos, *slip_of(sin, cos, topspin, side), mu, friction)
@@ -206,8 +209,8 @@ def aim(
     >>> round(found.offset_of_text, 3), round(found.offset, 3)
     (0.5, 0.528)
     """
-    wanted, topspin, side = shot_of(cut, topspin, side)
     distance, mu = numbers(distance, "distance", low=0.0), numbers(mu, "mu", low=0.0)
+    wanted, topspin, side = shot_of(cut, topspin, side, distance=distance, mu=mu)
 
     def throw(angle: Floats) -> Any:
         # Beyond a full hit the ball is cut the other way, and english changes its side.
@@ -242,21 +245,25 @@ def cut_of(cut: Any) -> Floats:
     return numbers(cut, "cut", low=0.0, high=math.pi / 2.0)
 
 
-def shot_of(cut: Any, topspin: Any, side: Any) -> tuple[Floats, Floats, Floats]:
-    """Return cut angle, J_y and J_z as arrays, or refuse them."""
-    return cut_of(cut), numbers(topspin, "topspin"), numbers(side, "side")
+def shot_of(cut: Any, topspin: Any, side: Any, **others: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return cut angle, J_y and J_z as arrays, or refuse them, also beside the others."""
+    cut, topspin, side = cut_of(cut), numbers(topspin, "topspin"), numbers(side, "side")
+    together(cut=cut, topspin=topspin, side=side, **others)
+    return cut, topspin, side
 
 
 def slip_of(sin: Any, cos: Any, topspin: Any, side: Any) -> tuple[Any, Any]:
     """Return the slip over the cue ball's speed, to the left and up, from a cut's sin and cos."""
-    return sin + side, -topspin * cos
+    left = sin + side
+    # What rounding leaves is none: the law of the text would give it the full throw.
+    return np.where(np.abs(left) <= _ROUNDING * np.abs(side), 0.0, left), -topspin * cos
 
 
 def thrown(cos: Any, left: Any, up: Any, mu: Any, friction: str) -> tuple[Any, Any]:
     """Return the speed that friction gives the object ball, to the left and up, over V_0."""
     law = one_of(friction, "friction", FRICTION_LAWS)
     length = _length(left, up)
-    pull = numbers(mu, "mu", low=0.0) * cos
+    pull = mu * cos
     if law == "shepard":
         return left / length * pull, up / length * pull
     return left / length * np.minimum(pull, length / 7.0), (
