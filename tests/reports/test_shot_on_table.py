@@ -90,3 +90,39 @@ def test_a_shot_that_hits_nothing_is_drawn_too():
 
 def test_the_picture_is_the_same_every_time():
     assert image_bytes(shot_on_table(AIMED)) == image_bytes(shot_on_table(AIMED))
+
+
+def key_of(found):
+    return [text.get_text() for text in shot_on_table(found).axes[-1].get_legend().get_texts()]
+
+
+def test_the_key_has_only_what_is_drawn_ghost_balls_as_they_are_drawn():
+    assert key_of(FOUND)[:4] == [
+        *("cue ball, slides", "cue ball, rolls", "object ball, slides", "object ball, rolls")
+    ]
+    soft = shot(strike_for_speed(0.1, 0.4), 0.3, 0.5)  # rolls from the tip on, and rests
+    assert key_of(soft) == ["cue ball, rolls", "line of centres", "tangent line", "ghost ball"]
+    figure = shot_on_table(AIMED)
+    ghosts = [one for one in figure.axes[-1].get_legend().legend_handles if hasattr(one, "radius")]
+    # Black and green circles; the standing balls are filled.
+    drawn = [
+        one
+        for one in figure.axes[1].patches
+        if hasattr(one, "radius") and one.get_facecolor()[3] == 0
+    ]
+    assert [one.get_edgecolor() for one in ghosts] == [one.get_edgecolor() for one in drawn]
+    assert len({one.get_edgecolor() for one in ghosts}) == 2
+
+
+@pytest.mark.parametrize("cut", [-1.2, -0.5, 0.0, 0.5, 1.2])
+def test_the_word_on_an_end_stands_on_the_cloth(cut):
+    whole = shot_on_table(shot(strike_for_speed(3.0), cut, 24 * INCH)).axes[0]
+    assert any(text.get_text() == "cushion" for text in whole.texts)
+    for text in whole.texts:
+        box = text.get_window_extent().transformed(whole.transData.inverted())
+        assert min(box.x0, box.y0) >= 0.0
+        assert (box.x1 <= 100.0, box.y1 <= 50.0) == (True, True)
+
+
+def test_a_full_hit_has_no_side():
+    assert "full hit" in words(shot_on_table(shot(strike_for_speed(1.0), 0.0, 24 * INCH)))

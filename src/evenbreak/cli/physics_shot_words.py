@@ -156,7 +156,7 @@ def phases_text(traced: Shot | AimedShot, units: Units) -> str:
         return ""
     far, fast = units.length_key, units.speed_key.replace("_", "/")
     headings = ["", "\n", "from\ns", "to\ns", f"way\n{far}", f"speed\n{fast}", "ends with\n" + fast]
-    headings += ["energy\nJ", "ends with\nJ"]
+    headings += ["energy\njoules", "ends with\njoules"]
     rows = heading_lines(headings)
     for leg in found.legs:
         for phase in leg.phases:

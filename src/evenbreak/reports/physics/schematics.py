@@ -74,7 +74,7 @@ def tip_forces() -> Figure:
 def sliding_draw() -> Figure:
     """Fig. 2.1: a ball that slides forward and spins back, and the force of the cloth."""
     figure, axes = _sheet((-1.9, 2.3), (-0.35, 2.25), (7.0, 4.6))
-    axes.plot([-1.9, 2.3], [0.0, 0.0], color="0.5", lw=1.2)
+    axes.plot([-1.9, 2.3], [0.0, 0.0], color="0.5", lw=1.2, zorder=0)
     _ball(axes, (0.0, 1.0))
     _arrow(axes, (0.0, 1.0), (1.6, 0.0), "$V > 0$", beside=(4, 10), lw=2.2)
     _arrow(axes, (0.0, 0.0), (-1.2, 0.0), "$F < 0$", beside=(-6, 10), lw=2.2)
@@ -127,8 +127,8 @@ def slip_directions() -> Figure:
     _arrow(axes, (-1.45, 0.0), (2.9, 0.0), "$y$", beside=(-8, 0), lw=0.8)
     _arrow(axes, (0.0, -1.25), (0.0, 2.5), "$z$", beside=(0, 8), lw=0.8)
     names = {
-        (-1.0, 0.0): "draw,\ncut alone",
-        (1.0, 0.0): "topspin,\ncut alone",
+        (-1.0, 0.0): "draw, no or\ninside english",
+        (1.0, 0.0): "topspin, no or\ninside english",
         (-1.0, -1.0): "draw, much\noutside english",
         (1.0, -1.0): "topspin, much\noutside english",
     }
@@ -233,7 +233,10 @@ def _turn(axes: Axes, centre: Pair, name: str, towards: float) -> None:
             label=name,
         )
     )
-    axes.text(centre[0], centre[1] + 0.55, name, fontsize=11, ha="center", va="center")
+    # Beside its arrow, on the side of the centre.
+    way = math.radians(towards)
+    place = centre[0] + 0.36 * math.cos(way), centre[1] + 0.36 * math.sin(way)
+    axes.text(*place, name, fontsize=11, ha="center", va="center")
 
 
 def _angle(
