@@ -1,0 +1,242 @@
+"""Pictures of a ladder: how wrong ratings are, how fast they settle, what a step costs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from evenbreak.reports.style import LINES, new_axes, unit_axis
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from evenbreak.stats.summary import Distribution
+
+__all__ = ["SettlingCurve", "SystemPoint", "ladder_figure", "systems_figure"]
+
+_SHOWN = 1e-3
+"""Errors rarer than this part of the commonest are beyond the edge of the picture."""
+
+
+class SettlingCurve(NamedTuple):
+    """How many players are settled after so many matches.
+
+    Parameters
+    ----------
+    start
+        the rating error that they begin with, in points.
+    within
+        how near to no error is settled, in points.
+    settled
+        P(settled within n matches | begun at `start`), for n = 0, 1, 2, ...
+    """
+
+    start: int
+    within: int
+    settled: Sequence[float]
+
+
+class SystemPoint(NamedTuple):
+    """A system in the plane of how wrong ratings stay and how long newcomers take.
+
+    Parameters
+    ----------
+    name
+        what is written beside it.
+    sd
+        of the rating error in the long run, in points.
+    matches
+        the mean number of matches that a newcomer takes to settle.
+    unbeaten
+        whether no other system is both more accurate and faster.
+    """
+
+    name: str
+    sd: float
+    matches: float
+    unbeaten: bool
+
+
+def ladder_figure(
+    law: Distribution,
+    *,
+    natural: Distribution | None = None,
+    within: int = 5,
+    curve: SettlingCurve | None = None,
+    title: str | None = None,
+) -> Figure:
+    """Draw the law of the rating error, and beside it how fast newcomers settle.
+
+    The normal law of the same mean and standard deviation is drawn for comparison.
+
+    Parameters
+    ----------
+    law
+        of the rating error in points, in the long run.
+    natural
+        the law against opponents who are rated rightly; None where that is `law` itself.
+    within
+        the band of errors that is shaded, from -within to within points.
+    curve
+        how a newcomer settles; None: one picture only.
+    title
+        what the ladder is.
+
+    >>> from evenbreak.stats import Distribution
+    >>> figure = ladder_figure(Distribution((-1, 0, 1), (0.25, 0.5, 0.25)))
+    >>> figure.axes[0].get_xlabel()
+    'rating error: rating less skill (points)'
+    """
+    from matplotlib.figure import Figure
+
+    width = 6.4 if curve is None else 10.6
+    figure = Figure(figsize=(width, 4.4), layout="constrained")
+    panels = figure.subplots(1, 1 if curve is None else 2, squeeze=False)[0]
+    _draw_law(panels[0], law, natural, within)
+    if curve is not None:
+        _draw_settling(panels[1], curve)
+    if title:
+        figure.suptitle(title, parse_math=False)
+    return figure
+
+
+def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, within: int) -> None:
+    errors, chance = np.array(law.values, dtype=float), np.array(law.probability, dtype=float)
+    possible = chance > 0.0
+    errors, chance = errors[possible], chance[possible]
+    # Where ratings move by more than a point, some errors never occur.
+    spacing = float(np.diff(errors).min()) if len(errors) > 1 else 1.0
+    inside = law.between(-within, within)
+    axes.axvspan(
+        -within - 0.5,
+        within + 0.5,
+        facecolor="0.92",
+        edgecolor="0.7",
+        linewidth=0.5,
+        zorder=0,
+        label=f"within {within} point{'s' * (within != 1)}: {100 * inside:.0f} %",
+    )
+    style = LINES[0]
+    axes.plot(errors, chance, "o", ms=3.5, color=style.color, label=f"this ladder, sd {law.sd:.2f}")
+    axes.vlines(errors, 0.0, chance, color=style.color, linewidth=0.8)
+    if natural is not None:
+        style = LINES[2]
+        values = np.array(natural.values, dtype=float)
+        p = np.array(natural.probability, dtype=float)
+        axes.plot(
+            values[p > 0.0],
+            p[p > 0.0],
+            color=style.color,
+            linestyle=style.linestyle,
+            label=f"opponents rated rightly, sd {natural.sd:.2f}",
+        )
+    shown = errors[chance > _SHOWN * chance.max()]
+    edge = max(abs(shown[0]), abs(shown[-1]), within) + 1.5
+    if law.sd > 0.0:
+        style = LINES[1]
+        x = np.linspace(-edge, edge, 401)
+        bell = np.exp(-0.5 * ((x - law.mean) / law.sd) ** 2) / (law.sd * math.sqrt(2.0 * math.pi))
+        axes.plot(
+            x,
+            spacing * bell,
+            color=style.color,
+            linestyle=style.linestyle,
+            linewidth=1.2,
+            label="normal law of the same sd",
+        )
+    axes.set(xlabel="rating error: rating less skill (points)", ylabel="probability")
+    axes.set_xlim(-edge, edge)
+    axes.set_ylim(bottom=0.0)
+    axes.tick_params(direction="in", top=True, right=True)
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.5)
+
+
+def _draw_settling(axes: Axes, curve: SettlingCurve) -> None:
+    settled = np.asarray(curve.settled, dtype=float)
+    # What comes after nearly all have settled says nothing more.
+    last = min(int(np.searchsorted(settled, 0.995)) + 1, len(settled))
+    matches = np.arange(last)
+    style = LINES[0]
+    axes.plot(matches, settled[:last], color=style.color, drawstyle="steps-post")
+    for part, name in ((0.5, "half"), (0.9, "9 of 10")):
+        place = int(np.searchsorted(settled, part))
+        if place < last:
+            axes.plot([0, place, place], [part, part, 0.0], color="0.6", linewidth=0.8, zorder=0)
+            axes.annotate(
+                f"{name}: {place} matches",
+                (0, part),
+                (6, 4),
+                textcoords="offset points",
+                fontsize=9,
+            )
+    unit_axis(axes, "y")
+    axes.set_xlim(0, max(last - 1, 1))
+    axes.set(
+        xlabel=f"matches played since the error was {curve.start:+d} points",
+        ylabel=f"part who have come within {curve.within} points",
+    )
+
+
+def systems_figure(
+    points: Iterable[SystemPoint], *, start: str = "30 points wrong", within: str = "5 points"
+) -> Figure:
+    """Draw how wrong the ratings of systems stay over how long their newcomers take.
+
+    Filled dots are joined: no other system is both more accurate and faster than they are.
+
+    Parameters
+    ----------
+    points
+        the systems.
+    start, within
+        how wrong the newcomers are, and what settled means.
+
+    >>> figure = systems_figure([SystemPoint("step 1", 4.6, 44.0, unbeaten=True),
+    ...     SystemPoint("step 2", 6.1, 22.0, unbeaten=True)])
+    >>> sorted(text.get_text() for text in figure.axes[0].texts)
+    ['step 1', 'step 2']
+    """
+    figure, axes = new_axes(
+        f"matches until a newcomer {start} is within {within}, mean",
+        "standard deviation of the rating error (points)",
+        size=(6.8, 4.8),
+    )
+    listed = sorted(points, key=lambda point: point.matches)
+    kinds = (
+        (True, "o-", LINES[0].color, "none is both more accurate and faster"),
+        (False, "D", LINES[2].color, "another is both more accurate and faster"),
+    )
+    middle = sum(point.matches for point in (listed[0], listed[-1])) / 2.0
+    for unbeaten, mark, color, label in kinds:
+        drawn = [point for point in listed if point.unbeaten == unbeaten]
+        if not drawn:
+            continue
+        axes.plot(
+            [point.matches for point in drawn],
+            [point.sd for point in drawn],
+            mark,
+            color=color,
+            ms=5,
+            linewidth=0.8,
+            label=label,
+        )
+        for point in drawn:
+            right = point.matches > middle and not unbeaten
+            axes.annotate(
+                point.name,
+                (point.matches, point.sd),
+                (-6 if right else 5, 4),
+                textcoords="offset points",
+                ha="right" if right else "left",
+                fontsize=8,
+                parse_math=False,
+            )
+    axes.margins(0.08, 0.1)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlim(0.0, 1.15 * listed[-1].matches)
+    axes.legend(frameon=False, fontsize=9, loc="best")
+    return figure
