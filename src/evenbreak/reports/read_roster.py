@@ -19,7 +19,7 @@ from evenbreak.reports.similar_names import similar_names
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["OPTIONAL", "REQUIRED", "RosterFile", "read_roster"]
+__all__ = ["OPTIONAL", "REQUIRED", "WRITTEN", "RosterFile", "read_roster", "roster_of"]
 
 REQUIRED = {
     "player": ("name", "player name", "full name"),
@@ -100,7 +100,24 @@ def read_roster(path: str | Path) -> RosterFile:
     >>> club.players, club.rating, club.games
     (('Ann', 'Bo'), array([92.5,  nan]), array([140,   0]))
     """
-    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN})
+    return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN}))
+
+
+def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
+    """Return the roster in a table, told with what else is wrong in it already.
+
+    Parameters
+    ----------
+    table
+        with the columns of `REQUIRED` and any of `OPTIONAL`.
+    all_rated
+        whether a player without a rating is a problem.
+
+    Raises
+    ------
+    DataError
+        as `read_roster` does, with the problems that the table had before.
+    """
     if not len(table) and not len(table.problems):
         table.problems.add(None, "has no players below its header; write one line for each")
     names = _names(table)
@@ -120,6 +137,12 @@ def read_roster(path: str | Path) -> RosterFile:
         np.flatnonzero(unrated & (games > 0)) if "rating" in table else np.zeros(0, np.int64),
         lambda row: f"rating is empty after {games[row]} games; write it, or 0 games if new",
     )
+    if all_rated and "rating" in table:
+        table.problems.add_rows(
+            table.lines,
+            np.flatnonzero(unrated & (games <= 0)),
+            lambda _: "rating is empty; write the rating with which the player begins",
+        )
     table.problems.raise_any()
     roster = Roster(names, rating, error, games, component=component)
     warnings = (*table.warnings, *_alike(names, table.source))
