@@ -9,7 +9,7 @@ systems = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
 
 @systems
 def test_a_system_is_found_by_its_name(system):
-    assert system_of(f" {system.name.upper()} ") is system
+    assert system_of(f" {system.name.upper()} ") == system
 
 
 @systems
@@ -33,5 +33,5 @@ def test_the_pool_league_moves_a_point_a_match_whatever_the_match_was():
 
 
 def test_an_unknown_system_is_told_with_those_there_are():
-    with pytest.raises(InputError, match="system is 'fide'; give one of npl"):
+    with pytest.raises(InputError, match="system is 'fide'; give npl"):
         system_of("fide")

@@ -25,6 +25,8 @@ from evenbreak.handicaps.level_audit import audit_levels as audit_levels
 from evenbreak.handicaps.level_chart import LEVEL_CHARTS as LEVEL_CHARTS
 from evenbreak.handicaps.level_chart import LevelChart as LevelChart
 from evenbreak.handicaps.level_chart import level_chart as level_chart
+from evenbreak.handicaps.match_table import MatchTable as MatchTable
+from evenbreak.handicaps.match_table import match_table as match_table
 from evenbreak.handicaps.moves import MatchMove as MatchMove
 from evenbreak.handicaps.moves import Moves as Moves
 from evenbreak.handicaps.moves import apply_results as apply_results
@@ -34,8 +36,12 @@ from evenbreak.handicaps.pareto import ParetoChart as ParetoChart
 from evenbreak.handicaps.pareto import pareto as pareto
 from evenbreak.handicaps.play import Play as Play
 from evenbreak.handicaps.race_limits import RaceLimits as RaceLimits
+from evenbreak.handicaps.systems import NEWCOMER_STEPS as NEWCOMER_STEPS
 from evenbreak.handicaps.systems import SYSTEMS as SYSTEMS
+from evenbreak.handicaps.systems import PlayedMatch as PlayedMatch
 from evenbreak.handicaps.systems import System as System
+from evenbreak.handicaps.systems import step_after as step_after
+from evenbreak.handicaps.systems import step_system as step_system
 from evenbreak.handicaps.systems import system_of as system_of
 from evenbreak.handicaps.uncertain import fairest_races as fairest_races
 from evenbreak.handicaps.uncertain import length_given_ratings as length_given_ratings
