@@ -20,6 +20,7 @@ __getattr__, __dir__, __all__ = attach(
             "EvenbreakError",
             "GameError",
             "InputError",
+            "WorkerError",
         ],
         "game": ["Game", "graph_of"],
         "games.rack": ["Rack"],

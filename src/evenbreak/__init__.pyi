@@ -19,6 +19,7 @@ from evenbreak.errors import DataError as DataError
 from evenbreak.errors import EvenbreakError as EvenbreakError
 from evenbreak.errors import GameError as GameError
 from evenbreak.errors import InputError as InputError
+from evenbreak.errors import WorkerError as WorkerError
 from evenbreak.game import Game as Game
 from evenbreak.game import graph_of as graph_of
 from evenbreak.games.ahead import Ahead as Ahead

@@ -1,0 +1,89 @@
+"""Worker processes of our own, which keep what all pieces share and end with their parent.
+
+They are spawned, not forked: a fork copies locks that other threads hold (numpy's, dask's), and
+is not to be had everywhere. So each worker is sent what is shared once, as it starts.
+
+Ctrl-C on a terminal reaches the workers too. They leave it to the parent, which closes its end of
+a pipe; a worker whose pipe is closed ends, in the middle of a piece if need be. The pipe closes
+also where the parent is killed, so that no worker outlives it.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import contextmanager
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from threading import Thread
+from typing import Any
+
+__all__ = ["worker_processes"]
+
+_kept: tuple[Callable[[Any, Any], Any], Any]
+
+
+@contextmanager
+def worker_processes(
+    jobs: int, task: Callable[[Any, Any], Any], shared: Any
+) -> Iterator[Callable[[Any], Future[Any]]]:
+    """Start worker processes, yield how to give them ``task(shared, piece)``, and end them.
+
+    >>> with worker_processes(2, pow, 2) as submit:
+    ...     [future.result() for future in map(submit, [3, 4])]
+    [8, 16]
+    """
+    context = get_context("spawn")
+    listen, hold = context.Pipe(duplex=False)
+    with listen, hold:
+        pool = ProcessPoolExecutor(
+            jobs, mp_context=context, initializer=_begin, initargs=(listen, task, shared)
+        )
+
+        def submit(piece: Any) -> Future[Any]:
+            with _interrupts_held():  # a process starts as there is work for it
+                return pool.submit(_do, piece)
+
+        try:
+            yield submit
+        except BaseException:
+            hold.close()
+            raise
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Let an interrupt wait: a process that starts meanwhile never takes one."""
+    if not hasattr(signal, "pthread_sigmask"):  # not on Windows
+        yield
+        return
+    from multiprocessing.resource_tracker import ensure_running
+
+    ensure_running()  # its start would let interrupts through
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _begin(listen: Connection, task: Callable[[Any, Any], Any], shared: Any) -> None:
+    """In a worker: keep what it works with, and end as soon as the parent lets go."""
+    global _kept
+    _kept = (task, shared)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=_end_with_parent, args=(listen,), daemon=True).start()
+
+
+def _end_with_parent(listen: Connection) -> None:
+    listen.poll(None)
+    os._exit(1)
+
+
+def _do(piece: Any) -> Any:
+    task, shared = _kept
+    return task(shared, piece)
