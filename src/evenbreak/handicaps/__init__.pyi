@@ -15,6 +15,7 @@ from evenbreak.handicaps.design import design as design
 from evenbreak.handicaps.design import nearest_chart as nearest_chart
 from evenbreak.handicaps.fair import FairRace as FairRace
 from evenbreak.handicaps.fair import fair_races as fair_races
+from evenbreak.handicaps.fixed_length import fixed_length_chart as fixed_length_chart
 from evenbreak.handicaps.ladder import LadderLaw as LadderLaw
 from evenbreak.handicaps.ladder import RatingLadder as RatingLadder
 from evenbreak.handicaps.ladder import autocorrelated_ladder as autocorrelated_ladder
@@ -40,6 +41,9 @@ from evenbreak.handicaps.systems import NEWCOMER_STEPS as NEWCOMER_STEPS
 from evenbreak.handicaps.systems import SYSTEMS as SYSTEMS
 from evenbreak.handicaps.systems import PlayedMatch as PlayedMatch
 from evenbreak.handicaps.systems import System as System
+from evenbreak.handicaps.systems import elo_system as elo_system
+from evenbreak.handicaps.systems import fixed_length_system as fixed_length_system
+from evenbreak.handicaps.systems import margin_system as margin_system
 from evenbreak.handicaps.systems import step_after as step_after
 from evenbreak.handicaps.systems import step_system as step_system
 from evenbreak.handicaps.systems import system_of as system_of

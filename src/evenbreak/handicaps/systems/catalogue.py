@@ -7,6 +7,9 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.systems.elo import elo_system
+from evenbreak.handicaps.systems.fixed import fixed_length_system
+from evenbreak.handicaps.systems.margin import margin_system
 from evenbreak.handicaps.systems.npl import NPL
 from evenbreak.handicaps.systems.step import step_system
 from evenbreak.handicaps.systems.system import System
@@ -26,12 +29,25 @@ FAMILIES: Mapping[str, _Family] = MappingProxyType(
     {
         "npl": _Family("npl", lambda: NPL, (0, 0)),
         "step": _Family("step UP [DOWN]", step_system, (1, 2)),
+        "margin": _Family("margin [MOST]", margin_system, (0, 1)),
+        "elo": _Family("elo [K]", elo_system, (0, 1)),
+        "fixed": _Family("fixed [GAMES]", fixed_length_system, (0, 1)),
     }
 )
 """The families of systems, by the word that their names begin with."""
 
 SYSTEMS: Mapping[str, System] = MappingProxyType(
-    {system.name: system for system in (NPL, step_system(2), step_system(2, 1))}
+    {
+        system.name: system
+        for system in (
+            NPL,
+            step_system(2),
+            step_system(2, 1),
+            margin_system(),
+            elo_system(),
+            fixed_length_system(),
+        )
+    }
 )
 """A system of each kind, by name."""
 

@@ -1,24 +1,21 @@
 """The National Pool League: a point a match, and longer steps for newcomers.
 
-Source: the text before Table 5.6 (a point up, a point down); the steps of newcomers are those
-that the league published, and are not in the text.
+Source: the text before Table 5.6.
 """
 
 from __future__ import annotations
 
 from evenbreak.handicaps.chart import chart
-from evenbreak.handicaps.systems.system import PlayedMatch, System, step_after
+from evenbreak.handicaps.systems.newcomers import NEWCOMER_STEPS, step_after
+from evenbreak.handicaps.systems.system import PlayedMatch, System
 from evenbreak.ratings.scale import SCALES
 
-__all__ = ["NEWCOMER_STEPS", "NPL"]
-
-NEWCOMER_STEPS = ((10, 3), (20, 2))
-"""A newcomer's steps: 3 points a match for 10 matches, 2 for the next 20, then 1."""
+__all__ = ["NPL"]
 
 
 def _a_point_a_match(match: PlayedMatch) -> tuple[int, int]:
     winner, loser = match.played
-    return step_after(winner, NEWCOMER_STEPS), -step_after(loser, NEWCOMER_STEPS)
+    return step_after(winner), -step_after(loser)
 
 
 NPL = System(

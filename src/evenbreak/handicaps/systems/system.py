@@ -5,16 +5,15 @@ An update rule is a plain function from a match to the points that winner and lo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.chart import Chart, chart
 from evenbreak.ratings.scale import Scale
 
-__all__ = ["PlayedMatch", "System", "UpdateRule", "step_after"]
+__all__ = ["PlayedMatch", "System", "UpdateRule"]
 
 
 class PlayedMatch(NamedTuple):
@@ -97,31 +96,3 @@ class System:
         if not self.charts:
             raise InputError(f"chart is not given, and the system {self.name} has none; give one")
         return chart(self.charts[0])
-
-
-def step_after(played: int | None, steps: Sequence[tuple[int, int]]) -> int:
-    """Return by what factor a player moves in his next match, after so many matches.
-
-    Parameters
-    ----------
-    played
-        matches before; None: an established player, whose factor is 1.
-    steps
-        (matches, factor) for each stage of a newcomer, as `System.newcomer_steps` has them.
-
-    Raises
-    ------
-    InputError
-        if `played` is not a whole number from 0 on.
-
-    >>> [step_after(played, ((10, 3), (20, 2))) for played in (0, 9, 10, 29, 30, None)]
-    [3, 3, 2, 2, 1, 1]
-    """
-    if played is None:
-        return 1
-    left = whole(played, "played")
-    for matches, factor in steps:
-        if left < matches:
-            return factor
-        left -= matches
-    return 1
