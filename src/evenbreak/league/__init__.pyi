@@ -1,0 +1,10 @@
+from evenbreak.league.play import chunk_replicas as chunk_replicas
+from evenbreak.league.play import run_chunk as run_chunk
+from evenbreak.league.players import ESTABLISHED as ESTABLISHED
+from evenbreak.league.players import LeaguePlayers as LeaguePlayers
+from evenbreak.league.schedule import FixedSchedule as FixedSchedule
+from evenbreak.league.schedule import RandomPairing as RandomPairing
+from evenbreak.league.schedule import RoundRobin as RoundRobin
+from evenbreak.league.schedule import Schedule as Schedule
+from evenbreak.league.season import Season as Season
+from evenbreak.league.tally import Tally as Tally

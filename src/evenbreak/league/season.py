@@ -1,0 +1,129 @@
+"""A season: who plays, by which system, whom in which week, and for how long."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from evenbreak.checks import one_of, whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.chart import Chart
+from evenbreak.handicaps.chart import chart as printed_chart
+from evenbreak.handicaps.match_table import MatchTable, match_table
+from evenbreak.handicaps.systems import System, system_of
+from evenbreak.league.lookup import Lookup, lookup_of
+from evenbreak.league.players import LeaguePlayers
+from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin, Schedule
+
+__all__ = ["Season", "draws_opponents"]
+
+_DOUBLINGS = 3.0
+"""How far moves are told by rating difference: to where the odds of a game are 8 to 1."""
+
+_SDS = 5.0
+"""Standard deviations of skill within which a league's skills are taken to lie."""
+
+
+@dataclass(frozen=True, eq=False)
+class Season:
+    """A season to be simulated.
+
+    A week goes so. Each player's skill of the day is his true skill then and the day's
+    deviation, in whole points; all his matches of the week are played with it. The ratings
+    before the week say all its races, and all moves are added up at its end, as
+    `evenbreak.handicaps.apply_results` does with a night. Then skills drift.
+
+    Parameters
+    ----------
+    players
+        who plays.
+    system
+        the handicap system, or its name.
+    chart
+        by which the races are given, or its name; None: the system's first.
+    schedule
+        who meets whom; None: a round robin, again and again.
+    weeks
+        how many weeks are played.
+    play
+        'matches': each match is won by its exact chance. 'racks': it is played rack by rack,
+        which gives final scores too. Both have the same law.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have.
+
+    >>> season = Season(LeaguePlayers.of([92, 80, 71, 64]), "npl", "npl_10", weeks=12)
+    >>> season.chart.name, season.schedule
+    ('npl_10', RoundRobin(players=4, matches_a_week=1))
+    """
+
+    players: LeaguePlayers
+    system: Any
+    chart: Any = None
+    schedule: Any = None
+    weeks: int = 30
+    play: str = "matches"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.players, LeaguePlayers):
+            raise InputError(f"players is {self.players!r}; give LeaguePlayers")
+        put = object.__setattr__
+        if not isinstance(self.system, System):
+            put(self, "system", system_of(self.system))
+        if self.chart is None:
+            put(self, "chart", self.system.usual_chart())
+        elif not isinstance(self.chart, Chart):
+            put(self, "chart", printed_chart(self.chart))
+        if self.schedule is None:
+            put(self, "schedule", RoundRobin(len(self.players)))
+        put(self, "weeks", whole(self.weeks, "weeks", at_least=1))
+        put(self, "play", one_of(self.play, "play", ("matches", "racks")))
+        _check_schedule(self.schedule, len(self.players))
+
+    @cached_property
+    def table(self) -> MatchTable:
+        """The races, moves and chances of the season's matches."""
+        last = self.chart.rows[-1].difference_from
+        doublings = _DOUBLINGS * self.system.scale.points_per_doubling
+        return match_table(self.system, self.chart, widest=max(last, round(doublings)))
+
+    @cached_property
+    def lookup(self) -> Lookup:
+        """The same as flat tables of whole numbers, for drawing."""
+        return lookup_of(self.table, _widest_gap(self.players, self.weeks))
+
+    def __reduce__(self) -> Any:
+        # What is worked out is worked out again where the season arrives: it is larger.
+        given = (self.players, self.system, self.chart, self.schedule, self.weeks, self.play)
+        return Season, given
+
+
+def _check_schedule(schedule: Any, players: int) -> None:
+    """Find out before the first week what would stop the season in a later one."""
+    if isinstance(schedule, RandomPairing):
+        return
+    if isinstance(schedule, RoundRobin | FixedSchedule):
+        schedule.pairs(1, np.random.default_rng(0), players)
+    elif not hasattr(schedule, "pairs"):
+        raise InputError(
+            f"schedule is {schedule!r}; give RoundRobin, RandomPairing or FixedSchedule"
+        )
+
+
+def draws_opponents(schedule: Schedule) -> bool:
+    """Tell whether opponents are drawn by lot, so among those who are there."""
+    return isinstance(schedule, RandomPairing)
+
+
+def _widest_gap(players: LeaguePlayers, weeks: int) -> float:
+    """Return the largest difference of two skills of the day that is told from a larger one."""
+    around = _SDS * np.hypot(players.skill_sd, players.day_sd)
+    drifted = players.drift * (weeks - 1)
+    high = players.skill + np.maximum(drifted, 0.0) + around
+    low = players.skill + np.minimum(drifted, 0.0) - around
+    return float(high.max() - low.min())
