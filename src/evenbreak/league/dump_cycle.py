@@ -1,0 +1,150 @@
+"""What losing on purpose pays in the long run: so many matches dumped, so many played, again.
+
+A cycle of D matches dumped and E in earnest is one step of a chain of rating errors,
+C = K^E B^D, and its stochastic limit says at which rating he arrives each time.
+
+Where a match won is a point up and one lost a point down, the rating comes back to where it
+was exactly if he wins (D + E) / 2 of the E matches: the share that he wins follows from the
+counts alone, whatever the chart. The chart says only how low his rating must lie for that, and
+where it has no race so one-sided, the rating goes down without an end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.ladder import Ladder
+from evenbreak.league.sandbag import dumped_matrix, earnest_matrix, start_law
+
+__all__ = ["DumpCycle", "best_cycle", "dump_cycle"]
+
+_HELD = 1e-6
+"""A chance to be held at the ladder's lower end from which on a cycle has no limit above it."""
+
+
+class DumpCycle(NamedTuple):
+    """What a cycle comes to in the long run.
+
+    Parameters
+    ----------
+    dumped, earnest
+        matches of a cycle.
+    rating_error
+        rating less skill when he begins to play in earnest, on average, in points.
+    p_win
+        P(he wins a match in earnest), on average over those of a cycle.
+    profit
+        a match, dumped ones counted, beyond a player who wins half of his matches.
+    held
+        P(his rating lies at the lower end of the ladder as a match in earnest begins); above a
+        millionth his rating would go further down, and the end, not the chart, decides.
+    """
+
+    dumped: int
+    earnest: int
+    rating_error: float
+    p_win: float
+    profit: float
+    held: float
+
+
+def dump_cycle(
+    ladder: Ladder, dumped: int, earnest: int, *, stake: float = 10.0, dumped_stake: float = 1.0
+) -> DumpCycle:
+    """Return what it pays to dump and to play in earnest by turns, for ever.
+
+    Parameters
+    ----------
+    ladder
+        the ladder; at its lower end a rating falls no further.
+    dumped, earnest
+        how many matches are dumped and then played, again and again.
+    stake, dumped_stake
+        what a match won is worth more than one lost: in earnest, and among those dumped.
+
+    Raises
+    ------
+    InputError
+        if a number is out of range, or the ladder's player drifts.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> cycle = dump_cycle(Ladder("npl"), 5, 15)
+    >>> round(cycle.p_win, 6), round(cycle.rating_error, 1), round(cycle.profit, 4)
+    (0.666667, -14.9, 1.125)
+    """
+    down, many = whole(dumped, "dumped"), whole(earnest, "earnest", at_least=1)
+    step, dump = earnest_matrix(ladder), dumped_matrix(ladder)
+    played = np.linalg.matrix_power(step, many)
+    cycle = played @ np.linalg.matrix_power(dump, down)
+    # The cycle may have a period; that of cycle and standstill by turns has none, and the
+    # same limit. Squared, it forgets its start with the 2^k-th power of its second eigenvalue.
+    lazy = (cycle + np.eye(cycle.shape[0])) / 2.0
+    for _ in range(40):
+        squared = lazy @ lazy
+        squared /= squared.sum(axis=0)
+        if np.abs(squared - lazy).max() < 1e-14:
+            break
+        lazy = squared
+    law = np.linalg.matrix_power(dump, down) @ (lazy @ start_law(ladder, 0))
+    errors, wins = np.asarray(ladder.errors, dtype=float), np.asarray(ladder.wins)
+    first, won, held = float(law @ errors), 0.0, 0.0
+    for _ in range(many):
+        won += float(wins @ law) / many
+        held += float(law[0]) / many
+        law = step @ law
+    gain = stake * many * (won - 0.5) - dumped_stake * down / 2.0
+    return DumpCycle(down, many, first, won, gain / (down + many), held)
+
+
+def best_cycle(
+    ladder: Ladder,
+    lengths: Iterable[int] = (5, 10, 20),
+    *,
+    lowest: float | None = None,
+    stake: float = 10.0,
+    dumped_stake: float = 1.0,
+) -> DumpCycle:
+    """Return the cycle of the largest profit a match, among those of some lengths.
+
+    Parameters
+    ----------
+    ladder
+        the ladder.
+    lengths
+        the matches of a cycle, dumped ones counted.
+    lowest
+        the lowest rating error, in points and below 0, at which he dares to begin to play in
+        earnest, on average; None: any that the chart allows.
+    stake, dumped_stake
+        as of `dump_cycle`.
+
+    Raises
+    ------
+    InputError
+        if no length is given, or one is not a whole number above 0.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> best = best_cycle(Ladder("npl"), [10], lowest=-20)
+    >>> best.dumped, best.earnest, round(best.p_win, 3)
+    (3, 7, 0.714)
+    """
+    listed = [whole(length, "lengths", at_least=1) for length in lengths]
+    if not listed:
+        raise InputError("lengths is empty; give the matches of a cycle, such as 10")
+    found = [
+        dump_cycle(ladder, down, length - down, stake=stake, dumped_stake=dumped_stake)
+        for length in sorted(set(listed))
+        for down in range(length)
+    ]
+    allowed = [
+        cycle
+        for cycle in found
+        if not cycle.dumped
+        or (cycle.held < _HELD and (lowest is None or cycle.rating_error >= lowest))
+    ]
+    return max(allowed, key=lambda cycle: (cycle.profit, -cycle.dumped))

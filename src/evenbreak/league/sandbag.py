@@ -1,0 +1,307 @@
+"""What losing on purpose pays, exactly, on the ladder of rating errors.
+
+A player of error e wins his next match with the chance W(e), and the ladder's kernel K says
+where his rating goes. From a law v of his error, D matches lost on purpose lead to the law
+B^D v, where B takes each error down by the points that the most costly defeat moves it, and
+
+    P(win match i in earnest | D dumped) = W . K^(i - 1) B^D v
+
+against W . K^(D + i - 1) v of a player who plays all D + i matches in earnest.
+
+Where a match won is a point up and a match lost a point down, wins are conserved: over a long
+time the D points come back as D / 2 matches won beyond those of the honest player, as many as
+were given away. Dumping then pays only so far as the matches in earnest are worth more than
+those that are dumped.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.ladder import Ladder
+from evenbreak.handicaps.match_table import match_table
+from evenbreak.stats.summary import Distribution
+
+__all__ = ["DumpRow", "Sandbagging", "entering_low", "sandbagging"]
+
+Floats = NDArray[np.float64]
+
+_MOST = 1000
+"""Matches dumped, or played in earnest, that are looked at."""
+
+
+class DumpRow(NamedTuple):
+    """What it comes to to lose so many matches on purpose, against a player who never does.
+
+    Parameters
+    ----------
+    dumped
+        matches lost on purpose before the first in earnest.
+    rating
+        by how many points the rating is lower than the honest player's, on average.
+    given_away
+        matches that the honest player wins of those dumped, on average.
+    p_first
+        P(he wins the first match in earnest).
+    extra_wins
+        matches in earnest won beyond the honest player's, on average.
+    for_the_last
+        extra wins that the last dumped match added.
+    break_even
+        how many times what is at stake in a dumped match must be at stake in earnest for the
+        dumping to pay; infinite where it brings no extra win.
+    p_in_a_row
+        P(he wins so many matches in a row with the rating with which he came).
+    profit
+        in the units of the stakes, beyond the honest player's.
+    """
+
+    dumped: int
+    rating: float
+    given_away: float
+    p_first: float
+    extra_wins: float
+    for_the_last: float
+    break_even: float
+    p_in_a_row: float
+    profit: float
+
+
+@dataclass(frozen=True, eq=False)
+class Sandbagging:
+    """What matches lost on purpose buy, by their number.
+
+    Parameters
+    ----------
+    rows
+        a `DumpRow` for 0, 1, 2, ... dumped matches.
+    p_win
+        P(he wins a match in earnest), shape (dumped, matches in earnest).
+    p_honest
+        P(a player who never dumps wins his matches), the dumped ones first, shape
+        (most dumped + matches in earnest,).
+    """
+
+    rows: tuple[DumpRow, ...]
+    p_win: Floats
+    p_honest: Floats
+
+    @property
+    def best(self) -> DumpRow:
+        """The row of the largest profit; of equal ones the one with the fewest dumped."""
+        return max(self.rows, key=lambda row: (row.profit, -row.dumped))
+
+
+def sandbagging(
+    ladder: Ladder,
+    *,
+    dumped: int = 10,
+    earnest: int = 20,
+    start: int | Distribution = 0,
+    stake: float = 10.0,
+    dumped_stake: float = 1.0,
+    in_a_row: int = 3,
+    prize: float = 0.0,
+) -> Sandbagging:
+    """Return what it pays to lose matches on purpose and then to play in earnest.
+
+    Each probability is conditional on the ladder's model of the opponents, on a skill that
+    does not change, and on nobody stepping in.
+
+    Parameters
+    ----------
+    ladder
+        the ladder; a match lost on purpose moves the rating by the most costly defeat in the
+        race against an opponent who is rated at the player's skill.
+    dumped
+        0, 1, ... so many matches are dumped.
+    earnest
+        matches played in earnest afterwards, all of them counted.
+    start
+        the rating error before, in points: a whole number, or its law, such as `ladder.law()`.
+    stake, dumped_stake
+        what a match won is worth more than one lost: in earnest, and among those dumped.
+    in_a_row, prize
+        a tournament that is won by so many matches in a row, all by the ratings with which
+        the players came, and what it pays. It comes first of what is played in earnest and
+        moves no ratings.
+
+    Raises
+    ------
+    InputError
+        if a number is out of range, or the ladder's player drifts.
+
+    Notes
+    -----
+    profit = stake · extra wins + prize · (P(in a row) - the honest player's)
+    - dumped_stake · matches given away.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> pays = sandbagging(Ladder("npl"), dumped=10, earnest=20)
+    >>> ten = pays.rows[10]
+    >>> ten.rating, round(ten.p_first, 3), round(ten.extra_wins, 2), round(ten.break_even, 2)
+    (10.0, 0.637, 2.11, 2.37)
+    """
+    most = whole(dumped, "dumped")
+    many = whole(earnest, "earnest", at_least=1)
+    streak = whole(in_a_row, "in_a_row", at_least=1)
+    for name, value in (("dumped", most), ("earnest", many)):
+        if value > _MOST:
+            raise InputError(f"{name} is {value}; give at most {_MOST}")
+    for name, money in (("stake", stake), ("dumped_stake", dumped_stake), ("prize", prize)):
+        if not 0.0 <= money < math.inf:
+            raise InputError(f"{name} is {money!r}; give a number from 0 on")
+    law = start_law(ladder, start)
+    errors, wins = np.asarray(ladder.errors, dtype=float), np.asarray(ladder.wins)
+    step, down = earnest_matrix(ladder), dumped_matrix(ladder)
+    honest = _laws(step, law, most + many)
+    after = _laws(down, law, most + 1)
+    p_honest = honest @ wins
+    p_win = np.stack([_laws(step, one, many) @ wins for one in after])
+    extra = p_win.sum(axis=1) - [p_honest[k : k + many].sum() for k in range(most + 1)]
+    away = np.append(0.0, np.cumsum(p_honest[:most]))
+    row = after @ wins**streak
+    profit = stake * extra + prize * (row - honest[: most + 1] @ wins**streak) - dumped_stake * away
+    # No match dumped is no difference; rounding may say otherwise.
+    extra[0] = profit[0] = 0.0
+    return Sandbagging(
+        tuple(
+            DumpRow(
+                k,
+                float((honest[k] - after[k]) @ errors),
+                float(away[k]),
+                float(p_win[k, 0]),
+                float(extra[k]),
+                float(extra[k] - extra[k - 1]) if k else 0.0,
+                float(away[k] / extra[k]) if extra[k] > 0.0 else math.inf,
+                float(row[k]),
+                float(profit[k]),
+            )
+            for k in range(most + 1)
+        ),
+        p_win,
+        p_honest,
+    )
+
+
+def entering_low(ladders: Ladder | Iterable[Ladder], by: int = 30, matches: int = 50) -> Floats:
+    """Return the matches won beyond his due by a player who enters with too low a rating.
+
+    Parameters
+    ----------
+    ladders
+        the ladder; or a ladder for each match, where the first matches move a rating by more,
+        the last of them for all that follow.
+    by
+        by how many points the rating is too low.
+    matches
+        how many matches he plays, all in earnest.
+
+    Returns
+    -------
+    array of shape (matches,)
+        extra wins after each of the matches, on average, against a player rated rightly.
+
+    Raises
+    ------
+    InputError
+        if a number is out of range, the ladders are not equally wide, or none is given.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> entering_low(Ladder("npl"), 30, 100)[[9, 99]].round(2).tolist()
+    [2.82, 14.04]
+    """
+    many = whole(matches, "matches", at_least=1)
+    listed = [ladders] if isinstance(ladders, Ladder) else list(ladders)
+    if not listed or len({ladder.errors.size for ladder in listed}) > 1:
+        raise InputError("ladders holds none, or ladders of several widths; give equally wide ones")
+    low = start_law(listed[0], -whole(by, "by"))
+    right = start_law(listed[0], 0)
+    extra, steps = [], [earnest_matrix(ladder) for ladder in listed[:many]]
+    for k in range(many):
+        place = min(k, len(steps) - 1)
+        extra.append(float(listed[place].wins @ (low - right)))
+        low, right = steps[place] @ low, steps[place] @ right
+    return np.cumsum(extra)
+
+
+def start_law(ladder: Ladder, start: int | Distribution) -> Floats:
+    """Return the probability of each of the ladder's errors.
+
+    Raises
+    ------
+    InputError
+        if an error is not a whole number, or beyond the ladder's widest.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> start_law(Ladder("npl", widest=10), -10)[:2]
+    array([1., 0.])
+    """
+    pairs: Iterable[tuple[Any, Any]] = (
+        zip(start.values, start.probability, strict=True)
+        if isinstance(start, Distribution)
+        else [(start, 1.0)]
+    )
+    law, widest = np.zeros(ladder.errors.size), int(ladder.errors[-1])
+    for error, chance in pairs:
+        if not (isinstance(error, int | float) and error == int(error) and abs(error) <= widest):
+            raise InputError(
+                f"start is {error!r}; give whole points from {-widest} to {widest}, "
+                "or a wider ladder"
+            )
+        law[int(error) + widest] += float(chance)
+    return law
+
+
+def earnest_matrix(ladder: Ladder) -> Floats:
+    """Return P(next error | error) of a match played in earnest, shape (errors, errors).
+
+    Column-stochastic: v' = M v. An error is held at the ends of the ladder.
+    """
+    _refuse_drift(ladder)
+    here = np.arange(ladder.errors.size)
+    matrix = np.zeros((here.size, here.size))
+    for step, chance in zip(ladder.steps, np.asarray(ladder.kernel).T, strict=True):
+        np.add.at(matrix, (np.clip(here + int(step), 0, here.size - 1), here), chance)
+    return matrix
+
+
+def dumped_matrix(ladder: Ladder) -> Floats:
+    """Return P(next error | error) of a match lost on purpose, shape (errors, errors).
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> dumped_matrix(Ladder("npl", widest=1))
+    array([[1., 1., 0.],
+           [0., 0., 1.],
+           [0., 0., 0.]])
+    """
+    _refuse_drift(ladder)
+    table = match_table(ladder.system, ladder.chart, widest=int(ladder.errors[-1]))
+    lost = ~table.won & (table.games[..., 1] >= 0)
+    move = np.where(lost, table.moves[..., 0], np.iinfo(np.int64).max).min(axis=1)
+    here = np.arange(ladder.errors.size)
+    matrix = np.zeros((here.size, here.size))
+    matrix[np.clip(here + move, 0, here.size - 1), here] = 1.0
+    return matrix
+
+
+def _refuse_drift(ladder: Ladder) -> None:
+    if ladder.drift:
+        raise InputError(f"the ladder's player drifts by {ladder.drift!r}; give one of drift 0")
+
+
+def _laws(matrix: Floats, law: Floats, many: int) -> Floats:
+    """Return the laws before each of so many matches, shape (matches, errors)."""
+    laws = np.empty((many, law.size))
+    for place in range(many):
+        laws[place] = law
+        law = matrix @ law
+    return laws

@@ -1,0 +1,327 @@
+"""Watching a league for sandbagging: each player's evidence, match by match, with its alarm."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.checks import one_of
+from evenbreak.errors import InputError
+from evenbreak.handicaps.chart import Chart
+from evenbreak.handicaps.moves import Moves, apply_results
+from evenbreak.handicaps.systems import System
+from evenbreak.league.evidence import (
+    DEPTHS,
+    GAINS,
+    HONEST,
+    SHARES,
+    SHARES_MARKED,
+    WIDEST,
+    Evidence,
+    Likelihood,
+    Result,
+)
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.roster import Roster
+from evenbreak.stats.summary import Distribution
+
+__all__ = ["Night", "Watched", "nights_of", "played_nights", "watch", "watch_player"]
+
+Floats = NDArray[np.float64]
+
+
+class Night(NamedTuple):
+    """A night of a season: the places of its matches in the results, and what they moved."""
+
+    rows: NDArray[np.int64]
+    moves: Moves
+
+
+@dataclass(frozen=True, eq=False)
+class Watched:
+    """What one player's results weigh for sandbagging.
+
+    Parameters
+    ----------
+    player
+        the name.
+    rows
+        places of his matches in the results, in the order in which they were played.
+    won
+        whether he won each.
+    any, established
+        the logarithm of e after each match, against honest players of any skill, and against
+        established ones.
+    honest
+        against which of the two the alarm is raised.
+    alpha
+        the chance that an honest player is ever flagged, at most.
+    """
+
+    player: str
+    rows: NDArray[np.int64]
+    won: NDArray[np.bool_]
+    any: Floats
+    established: Floats
+    honest: str
+    alpha: float
+
+    @property
+    def log_e(self) -> Floats:
+        """The logarithm of e by which the alarm is raised, after each match."""
+        return self.any if self.honest == "any" else self.established
+
+    @property
+    def alarm(self) -> int | None:
+        """The place in `rows` of the match that first raised the alarm; None if none did."""
+        over = np.flatnonzero(self.log_e >= -math.log(self.alpha))
+        return int(over[0]) if over.size else None
+
+    @property
+    def e_value(self) -> float:
+        """The value of e after the last match."""
+        return _e(float(self.log_e[-1]))
+
+    @property
+    def largest_e(self) -> float:
+        """The largest e after any match: his alarm was raised if it is 1 / alpha or more."""
+        return _e(float(self.log_e.max()))
+
+    @property
+    def p_value(self) -> float:
+        """The smallest alpha at which he would have been flagged: 1 / the largest e."""
+        return min(1.0, 1.0 / self.largest_e)
+
+
+def watch(
+    nights: Iterable[Night],
+    system: System,
+    error: Distribution,
+    *,
+    alpha: float = 0.01,
+    honest: str = "any",
+    marked: NDArray[np.bool_] | None = None,
+) -> list[Watched]:
+    """Return what the results of a season weigh against each player, by name.
+
+    Parameters
+    ----------
+    nights
+        the season, as `played_nights` returns it.
+    system
+        the league's system.
+    error
+        the law of a rating's error (rating less skill), such as `Ladder(...).law()`.
+    alpha
+        for each honest player the chance that he is ever flagged, at most.
+    honest
+        'any': the bound holds for every constant skill, and for those that change steadily
+        by -1/4 to 1/2 point a match. 'established': it holds on average over the errors that
+        the ladder gives a rating at the start, and sandbaggers are seen sooner; but honest
+        players who are rated far wrongly or improve are flagged too.
+    marked
+        for each match whether it is one that may have been dumped; None: any may.
+
+    Raises
+    ------
+    InputError
+        if alpha is not above 0 and below 1, or honest is neither.
+
+    Notes
+    -----
+    The bound holds for each player by himself, and on average over the errors of his opponents'
+    ratings. Among N honest players at most N · alpha are flagged on average; at alpha / N the
+    chance that any is stays below alpha.
+
+    >>> from evenbreak.handicaps import Ladder, chart, system_of
+    >>> club = Roster(["Ann", "Bo"], [80, 80])
+    >>> season = Results.from_names(["Ann"] * 4, ["Bo"] * 4, [5, 0, 5, 0], [0, 5, 1, 4])
+    >>> npl, ten = system_of("npl"), chart("npl_10")
+    >>> season = played_nights(npl, club, season, chart=ten)
+    >>> for one in watch(season, npl, Ladder("npl", ten).law()):
+    ...     print(one.player, one.won.tolist(), one.alarm)
+    Ann [True, False, True, False] None
+    Bo [False, True, False, True] None
+    """
+    if not 0.0 < alpha < 1.0:
+        raise InputError(f"alpha is {alpha!r}; give a number above 0 and below 1")
+    one_of(honest, "honest", HONEST)
+    shares = SHARES if marked is None else SHARES_MARKED
+    results: dict[int, list[Result]] = {}
+    rows: dict[int, list[int]] = {}
+    start: dict[int, int] = {}
+    names: tuple[str, ...] = ()
+    for night in nights:
+        names = night.moves.before.players
+        rating = np.floor(night.moves.before.rating + 0.5)  # as `evenbreak matchups` rounds
+        for match in night.moves.matches:
+            row = int(night.rows[match.row])
+            may = marked is None or bool(marked[row])
+            sides = ((match.winner, match.loser, 1), (match.loser, match.winner, -1))
+            for player, other, turn in sides:
+                start.setdefault(player, int(rating[player]))
+                rows.setdefault(player, []).append(row)
+                results.setdefault(player, []).append(
+                    Result(
+                        int(rating[other]),
+                        None if match.games is None else match.games[::turn],
+                        None if match.race is None else match.race[::turn],
+                        turn == 1,
+                        may,
+                    )
+                )
+    likelihood = Likelihood(system.scale, error)
+    found = []
+    for player in sorted(results, key=lambda place: names[place]):
+        both = watch_player(start[player], results[player], likelihood, shares=shares)
+        won = np.array([result.won for result in results[player]])
+        place = np.array(rows[player])
+        found.append(Watched(names[player], place, won, *both, honest, alpha))
+    return found
+
+
+def watch_player(
+    rating: int,
+    results: Sequence[Result],
+    likelihood: Likelihood,
+    *,
+    shares: Sequence[float] = SHARES,
+) -> tuple[Floats, Floats]:
+    """Return the logarithm of e after each match of a player.
+
+    Parameters
+    ----------
+    rating
+        his rating at the start, in whole points.
+    results
+        his matches, in the order in which they were played.
+    likelihood
+        of the scale, and of the errors of ratings.
+    shares
+        the shares of his marked matches that a sandbagger dumps, to be mixed over.
+
+    Returns
+    -------
+    two arrays of shape (results,)
+        against honest players of any skill; and against established ones, whose ratings at
+        the start err as `likelihood` says.
+
+    >>> from evenbreak.ratings.scale import SCALES
+    >>> rightly = Likelihood(SCALES["npl"], Distribution((0,), (1.0,)))
+    >>> match = Result(80, (5, 4), (5, 5), True)
+    >>> watch_player(80, [match] * 3, rightly)[0].round(2).tolist()
+    [-0.34, -0.63, -0.89]
+    """
+    evidence = Evidence(skill_prior(likelihood), shares, len(DEPTHS) + 1)
+    log_e = np.empty((2, len(results)))
+    for place, result in enumerate(results):
+        shift, (up, down) = rating - result.opponent, drift_room(place)
+        first = shift - WIDEST - max(DEPTHS) - down
+        chances = likelihood.of(
+            result.games, result.race, won=result.won, first=first, last=shift + WIDEST + up
+        )
+        drifting, kinds = at_skills(*chances, place)
+        evidence.add(drifting[None], kinds[None], marked=result.marked)
+        log_e[:, place] = [evidence.log_e(honest)[0] for honest in HONEST]
+    return log_e[0], log_e[1]
+
+
+def skill_prior(likelihood: Likelihood) -> Floats:
+    """Return the law of skill less rating, shape (1, skills)."""
+    prior = np.zeros((1, 2 * WIDEST + 1))
+    for place, weight in enumerate(likelihood.weights):
+        skill = -(place + likelihood.least)
+        prior[0, min(max(skill, -WIDEST), WIDEST) + WIDEST] += weight
+    return prior
+
+
+def drift_room(place: int) -> tuple[int, int]:
+    """Return by how much the honest skills can have risen and fallen until a match."""
+    gained = [round(gain * place) for gain in GAINS]
+    return max(*gained, 0), -min(*gained, 0)
+
+
+def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floats]:
+    """Return a result's chance at each skill: honest of each gain, and for each way of dumping.
+
+    Parameters
+    ----------
+    chance, feigned
+        at the differences from the lowest that is needed on, the last axis.
+    place
+        how many matches came before.
+
+    Returns
+    -------
+    arrays of shape (..., gains, skills) and (..., ways, skills)
+    """
+    base, many = max(DEPTHS) + drift_room(place)[1], 2 * WIDEST + 1
+
+    def part(values: Floats, offset: int) -> Floats:
+        return values[..., base + offset : base + offset + many]
+
+    drifting = [part(chance, round(gain * place)) for gain in GAINS]
+    kinds = [*(part(chance, -depth) for depth in DEPTHS), part(feigned, 0)]
+    return np.stack(drifting, axis=-2), np.stack(kinds, axis=-2)
+
+
+def nights_of(results: Results) -> list[NDArray[np.int64]]:
+    """Return the places of the matches of each night, in the order of the dates.
+
+    Without dates each match is a night of its own, in the order of the file; among dates, those
+    without one come last.
+    """
+    if results.date is None:
+        return [np.array([row]) for row in range(len(results))]
+    _, night = np.unique(results.date, return_inverse=True)
+    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]
+
+
+def played_nights(
+    system: System,
+    roster: Roster,
+    results: Results,
+    *,
+    chart: Chart | None = None,
+    apply: Callable[[Roster, NDArray[np.int64]], Moves] | None = None,
+) -> list[Night]:
+    """Return a season night by night, the ratings moved by each.
+
+    Parameters
+    ----------
+    system
+        the league's system.
+    roster
+        the ratings before the first night.
+    results
+        the season.
+    chart
+        by which races were given where the results state none.
+    apply
+        how a night's matches move a list; None: by `apply_results`.
+
+    Raises
+    ------
+    InputError
+        if results cannot be used.
+    """
+
+    def by_results(list_: Roster, rows: NDArray[np.int64]) -> Moves:
+        return apply_results(system, list_, results.select(rows), chart=chart)
+
+    nights, now = [], roster
+    for rows in nights_of(results):
+        moves = (apply or by_results)(now, rows)
+        nights.append(Night(rows, moves))
+        now = moves.after
+    return nights
+
+
+def _e(log_e: float) -> float:
+    """Return e, held where a float ends."""
+    return math.exp(min(log_e, 700.0))
