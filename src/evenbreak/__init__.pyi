@@ -39,8 +39,7 @@ from evenbreak.handicaps.chart import Chart as Chart
 from evenbreak.handicaps.chart import chart as chart
 from evenbreak.handicaps.design import design as design
 from evenbreak.handicaps.fair import fair_races as fair_races
-from evenbreak.handicaps.ladder import autocorrelated_ladder as autocorrelated_ladder
-from evenbreak.handicaps.ladder import natural_ladder as natural_ladder
+from evenbreak.handicaps.ladder import Ladder as Ladder
 from evenbreak.matches.crossings import crossings as crossings
 from evenbreak.matches.crossings import even_probability as even_probability
 from evenbreak.matches.formats import match_format as match_format

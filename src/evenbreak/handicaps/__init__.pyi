@@ -13,13 +13,11 @@ from evenbreak.handicaps.chart_rows import ChartDraft as ChartDraft
 from evenbreak.handicaps.chart_rows import ChartRow as ChartRow
 from evenbreak.handicaps.design import design as design
 from evenbreak.handicaps.design import nearest_chart as nearest_chart
+from evenbreak.handicaps.error_walk import RatingLadder as RatingLadder
 from evenbreak.handicaps.fair import FairRace as FairRace
 from evenbreak.handicaps.fair import fair_races as fair_races
 from evenbreak.handicaps.fixed_length import fixed_length_chart as fixed_length_chart
-from evenbreak.handicaps.ladder import LadderLaw as LadderLaw
-from evenbreak.handicaps.ladder import RatingLadder as RatingLadder
-from evenbreak.handicaps.ladder import autocorrelated_ladder as autocorrelated_ladder
-from evenbreak.handicaps.ladder import natural_ladder as natural_ladder
+from evenbreak.handicaps.ladder import Ladder as Ladder
 from evenbreak.handicaps.level_audit import LevelAudit as LevelAudit
 from evenbreak.handicaps.level_audit import LevelCell as LevelCell
 from evenbreak.handicaps.level_audit import audit_levels as audit_levels
@@ -33,6 +31,11 @@ from evenbreak.handicaps.moves import Moves as Moves
 from evenbreak.handicaps.moves import apply_results as apply_results
 from evenbreak.handicaps.moves import chart_of_night as chart_of_night
 from evenbreak.handicaps.moves import night_problems as night_problems
+from evenbreak.handicaps.opponents import AUTOCORRELATED as AUTOCORRELATED
+from evenbreak.handicaps.opponents import EQUAL_SKILL as EQUAL_SKILL
+from evenbreak.handicaps.opponents import NATURAL as NATURAL
+from evenbreak.handicaps.opponents import Opponents as Opponents
+from evenbreak.handicaps.opponents import opponents_of as opponents_of
 from evenbreak.handicaps.pareto import ParetoChart as ParetoChart
 from evenbreak.handicaps.pareto import pareto as pareto
 from evenbreak.handicaps.play import Play as Play
