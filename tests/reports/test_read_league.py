@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import DataError
+from evenbreak.league.players import ESTABLISHED
 from evenbreak.reports.read_league import read_league
 
 WHOLE = """\
-Name;Rating;SE;Games;Skill;Day SD;Drift;Joins;Leaves;Absence
-Ann;92,4;9;140;95,5;4;0,1;;;
-Bo;71,5;12;20;;;;3;20;0,25
-Cy;60;;;;0;;;;
+Name;Rating;SE;Games;Matches;Skill;Day SD;Drift;Joins;Leaves;Absence
+Ann;92,4;9;140;25;95,5;4;0,1;;;
+Bo;71,5;12;20;;;;;3;20;0,25
+Cy;60;;;0;;0;;;;
 """
 
 
@@ -35,6 +36,7 @@ def test_every_column_is_read(tmp_path: Path) -> None:
     assert players.drift.tolist() == [0.1, 0.0, 0.0]
     assert (players.joins.tolist(), players.leaves.tolist()) == ([1, 3, 1], [0, 20, 0])
     assert players.absence.tolist() == [0.0, 0.25, 0.0]
+    assert players.played.tolist() == [25, ESTABLISHED, 0]
     assert (file.guessed, file.exact) == (1, 1)
     assert file.warnings == (
         f"{tmp_path}/club.csv: 2 ratings are rounded to whole points, as charts need them",

@@ -9,6 +9,7 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
+        "one_season": ["PlayedSeason", "season_matches"],
         "play": ["chunk_replicas", "run_chunk"],
         "players": ["ESTABLISHED", "LeaguePlayers"],
         "schedule": ["FixedSchedule", "RandomPairing", "RoundRobin", "Schedule"],

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.systems import PlayedMatch, UpdateRule
+from evenbreak.league.schedule import Round
+from evenbreak.league.season import Season, draws_opponents
 from evenbreak.ratings.results import Results
-
-if TYPE_CHECKING:
-    from evenbreak.league.season import Season
 
 __all__ = ["FIRST_NIGHT", "PlayedSeason", "season_matches"]
 
@@ -120,7 +119,7 @@ def season_matches(
         there = _there(season, week, rng)
         today = np.rint(skill + rng.normal(0.0, players.day_sd))
         move = np.zeros_like(rating)
-        for ones, others in season.schedule.pairs(week, rng, len(rating)):
+        for ones, others in _rounds(season, week, rng):
             for a, b in zip(ones.tolist(), others.tolist(), strict=True):
                 if there[a] and there[b]:
                     match = _play(season, week, (a, b), rating, played, today, rng)
@@ -135,8 +134,15 @@ def season_matches(
 def _there(season: Season, week: int, rng: np.random.Generator) -> NDArray[np.bool_]:
     """Return who plays in a week: a member who is not absent."""
     players = season.players
-    member = (players.joins <= week) & ((players.leaves == 0) | (players.leaves >= week))
-    return np.asarray(member & (rng.random(len(member)) >= players.absence))
+    return np.asarray(players.here(week) & (rng.random(len(players)) >= players.absence))
+
+
+def _rounds(season: Season, week: int, rng: np.random.Generator) -> list[Round]:
+    """Return who meets whom; lots are drawn among the members of the week only."""
+    if not draws_opponents(season.schedule):
+        return list(season.schedule.pairs(week, rng, len(season.players)))
+    who = np.flatnonzero(season.players.here(week))
+    return [(who[a], who[b]) for a, b in season.schedule.pairs(week, rng, len(who))]
 
 
 def _play(

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.errors import DataError, InputError
-from evenbreak.league.players import LeaguePlayers
-from evenbreak.ratings.roster import Roster
+from evenbreak.league.players import ESTABLISHED, LeaguePlayers
+from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.reports.cells import numbers, whole_numbers
 from evenbreak.reports.problems import Problems
 from evenbreak.reports.read_roster import LARGEST, OPTIONAL, REQUIRED, WRITTEN, roster_of
@@ -125,6 +125,8 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
             joins=np.maximum(joins, 1),
             leaves=leaves,
             absence=np.nan_to_num(absence),
+            # Of whom the list does not say it, he is no newcomer.
+            played=np.where(roster.matches == NOT_STATED, ESTABLISHED, roster.matches),
         )
     except InputError as error:
         raise DataError([f"{table.source}: {error}"]) from None
