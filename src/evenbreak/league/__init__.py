@@ -9,11 +9,16 @@ from evenbreak._lazy import attach
 __getattr__, __dir__, __all__ = attach(
     __name__,
     {
+        "dump_cycle": ["DumpCycle", "best_cycle", "dump_cycle"],
+        "nights": ["Night", "nights_of", "played_nights"],
         "one_season": ["PlayedSeason", "season_matches"],
         "play": ["chunk_replicas", "run_chunk"],
         "players": ["ESTABLISHED", "LeaguePlayers"],
+        "sandbag": ["DumpRow", "Sandbagging", "entering_low", "sandbagging"],
         "schedule": ["FixedSchedule", "RandomPairing", "RoundRobin", "Schedule"],
         "season": ["Season"],
         "tally": ["Tally"],
+        "watch": ["Watched", "watch"],
+        "watch_power": ["WatchPower", "watch_power"],
     },
 )

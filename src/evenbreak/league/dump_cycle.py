@@ -75,7 +75,7 @@ def dump_cycle(
     >>> from evenbreak.handicaps import Ladder
     >>> cycle = dump_cycle(Ladder("npl"), 5, 15)
     >>> round(cycle.p_win, 6), round(cycle.rating_error, 1), round(cycle.profit, 4)
-    (0.666667, -14.9, 1.125)
+    (0.666667, -15.2, 1.125)
     """
     down, many = whole(dumped, "dumped"), whole(earnest, "earnest", at_least=1)
     step, dump = earnest_matrix(ladder), dumped_matrix(ladder)

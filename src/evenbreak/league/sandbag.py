@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladder import Ladder
+from evenbreak.handicaps.ladder_chain import move_matrix
 from evenbreak.handicaps.match_table import match_table
 from evenbreak.stats.summary import Distribution
 
@@ -34,6 +35,8 @@ __all__ = ["DumpRow", "Sandbagging", "entering_low", "sandbagging"]
 
 Floats = NDArray[np.float64]
 
+_HELD = 1e-6
+"""A chance to be held at the ladder's lower end from which on the end would decide."""
 _MOST = 1000
 """Matches dumped, or played in earnest, that are looked at."""
 
@@ -137,7 +140,7 @@ def sandbagging(
     Raises
     ------
     InputError
-        if a number is out of range, or the ladder's player drifts.
+        if a number is out of range, the ladder too narrow, or its player drifts.
 
     Notes
     -----
@@ -147,8 +150,8 @@ def sandbagging(
     >>> from evenbreak.handicaps import Ladder
     >>> pays = sandbagging(Ladder("npl"), dumped=10, earnest=20)
     >>> ten = pays.rows[10]
-    >>> ten.rating, round(ten.p_first, 3), round(ten.extra_wins, 2), round(ten.break_even, 2)
-    (10.0, 0.637, 2.11, 2.37)
+    >>> round(ten.p_first, 3), round(ten.extra_wins, 2), round(ten.break_even, 2)
+    (0.637, 2.13, 2.35)
     """
     most = whole(dumped, "dumped")
     many = whole(earnest, "earnest", at_least=1)
@@ -164,6 +167,11 @@ def sandbagging(
     step, down = earnest_matrix(ladder), dumped_matrix(ladder)
     honest = _laws(step, law, most + many)
     after = _laws(down, law, most + 1)
+    if after[-1, 0] > _HELD:
+        raise InputError(
+            f"dumped is {most}, which takes the rating to the ladder's end at {-ladder.widest}; "
+            "give fewer, or a wider ladder"
+        )
     p_honest = honest @ wins
     p_win = np.stack([_laws(step, one, many) @ wins for one in after])
     extra = p_win.sum(axis=1) - [p_honest[k : k + many].sum() for k in range(most + 1)]
@@ -192,44 +200,49 @@ def sandbagging(
     )
 
 
-def entering_low(ladders: Ladder | Iterable[Ladder], by: int = 30, matches: int = 50) -> Floats:
+def entering_low(
+    ladder: Ladder, by: int = 30, matches: int = 50, *, newcomer: bool = False
+) -> Floats:
     """Return the matches won beyond his due by a player who enters with too low a rating.
 
     Parameters
     ----------
-    ladders
-        the ladder; or a ladder for each match, where the first matches move a rating by more,
-        the last of them for all that follow.
+    ladder
+        the ladder.
     by
         by how many points the rating is too low.
     matches
         how many matches he plays, all in earnest.
+    newcomer
+        whether his first matches move by the system's newcomer schedule.
 
     Returns
     -------
     array of shape (matches,)
-        extra wins after each of the matches, on average, against a player rated rightly.
+        extra wins after each of the matches, on average, against a player rated rightly who
+        plays as many.
 
     Raises
     ------
     InputError
-        if a number is out of range, the ladders are not equally wide, or none is given.
+        if a number is out of range, or the ladder's player drifts.
 
     >>> from evenbreak.handicaps import Ladder
     >>> entering_low(Ladder("npl"), 30, 100)[[9, 99]].round(2).tolist()
-    [2.82, 14.04]
+    [3.0, 13.73]
+    >>> entering_low(Ladder("npl"), 30, 100, newcomer=True)[[9, 99]].round(2).tolist()
+    [2.64, 6.93]
     """
     many = whole(matches, "matches", at_least=1)
-    listed = [ladders] if isinstance(ladders, Ladder) else list(ladders)
-    if not listed or len({ladder.errors.size for ladder in listed}) > 1:
-        raise InputError("ladders holds none, or ladders of several widths; give equally wide ones")
-    low = start_law(listed[0], -whole(by, "by"))
-    right = start_law(listed[0], 0)
-    extra, steps = [], [earnest_matrix(ladder) for ladder in listed[:many]]
+    low, right = start_law(ladder, -whole(by, "by")), start_law(ladder, 0)
+    schedule = ladder.system.newcomer_steps if newcomer else ()
+    factors = [factor for played, factor in schedule for _ in range(played)]
+    steps = {factor: earnest_matrix(ladder, factor) for factor in {1, *factors}}
+    extra = np.empty(many)
     for k in range(many):
-        place = min(k, len(steps) - 1)
-        extra.append(float(listed[place].wins @ (low - right)))
-        low, right = steps[place] @ low, steps[place] @ right
+        extra[k] = ladder.wins @ (low - right)
+        step = steps[factors[k] if k < len(factors) else 1]
+        low, right = step @ low, step @ right
     return np.cumsum(extra)
 
 
@@ -261,17 +274,19 @@ def start_law(ladder: Ladder, start: int | Distribution) -> Floats:
     return law
 
 
-def earnest_matrix(ladder: Ladder) -> Floats:
+def earnest_matrix(ladder: Ladder, factor: int = 1) -> Floats:
     """Return P(next error | error) of a match played in earnest, shape (errors, errors).
 
-    Column-stochastic: v' = M v. An error is held at the ends of the ladder.
+    Column-stochastic: v' = M v. A move beyond an end of the ladder is not made; a newcomer's
+    moves are multiplied by a factor.
+
+    Raises
+    ------
+    InputError
+        if the ladder's player drifts.
     """
     _refuse_drift(ladder)
-    here = np.arange(ladder.errors.size)
-    matrix = np.zeros((here.size, here.size))
-    for step, chance in zip(ladder.steps, np.asarray(ladder.kernel).T, strict=True):
-        np.add.at(matrix, (np.clip(here + int(step), 0, here.size - 1), here), chance)
-    return matrix
+    return move_matrix(ladder, factor).T
 
 
 def dumped_matrix(ladder: Ladder) -> Floats:
@@ -288,8 +303,9 @@ def dumped_matrix(ladder: Ladder) -> Floats:
     lost = ~table.won & (table.games[..., 1] >= 0)
     move = np.where(lost, table.moves[..., 0], np.iinfo(np.int64).max).min(axis=1)
     here = np.arange(ladder.errors.size)
+    there = here + move
     matrix = np.zeros((here.size, here.size))
-    matrix[np.clip(here + move, 0, here.size - 1), here] = 1.0
+    matrix[np.where((there < 0) | (there >= here.size), here, there), here] = 1.0
     return matrix
 
 

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
-from evenbreak.handicaps.chart import Chart
-from evenbreak.handicaps.moves import Moves, apply_results
 from evenbreak.handicaps.systems import System
 from evenbreak.league.evidence import (
     DEPTHS,
@@ -26,20 +23,12 @@ from evenbreak.league.evidence import (
     Likelihood,
     Result,
 )
-from evenbreak.ratings.results import Results
-from evenbreak.ratings.roster import Roster
+from evenbreak.league.nights import Night
 from evenbreak.stats.summary import Distribution
 
-__all__ = ["Night", "Watched", "nights_of", "played_nights", "watch", "watch_player"]
+__all__ = ["Watched", "watch", "watch_player"]
 
 Floats = NDArray[np.float64]
-
-
-class Night(NamedTuple):
-    """A night of a season: the places of its matches in the results, and what they moved."""
-
-    rows: NDArray[np.int64]
-    moves: Moves
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,8 +128,10 @@ def watch(
     chance that any is stays below alpha.
 
     >>> from evenbreak.handicaps import Ladder, chart, system_of
+    >>> from evenbreak.league import played_nights
+    >>> from evenbreak.ratings import Results, Roster
     >>> club = Roster(["Ann", "Bo"], [80, 80])
-    >>> season = Results.from_names(["Ann"] * 4, ["Bo"] * 4, [5, 0, 5, 0], [0, 5, 1, 4])
+    >>> season = Results.from_names(["Ann"] * 4, ["Bo"] * 4, [5, 0, 5, 0], [0, 5, 1, 5])
     >>> npl, ten = system_of("npl"), chart("npl_10")
     >>> season = played_nights(npl, club, season, chart=ten)
     >>> for one in watch(season, npl, Ladder("npl", ten).law()):
@@ -169,8 +160,8 @@ def watch(
                 results.setdefault(player, []).append(
                     Result(
                         int(rating[other]),
-                        None if match.games is None else match.games[::turn],
-                        None if match.race is None else match.race[::turn],
+                        _turned(match.games, turn),
+                        _turned(match.race, turn),
                         turn == 1,
                         may,
                     )
@@ -183,6 +174,10 @@ def watch(
         place = np.array(rows[player])
         found.append(Watched(names[player], place, won, *both, honest, alpha))
     return found
+
+
+def _turned(pair: tuple[int, int] | None, turn: int) -> tuple[int, int] | None:
+    return pair if pair is None or turn == 1 else (pair[1], pair[0])
 
 
 def watch_player(
@@ -268,58 +263,6 @@ def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floa
     drifting = [part(chance, round(gain * place)) for gain in GAINS]
     kinds = [*(part(chance, -depth) for depth in DEPTHS), part(feigned, 0)]
     return np.stack(drifting, axis=-2), np.stack(kinds, axis=-2)
-
-
-def nights_of(results: Results) -> list[NDArray[np.int64]]:
-    """Return the places of the matches of each night, in the order of the dates.
-
-    Without dates each match is a night of its own, in the order of the file; among dates, those
-    without one come last.
-    """
-    if results.date is None:
-        return [np.array([row]) for row in range(len(results))]
-    _, night = np.unique(results.date, return_inverse=True)
-    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]
-
-
-def played_nights(
-    system: System,
-    roster: Roster,
-    results: Results,
-    *,
-    chart: Chart | None = None,
-    apply: Callable[[Roster, NDArray[np.int64]], Moves] | None = None,
-) -> list[Night]:
-    """Return a season night by night, the ratings moved by each.
-
-    Parameters
-    ----------
-    system
-        the league's system.
-    roster
-        the ratings before the first night.
-    results
-        the season.
-    chart
-        by which races were given where the results state none.
-    apply
-        how a night's matches move a list; None: by `apply_results`.
-
-    Raises
-    ------
-    InputError
-        if results cannot be used.
-    """
-
-    def by_results(list_: Roster, rows: NDArray[np.int64]) -> Moves:
-        return apply_results(system, list_, results.select(rows), chart=chart)
-
-    nights, now = [], roster
-    for rows in nights_of(results):
-        moves = (apply or by_results)(now, rows)
-        nights.append(Night(rows, moves))
-        now = moves.after
-    return nights
 
 
 def _e(log_e: float) -> float:

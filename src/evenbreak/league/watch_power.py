@@ -159,7 +159,7 @@ def watch_power(
 
 def _start(ladder: Ladder, start: int | None) -> Floats:
     law = start_law(ladder, ladder.law() if start is None else start)
-    return law / law.sum()
+    return np.asarray(law / law.sum())
 
 
 class _Simulated:
