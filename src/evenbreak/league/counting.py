@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.league.tally import FIFTHS, GAP_COLUMNS, WEEK_COLUMNS, Tally
+from evenbreak.league.tally import FIFTHS, GAP_COLUMNS, WEEK_COLUMNS, Tally, fifths_of
 
 if TYPE_CHECKING:
     from evenbreak.league.season import Season
@@ -20,7 +20,7 @@ _DOUBLINGS = 4.0
 _BINS = 128
 """Gaps of skill that are told apart at most."""
 
-_LARGE = 1 << 22
+_LARGE = 1 << 20
 """Entries of a table of players that is not kept."""
 
 _BLOCK = 1 << 16
@@ -50,34 +50,40 @@ class Counting:
         self.codes = np.zeros((rows, look.codes), dtype=np.int64)
 
     def week(
-        self, week: int, rating: NDArray[Any], skill: NDArray[Any], here: NDArray[np.bool_]
+        self,
+        week: int,
+        rating: NDArray[np.int16],
+        skill: NDArray[np.int16],
+        here: NDArray[np.bool_] | None,
     ) -> None:
-        """Count the rating errors of those who are in the league."""
-        everybody = bool(here.all())
+        """Count the rating errors of those who are in the league (None: everybody)."""
+        most = self.widest
         step = max(1, _BLOCK // rating.shape[1])
         for start in range(0, len(rating), step):
             some = slice(start, start + step)
             error = rating[some] - skill[some]
-            if not everybody:
+            if here is not None:
                 error = error[here[some]]
-            np.clip(error, -self.widest, self.widest, out=error)
-            error += self.widest
-            self.errors[week] += np.bincount(error.ravel(), minlength=self.errors.shape[1])
+            if error.max(initial=0) > most or error.min(initial=0) < -most:
+                np.clip(error, -most, most, out=error)
+            error += np.int16(most)
+            self.errors[week] += np.bincount(error.ravel(), minlength=2 * most + 1)
 
-    def matches(self, cell: NDArray[Any], won: NDArray[np.bool_], played: Any) -> None:
-        """Count matches by their place in the tables and by who wins."""
-        where = cell * 2
-        where += won
+    def matches(self, cell: NDArray[np.intp], won: NDArray[np.bool_], played: Any) -> None:
+        """Count matches by their place in the tables, which is even, and by who wins."""
+        where = cell + won
         np.add.at(self.cells, where.ravel() if played is None else where[played], 1)
 
-    def scores(self, row: NDArray[Any], place: NDArray[Any], score: Any, played: Any) -> None:
+    def scores(self, row: NDArray[Any], apart: NDArray[Any], score: Any, played: Any) -> None:
         """Count matches by skill difference and what is noted of their final score."""
         look = self.look
-        where = row * look.codes + look.code.take(place * look.outcomes + score)
+        place = (apart.astype(np.intp) + look.widest) * look.outcomes + score
+        where = row * look.codes + look.code.take(place)
         np.add.at(self.codes.reshape(-1), where.ravel() if played is None else where[played], 1)
 
     def tally(self, ended: Ended) -> Tally:
         """Return the tally of the chunk."""
+        known = None if ended.skill.shape[1] > 1 else self.season.fifths
         start = self.season.players.rating
         wins, games = ended.wins, ended.games
         moved = ended.rating - start[:, None].astype(np.int16)
@@ -100,7 +106,7 @@ class Counting:
             gap_width=width,
             gaps=self._gaps(width)[None],
             weeks=weeks[None],
-            fifths=_fifths(ended, share)[None],
+            fifths=_by_fifth(ended, share, known)[None],
         )
 
     def _weeks(self) -> NDArray[np.float64]:
@@ -110,18 +116,20 @@ class Counting:
 
     def _gaps(self, width: int) -> NDArray[np.float64]:
         look = self.look
-        cells = self.cells.reshape(2 * look.gap + 1, look.width, 2)
-        both = cells.sum(axis=2)
-        lost, won = cells.sum(axis=1).T
-        skill = np.arange(-look.gap, look.gap + 1)
-        stronger = np.where(skill > 0, won, np.where(skill < 0, lost, (won + lost) / 2.0))
-        if self.codes.any():
-            noted = self.codes @ look.noted
-        else:
-            noted = np.einsum("gx,gxc->gc", both.astype(float), look.expected)
-        sums = np.column_stack([won + lost, stronger, noted]).astype(float)
         found = np.zeros((look.gap // width + 1, len(GAP_COLUMNS)))
-        np.add.at(found, np.abs(skill) // width, sums)
+        skill = np.arange(-look.gap, look.gap + 1)
+        # Of millions of cells a chunk comes to few.
+        at = np.flatnonzero(self.cells)
+        times, won = self.cells[at], at & 1
+        row, column = np.divmod(at >> 1, look.width)
+        stronger = np.where(skill[row] > 0, won, np.where(skill[row] < 0, 1 - won, 0.5))
+        sums = np.column_stack([times, times * stronger])
+        np.add.at(found[:, :2], np.abs(skill[row]) // width, sums)
+        if self.season.lookup.by_winner is None or self.season.play == "racks":
+            np.add.at(found[:, 2:], np.abs(skill) // width, self.codes @ look.noted)
+        else:
+            noted = times[:, None] * look.expected[row, column]
+            np.add.at(found[:, 2:], np.abs(skill[row]) // width, noted)
         return found
 
 
@@ -131,7 +139,7 @@ def _squares(values: NDArray[Any]) -> NDArray[np.int64]:
     step = max(1, _BLOCK // values.shape[1])
     for start in range(0, len(values), step):
         some = values[start : start + step].astype(np.int64)
-        found[start : start + step] = (some * some).sum(axis=1)
+        found[start : start + step] = np.sum(some * some, axis=1)
     return found
 
 
@@ -144,20 +152,17 @@ def _by_player(values: NDArray[Any], most: int) -> NDArray[np.int64] | None:
     return np.bincount(place.ravel(), minlength=len(values) * many).reshape(-1, many)
 
 
-def _fifths(ended: Ended, share: int) -> NDArray[np.int64]:
-    """Return matches and wins by fifth of true skill at the start; equals by their position."""
-    skill, many = ended.skill, len(ended.skill)
-    order = np.argsort(skill, axis=0, kind="stable")
-    fifth = np.empty(skill.shape, dtype=np.int64)
-    ranks = (np.arange(many) * FIFTHS // many)[:, None]
-    np.put_along_axis(fifth, order, np.broadcast_to(ranks, skill.shape), axis=0)
+def _by_fifth(ended: Ended, share: int, fifth: NDArray[np.int64] | None) -> NDArray[np.int64]:
+    """Return matches and wins by fifth of true skill at the start."""
     found = np.zeros((FIFTHS, 2), dtype=np.int64)
+    if fifth is None:
+        fifth = fifths_of(ended.skill)
     for column, values, times in ((0, ended.matches, share), (1, ended.wins, 1)):
         if fifth.shape[1] == 1:
             by_player = values.sum(axis=1, dtype=np.int64) * times
             np.add.at(found[:, column], fifth[:, 0], by_player)
         else:
-            each = np.broadcast_to(values, fifth.shape).astype(np.int64)
             # One column of matches stands for all replicas, and is counted in each of them.
+            each = np.broadcast_to(values, fifth.shape).astype(np.int64)
             np.add.at(found[:, column], fifth.ravel(), each.ravel())
     return found

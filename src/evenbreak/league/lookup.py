@@ -39,8 +39,8 @@ class Lookup:
     gap
         the largest skill difference, in whole points; larger ones are taken for it.
     wins
-        P(player 1 wins) in 2^32nds, flat: (skill difference + gap) * width + rating
-        difference + widest.
+        P(player 1 wins) in 2^32nds, flat and each twice, so that who wins may be added to the
+        place: 2 * ((skill difference + gap) * width + rating difference + widest).
     """
 
     table: MatchTable
@@ -60,7 +60,7 @@ class Lookup:
     @property
     def outcomes(self) -> int:
         """How many final scores there is room for at each rating difference."""
-        return self.table.games.shape[1]
+        return int(self.table.games.shape[1])
 
     @cached_property
     def game(self) -> NDArray[np.float64]:
@@ -133,7 +133,7 @@ class Lookup:
     @cached_property
     def code(self) -> NDArray[np.int64]:
         """`classes` as one number, 4 * games + 2 * shutout + hill-hill, flat."""
-        return (self.classes @ np.array([1, 2, 4])).ravel()
+        return np.asarray(self.classes @ np.array([1, 2, 4])).ravel()
 
     @cached_property
     def noted(self) -> NDArray[np.int64]:
@@ -187,7 +187,7 @@ def lookup_of(table: MatchTable, gap: float) -> Lookup:
     certain = _CERTAIN * table.system.scale.points_per_doubling
     size = int(np.ceil(min(max(gap, 1.0), certain)))
     p = table.system.scale.win_probability(np.arange(-size, size + 1.0))
-    wins = _in_bits(table.wins(p).T).ravel()
+    wins = np.repeat(_in_bits(table.wins(p).T).ravel(), 2)
     return Lookup(table, size, wins)
 
 

@@ -23,6 +23,7 @@ from evenbreak.league.tally import Tally
 
 if TYPE_CHECKING:
     from evenbreak.league.lookup import Lookup
+    from evenbreak.league.players import LeaguePlayers
 
 __all__ = ["chunk_replicas", "run_chunk"]
 
@@ -36,7 +37,13 @@ _CHUNKS = 10
 """Chunks that there are at least where there are as many replicas: errors come from them."""
 
 _HIGHEST = 16_000
-"""Points beyond which differences do not fit the arrays."""
+"""Points beyond which differences do not fit 16 bits."""
+
+_MANY = 30_000
+"""Matches of a player beyond which the wins of another week might not fit 16 bits."""
+
+_WIN = 1 << 16
+"""A win in the upper bits of a player's state."""
 
 
 def chunk_replicas(season: Season, replicas: int) -> int:
@@ -67,7 +74,7 @@ def run_chunk(season: Season, replicas: int, seed: np.random.SeedSequence) -> Ta
     Raises
     ------
     AccuracyError
-        if a rating or a skill leaves what the arrays hold.
+        if a rating goes beyond 16,000 points, or a player has more than 30,000 matches.
 
     >>> from evenbreak.league import LeaguePlayers
     >>> season = Season(LeaguePlayers.of([92, 80, 71, 64]), "npl", weeks=12)
@@ -76,138 +83,165 @@ def run_chunk(season: Season, replicas: int, seed: np.random.SeedSequence) -> Ta
     (array([1200, 1200, 1200, 1200]), 2400, 0)
     """
     chunk = _Chunk(season, replicas, np.random.Generator(np.random.SFC64(seed)))
-    chunk.count.week(0, chunk.rating, chunk.points(chunk.skill), season.players.here(1))
+    chunk.count_week(0, chunk.here(1))
     for week in range(1, season.weeks + 1):
         chunk.play(week)
-    return chunk.count.tally(
-        Ended(chunk.rating, chunk.wins, chunk.games, chunk.matches, chunk.began)
-    )
+    return chunk.count.tally(chunk.ended())
 
 
 class _Chunk:
-    """The state of the replicas while they are played."""
+    """The state of the replicas while they are played.
+
+    `state` has a player's rating in its lower 16 bits and his wins in its upper ones, so that
+    both are gathered and put back together: rating + 2^16 wins.
+    """
 
     def __init__(self, season: Season, replicas: int, rng: np.random.Generator) -> None:
         players = season.players
         shape = len(players), replicas
         self.season, self.rng, self.replicas = season, rng, replicas
         self.lookup: Lookup = season.lookup
-        self.rating = np.empty(shape, dtype=np.int16)
-        self.rating[:] = players.rating[:, None]
+        self.state = np.empty(shape, dtype=np.int32)
+        self.state[:] = players.rating[:, None]
         # One column where all replicas are alike: then there is less to look up.
         self.skill: NDArray[np.floating[Any]] = players.skill[:, None]
         if players.skill_sd.any():
             drawn = rng.standard_normal(shape, dtype=np.float32)
             self.skill = self.skill + players.skill_sd[:, None] * drawn
-        self.wins = np.zeros(shape, dtype=np.int16 if season.weeks < 1000 else np.int32)
+        self.began = self.skill
         self.games = np.zeros(shape, dtype=np.int32) if season.play == "racks" else None
-        columns = replicas if players.absence.any() else 1
+        self.absence = _absence(players)
+        columns = 1 if self.absence is None else replicas
         self.matches = np.zeros((len(players), columns), dtype=np.int32)
         self.factors = _factors(season)
-        self.began = self.skill
+        self.drifts, self.strays = bool(players.drift.any()), bool(players.day_sd.any())
+        self.stay = bool((players.joins == 1).all() and (players.leaves == 0).all())
+        self.today = _points(self.skill)
         self.count = Counting(season, replicas)
 
-    def points(self, skill: NDArray[Any]) -> NDArray[np.int16]:
-        """Return skills as whole points."""
-        return np.rint(np.clip(skill, -_HIGHEST, _HIGHEST)).astype(np.int16)
+    def count_week(self, week: int, here: NDArray[np.bool_] | None) -> None:
+        """Count the rating errors after a week, and see to it that the arrays still hold."""
+        rating = self.state.astype(np.int16)
+        self.highest, self.lowest = int(rating.max()), int(rating.min())
+        if max(self.highest, -self.lowest) > _HIGHEST or self.matches.max() > _MANY:
+            raise AccuracyError(
+                f"in week {week} a rating is beyond {_HIGHEST} points, or a player has more than "
+                f"{_MANY} matches; play fewer weeks"
+            )
+        skill = _points(self.skill) if self.drifts or self.strays else self.today
+        self.count.week(week, rating, skill, here)
+
+    def here(self, week: int) -> NDArray[np.bool_] | None:
+        """Return who is in the league in a week; None: everybody."""
+        return None if self.stay else self.season.players.here(week)
 
     def play(self, week: int) -> None:
         """Play a week: its matches, its moves, its drift."""
         players, rng = self.season.players, self.rng
-        here = players.here(week)
-        today = self.points(self.skill)
-        if players.day_sd.any():
-            strays = rng.standard_normal(self.rating.shape, dtype=np.float32)
-            today = self.points(self.skill + players.day_sd[:, None] * strays)
+        here = self.here(week)
+        if self.strays:
+            normal = rng.standard_normal(self.state.shape, dtype=np.float32)
+            self.today = _points(self.skill + players.day_sd[:, None] * normal)
+        elif self.drifts:
+            self.today = _points(self.skill)
         absent = None
-        if players.absence.any():
-            limit = np.minimum(np.rint(np.ldexp(players.absence, 32)), 2.0**32 - 1)
-            absent = random_bits(rng, self.rating.shape) < limit.astype(np.uint32)[:, None]
+        if self.absence is not None:
+            absent = random_bits(rng, self.state.shape) < self.absence
         rounds = self._rounds(week, here)
-        before = self.rating if len(rounds) < 2 else self.rating.copy()
+        before = self.state if len(rounds) < 2 else self.state.copy()
         step = max(1, _BLOCK // self.replicas)
         for a, b in rounds:
             for start in range(0, len(a), step):
                 some = slice(start, start + step)
-                self._block(before, today, absent, a[some], b[some])
-        if players.drift.any():
+                self._block(before, absent, a[some], b[some])
+            if absent is None:
+                self._count_matches(a, b)
+        if self.drifts:
             self.skill = self.skill + players.drift[:, None]
-        self.count.week(week, self.rating, self.points(self.skill), here)
+        self.count_week(week, here)
 
-    def _rounds(self, week: int, here: NDArray[np.bool_]) -> list[Any]:
+    def _rounds(self, week: int, here: NDArray[np.bool_] | None) -> list[Any]:
         """Return who meets whom, of those who are in the league."""
-        schedule, everybody = self.season.schedule, bool(here.all())
-        if everybody:
-            return list(schedule.pairs(week, self.rng, len(here)))
+        schedule, many = self.season.schedule, len(self.state)
+        if here is None:
+            return list(schedule.pairs(week, self.rng, many))
         if draws_opponents(schedule):
             who = np.flatnonzero(here)
             return [(who[a], who[b]) for a, b in schedule.pairs(week, self.rng, len(who))]
         rounds = []
-        for a, b in schedule.pairs(week, self.rng, len(here)):
+        for a, b in schedule.pairs(week, self.rng, many):
             both = here[a] & here[b]
             rounds.append((a[both], b[both]))
         return rounds
 
+    def _count_matches(self, a: NDArray[np.intp], b: NDArray[np.intp]) -> None:
+        if 2 * len(a) == len(self.matches):  # nobody occurs twice, so everybody plays
+            self.matches += 1
+        else:
+            self.matches[a] += 1
+            self.matches[b] += 1
+
     def _block(
         self,
-        before: NDArray[np.int16],
-        today: NDArray[np.int16],
+        before: NDArray[np.int32],
         absent: NDArray[np.bool_] | None,
         a: NDArray[np.intp],
         b: NDArray[np.intp],
     ) -> None:
         """Play matches in which nobody occurs twice."""
-        look = self.lookup
-        apart = before.take(a, axis=0)
-        apart -= before.take(b, axis=0)
-        np.clip(apart, -look.widest, look.widest, out=apart)
-        gap = today.take(a, axis=0)
-        gap -= today.take(b, axis=0)
-        np.clip(gap, -look.gap, look.gap, out=gap)
-        row = gap.astype(np.intp)
+        look, today = self.lookup, self.today
+        one, two = before.take(a, axis=0), before.take(b, axis=0)
+        apart = (one - two).astype(np.int16)  # the lower bits of the difference: of ratings
+        if self.highest - self.lowest > look.widest:
+            np.clip(apart, -look.widest, look.widest, out=apart)
+        row = today.take(a, axis=0).astype(np.intp)
+        row -= today.take(b, axis=0)
+        np.clip(row, -look.gap, look.gap, out=row)
         row += look.gap
-        cell = row * look.width + look.widest + apart
-        place = apart.astype(np.intp)
-        place += look.widest
+        cell = (2 * (row * look.width + look.widest)) + (apart + apart)
+        won, score = self._draw(row, cell, apart)
+        moves = self._moves(apart, won, score)
+        if self.factors is not None:
+            moves = tuple(
+                move * self._factor(self.factors, rows)
+                for move, rows in zip(moves, (a, b), strict=True)
+            )
         played = None
         if absent is not None:
             played = ~(absent.take(a, axis=0) | absent.take(b, axis=0))
-        won, score = self._draw(row, cell, place)
-        one, two = self._moves(place, won, score)
-        if self.factors is not None:
-            factor = self._factor(a), self._factor(b)
-            one, two = one * factor[0], two * factor[1]
-        lost = ~won
         self.count.matches(cell, won, played)
         if score is not None:
-            self.count.scores(row, place, score, played)
-        if played is not None:
-            one, two, won, lost = one * played, two * played, won & played, lost & played
-        many = np.ones((len(a), 1), dtype=bool) if played is None else played
-        for rows, move, wins in ((a, one, won), (b, two, lost)):
-            _add(self.rating, rows, move)
-            _add(self.wins, rows, wins)
-            _add(self.matches, rows, many)
-        if self.games is not None:
-            for rows, games in zip((a, b), look.won_games, strict=True):
-                _add(self.games, rows, games.take(place * look.outcomes + score) * many)
+            self.count.scores(row, apart, score, played)
+            if self.games is not None:
+                place = (apart.astype(np.intp) + look.widest) * look.outcomes + score
+                for rows, games in zip((a, b), look.won_games, strict=True):
+                    self.games[rows] += games.take(place) * (1 if played is None else played)
+        for rows, state, move, wins in zip((a, b), (one, two), moves, (won, ~won), strict=True):
+            change = wins * np.int32(_WIN)
+            change += move
+            if played is not None:
+                change *= played
+                self.matches[rows] += played
+            if before is not self.state:
+                state = self.state.take(rows, axis=0)
+            state += change
+            _put(self.state, rows, state)
 
     def _draw(
-        self, row: NDArray[Any], cell: NDArray[Any], place: NDArray[Any]
+        self, row: NDArray[Any], cell: NDArray[Any], apart: NDArray[np.int16]
     ) -> tuple[NDArray[np.bool_], NDArray[Any] | None]:
         """Return where player 1 wins and, where that is drawn, which final score it is."""
         look = self.lookup
-        if self.season.play == "racks":
-            score = play_racks(look, row, place, self.rng)
-        elif look.by_winner is None:
-            score = draw_scores(look, row, place, self.rng)
-        else:
+        if self.season.play == "matches" and look.by_winner is not None:
             return draw_winners(look, cell, self.rng), None
+        place = apart.astype(np.intp) + look.widest
+        draw = play_racks if self.season.play == "racks" else draw_scores
+        score = draw(look, row, place, self.rng)
         return score < look.needs[1].take(place), score
 
     def _moves(
-        self, place: NDArray[Any], won: NDArray[np.bool_], score: NDArray[Any] | None
-    ) -> tuple[NDArray[Any], NDArray[Any]]:
+        self, apart: NDArray[np.int16], won: NDArray[np.bool_], score: NDArray[Any] | None
+    ) -> tuple[NDArray[Any], ...]:
         """Return the points that established players move."""
         look = self.lookup
         if look.steps is not None:
@@ -216,17 +250,41 @@ class _Chunk:
             two = np.int16(up) - one
             one += np.int16(down)
             return one, two
+        place = apart.astype(np.intp) + look.widest
         if look.by_winner is not None:
-            tables, where = look.by_winner, 2 * place + won
+            tables = look.by_winner
+            place = 2 * place + won
         else:
-            tables, where = look.moves, place * look.outcomes + score
-        return tables[0].take(where), tables[1].take(where)
+            assert score is not None  # noqa: S101 (such matches are drawn with their score)
+            tables = look.moves
+            place = place * look.outcomes + score
+        return tables[0].take(place), tables[1].take(place)
 
-    def _factor(self, rows: NDArray[np.intp]) -> NDArray[np.int16]:
+    def _factor(self, factors: NDArray[np.int16], rows: NDArray[np.intp]) -> NDArray[np.int16]:
         """Return by what factor these players move: newcomers move more."""
-        last = len(self.factors) - 1
+        last = len(factors) - 1
         before = np.minimum(self.season.players.played[rows], last)[:, None]
-        return self.factors.take(np.minimum(before + self.matches.take(rows, axis=0), last))
+        return factors.take(np.minimum(before + self.matches.take(rows, axis=0), last))
+
+    def ended(self) -> Ended:
+        """Return the arrays with which the chunk ends."""
+        rating = self.state.astype(np.int16)
+        wins = (self.state - rating) >> 16
+        return Ended(rating, wins, self.games, self.matches, self.began)
+
+
+def _points(skill: NDArray[Any]) -> NDArray[np.int16]:
+    """Return skills as whole points."""
+    rounded: NDArray[np.int16] = np.rint(np.clip(skill, -_HIGHEST, _HIGHEST)).astype(np.int16)
+    return rounded
+
+
+def _absence(players: LeaguePlayers) -> NDArray[np.uint32] | None:
+    """Return P(absent) in 2^32nds, a column, or None: nobody ever is."""
+    if not players.absence.any():
+        return None
+    scaled = np.minimum(np.rint(np.ldexp(players.absence, 32)), 2.0**32 - 1.0)
+    return np.asarray(scaled.astype(np.uint32)[:, None])
 
 
 def _factors(season: Season) -> NDArray[np.int16] | None:
@@ -238,12 +296,9 @@ def _factors(season: Season) -> NDArray[np.int16] | None:
     return np.array([step_after(played, steps) for played in range(last + 1)], dtype=np.int16)
 
 
-def _add(to: NDArray[Any], rows: NDArray[np.intp], what: NDArray[Any]) -> None:
-    """Add to rows of which none occurs twice."""
-    if to.shape[1] == 1:  # a column alone is much faster as a line
-        line = to[:, 0]
-        line[rows] = line.take(rows) + what[:, 0]
+def _put(to: NDArray[Any], rows: NDArray[np.intp], what: NDArray[Any]) -> None:
+    """Set rows of which none occurs twice."""
+    if to.shape[1] == 1:  # a column alone is twice as fast as a line
+        to[:, 0][rows] = what[:, 0]
     else:
-        found = to.take(rows, axis=0)
-        found += what
-        to[rows] = found
+        to[rows] = what

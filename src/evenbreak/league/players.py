@@ -1,4 +1,4 @@
-"""The players of a simulated league: how they are rated, how well they play, when they are there."""
+"""The players of a simulated league: how they are rated, how well they play, when they play."""
 
 from __future__ import annotations
 
@@ -149,7 +149,8 @@ class LeaguePlayers:
         >>> LeaguePlayers.of([50, 60, 70], joins=[1, 2, 1], leaves=[0, 0, 1]).here(2)
         array([ True,  True, False])
         """
-        return (self.joins <= week) & ((self.leaves == 0) | (self.leaves >= week))
+        stays = (self.leaves == 0) | (self.leaves >= week)
+        return np.asarray(stays & (self.joins <= week))
 
 
 def _column(given: Any, name: str, kind: Any, many: int) -> NDArray[Any]:

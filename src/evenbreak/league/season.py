@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
@@ -17,6 +18,7 @@ from evenbreak.handicaps.systems import System, system_of
 from evenbreak.league.lookup import Lookup, lookup_of
 from evenbreak.league.players import LeaguePlayers
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin, Schedule
+from evenbreak.league.tally import fifths_of
 
 __all__ = ["Season", "draws_opponents"]
 
@@ -90,12 +92,19 @@ class Season:
         """The races, moves and chances of the season's matches."""
         last = self.chart.rows[-1].difference_from
         doublings = _DOUBLINGS * self.system.scale.points_per_doubling
-        return match_table(self.system, self.chart, widest=max(last, round(doublings)))
+        spread = int(self.players.rating.max() - self.players.rating.min())
+        widest = max(round(doublings), last, min(2 * last, spread + last // 2))
+        return match_table(self.system, self.chart, widest=widest)
 
     @cached_property
     def lookup(self) -> Lookup:
         """The same as flat tables of whole numbers, for drawing."""
         return lookup_of(self.table, _widest_gap(self.players, self.weeks))
+
+    @cached_property
+    def fifths(self) -> NDArray[np.int64]:
+        """Each player's fifth by skill at the start, 0 the weakest; one column."""
+        return fifths_of(self.players.skill[:, None])
 
     def __reduce__(self) -> Any:
         # What is worked out is worked out again where the season arrives: it is larger.

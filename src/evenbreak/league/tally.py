@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["FIFTHS", "GAP_COLUMNS", "WEEK_COLUMNS", "Tally"]
+__all__ = ["FIFTHS", "GAP_COLUMNS", "WEEK_COLUMNS", "Tally", "fifths_of"]
 
 Counts = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -131,6 +131,25 @@ class Tally:
                 return mean, np.full_like(mean, np.nan)
             off = ((above - mean * below) ** 2).sum(axis=0)
             return mean, np.sqrt(chunks / (chunks - 1) * off) / total
+
+
+def fifths_of(skill: NDArray[Any]) -> NDArray[np.int64]:
+    """Return each player's fifth by skill, 0 the weakest; equals by their position.
+
+    Parameters
+    ----------
+    skill
+        players down, replicas across.
+
+    >>> fifths_of(np.array([[50.0], [90.0], [70.0], [60.0], [80.0]])).ravel()
+    array([0, 4, 2, 1, 3])
+    """
+    many = len(skill)
+    order = np.argsort(skill, axis=0, kind="stable")
+    fifth: NDArray[np.int64] = np.empty(skill.shape, dtype=np.int64)
+    ranks = (np.arange(many) * FIFTHS // many)[:, None]
+    np.put_along_axis(fifth, order, np.broadcast_to(ranks, skill.shape), axis=0)
+    return fifth
 
 
 _IN_CHUNKS = ("replicas", "gaps", "weeks", "fifths")

@@ -1,0 +1,127 @@
+"""Simulated leagues, each beside the bare loop over the same lookups that counts nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from evenbreak.handicaps import chart
+from evenbreak.league import LeaguePlayers, RandomPairing, Season, run_chunk
+from evenbreak.league.play import chunk_replicas
+from evenbreak.matches import race_win_probability
+from evenbreak.ratings.scale import scale_of
+
+Beside = Callable[..., float]
+
+WEEKS = 30
+WIDEST = 120
+
+
+def skills(players: int) -> Any:
+    return np.clip(np.random.default_rng(1).normal(75.0, 20.0, players), 20, 130).round()
+
+
+def season_of(players: int) -> Season:
+    skill = skills(players)
+    club = LeaguePlayers.of(skill + np.arange(players) % 2, skill=skill)
+    return Season(club, "npl", chart("npl_10"), RandomPairing(), WEEKS)
+
+
+def win_table() -> Any:
+    """Return P(player 1 wins) by skill difference and rating difference."""
+    differences = np.arange(-WIDEST, WIDEST + 1)
+    m, n = chart("npl_10").races(differences)
+    p = scale_of("npl").win_probability(differences.astype(float))
+    return race_win_probability(p[:, None], m[None, :], n[None, :])
+
+
+def bare_league(players: int) -> Callable[[], Any]:
+    """Return what plays a season of one league: as one would write it in numpy."""
+    skill = skills(players).astype(np.int64)
+    flat, width = win_table().ravel(), 2 * WIDEST + 1
+
+    def play() -> Any:
+        rng = np.random.default_rng(1)
+        rating = skill + np.arange(players) % 2
+        half = players // 2
+        for _ in range(WEEKS):
+            order = rng.permutation(players)
+            a, b = order[:half], order[half:]
+            apart = rating[a] - rating[b] + WIDEST
+            gap = skill[a] - skill[b] + WIDEST
+            won = rng.random(half) < flat.take(gap * width + apart)
+            move = np.where(won, 1, -1)
+            rating[a] += move
+            rating[b] -= move
+        return rating
+
+    return play
+
+
+def bare_replicas(replicas: int, players: int) -> Callable[[], Any]:
+    """Return what plays replicas of a small league, all at once, replicas down."""
+    skill = skills(players).astype(np.int64)
+    flat, width = win_table().ravel(), 2 * WIDEST + 1
+
+    def play() -> Any:
+        rng = np.random.default_rng(1)
+        rating = np.tile(skill + np.arange(players) % 2, (replicas, 1))
+        half = players // 2
+        for _ in range(WEEKS):
+            order = rng.permutation(players)
+            a, b = order[:half], order[half:]
+            apart = rating[:, a] - rating[:, b] + WIDEST
+            gap = skill[a] - skill[b] + WIDEST
+            won = rng.random((replicas, half)) < flat.take(gap * width + apart)
+            move = np.where(won, 1, -1)
+            rating[:, a] += move
+            rating[:, b] -= move
+        return rating
+
+    return play
+
+
+def chunks(season: Season, replicas: int) -> Any:
+    """Play all replicas in one process, chunk by chunk, and add the tallies up."""
+    size = chunk_replicas(season, replicas)
+    total = None
+    for seed, start in zip(
+        np.random.SeedSequence(1).spawn(-(-replicas // size)),
+        range(0, replicas, size),
+        strict=True,
+    ):
+        tally = run_chunk(season, min(size, replicas - start), seed)
+        total = tally if total is None else total + tally
+    return total
+
+
+def speed(matches: float, seconds: float) -> str:
+    return f"{matches / seconds / 1e6:.0f} million matches a second"
+
+
+@pytest.mark.parametrize("players", [100_000])
+def test_one_league(beside: Beside, benchmark: Any, players: int) -> None:
+    season = season_of(players)
+    season.lookup.expected  # noqa: B018 (tables are made once a season, not once a chunk)
+    ratio = beside(
+        f"{players:,} players, {WEEKS} weeks / bare loop",
+        lambda: run_chunk(season, 1, np.random.SeedSequence(1)),
+        bare_league(players),
+        note="statistics in ours",
+    )
+    print(ratio, speed(players / 2 * WEEKS, benchmark.extra_info["ours"]))
+
+
+def test_replicas(beside: Beside, benchmark: Any) -> None:
+    season = season_of(64)
+    season.lookup.expected  # noqa: B018
+    ratio = beside(
+        f"2,000 replicas of 64 players, {WEEKS} weeks / bare loop, replicas down",
+        lambda: chunks(season, 2000),
+        bare_replicas(2000, 64),
+        note="statistics in ours",
+    )
+    print(ratio, speed(2000 * 32 * WEEKS, benchmark.extra_info["ours"]))
