@@ -12,6 +12,8 @@ from evenbreak.handicaps.race_limits import RaceLimits
 
 __all__ = ["fixed_length_chart"]
 
+_LONGEST = 999
+
 
 def fixed_length_chart(games: Any, scale: Any = "npl", *, name: str | None = None) -> Chart:
     """Return the chart of the races that last so many games at most, each where it is most even.
@@ -22,7 +24,7 @@ def fixed_length_chart(games: Any, scale: Any = "npl", *, name: str | None = Non
     Parameters
     ----------
     games
-        the longest that a match may last, an odd whole number: with an even one two equal
+        the longest that a match may last, an odd whole number up to 999: with an even one two equal
         players would have no even race.
     scale
         what differences mean: 'npl', 'fargo', 'elo', a `Scale`, or the points that double the
@@ -49,5 +51,7 @@ def fixed_length_chart(games: Any, scale: Any = "npl", *, name: str | None = Non
             f"games is {longest}, in which two equal players have no even race; give "
             f"{longest - 1} or {longest + 1}"
         )
+    if longest > _LONGEST:
+        raise InputError(f"games is {longest}; give {_LONGEST} or less")
     called = f"fixed_{longest}" if name is None else name
     return nearest_chart(scale, RaceLimits((longest, longest)), name=called)

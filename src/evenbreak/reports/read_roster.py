@@ -32,6 +32,7 @@ OPTIONAL = {
     "quasi_error": ("quasi standard error", "qse"),
     "games": ("games played", "racks", "robustness"),
     "component": ("group",),
+    "matches": ("matches played",),
 }
 """The columns that a roster may have, with their other names."""
 
@@ -83,8 +84,8 @@ def read_roster(path: str | Path) -> RosterFile:
     r"""Read a list of rated players from a CSV file; '-' is standard input.
 
     A player without a rating is new; he may have played no games. An empty standard_error
-    is not stated, and so are empty games. Where a quasi_error is stated it is taken in place
-    of the standard_error, for a roster's errors are used for differences of ratings.
+    is not stated, and so are empty games and matches. Where a quasi_error is stated it is taken in
+    place of the standard_error, for a roster's errors are used for differences of ratings.
 
     Raises
     ------
@@ -127,9 +128,7 @@ def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
     error = _points(table, "standard_error", remedy, least=0.0)
     quasi = _points(table, "quasi_error", remedy, least=0.0)
     error = np.where(np.isnan(quasi), error, quasi)
-    games, good_games = whole_numbers(table, "games", may_be_empty=True)
-    stated = np.array([bool(text) for text in table.cells("games")], dtype=bool)
-    games = np.where(stated & good_games, games, NOT_STATED)
+    games, matches = _counts(table, "games"), _counts(table, "matches")
     component = whole_numbers(table, "component", at_least=1, may_be_empty=True).values
     unrated = np.array([not text for text in table.cells("rating")], dtype=bool)
     table.problems.add_rows(
@@ -144,7 +143,7 @@ def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
             lambda _: "rating is empty; write the rating with which the player begins",
         )
     table.problems.raise_any()
-    roster = Roster(names, rating, error, games, component=component)
+    roster = Roster(names, rating, error, games, component=component, matches=matches)
     warnings = (*table.warnings, *_alike(names, table.source))
     sha256 = hashlib.sha256(table.content).hexdigest()
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
@@ -166,6 +165,13 @@ def _names(table: Table) -> list[str]:
                 "two, or tell two players of one name apart, such as by a number",
             )
     return names
+
+
+def _counts(table: Table, name: str) -> NDArray[np.int64]:
+    """Read a column of counts, `NOT_STATED` where a cell is empty."""
+    counts, good = whole_numbers(table, name, may_be_empty=True)
+    stated = np.array([bool(text) for text in table.cells(name)], dtype=bool)
+    return np.where(stated & good, counts, NOT_STATED)
 
 
 def _points(table: Table, name: str, remedy: str, *, least: float) -> NDArray[np.float64]:

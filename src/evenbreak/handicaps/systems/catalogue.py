@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -15,6 +16,8 @@ from evenbreak.handicaps.systems.step import step_system
 from evenbreak.handicaps.systems.system import System
 
 __all__ = ["FAMILIES", "SYSTEMS", "system_of"]
+
+_NUMBER = re.compile(r"[0-9]{1,9}")
 
 
 class _Family(NamedTuple):
@@ -73,12 +76,16 @@ def system_of(name: Any) -> System:
     """
     if isinstance(name, System):
         return name
-    word, *numbers = str(name).lower().replace("-", " ").split() or [""]
+    word, *numbers = re.split(r"\s+|-", str(name).strip().lower())
     family = FAMILIES.get(word)
     if family is None:
         *listed, last = (known.grammar for known in FAMILIES.values())
         raise InputError(f"system is {name!r}; give {', '.join(listed)} or {last}")
     fewest, most = family.numbers
-    if not fewest <= len(numbers) <= most or not all(map(str.isdecimal, numbers)):
-        raise InputError(f"system is {name!r}; write it as {family.grammar}, in whole numbers")
-    return family.make(*map(int, numbers))
+    if not fewest <= len(numbers) <= most or not all(_NUMBER.fullmatch(each) for each in numbers):
+        whole = ", in whole numbers" if most else ""
+        raise InputError(f"system is {name!r}; write it as {family.grammar}{whole}")
+    try:
+        return family.make(*map(int, numbers))
+    except InputError as error:
+        raise InputError(f"system is {name!r}: {error}") from None

@@ -13,10 +13,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.fixed_length import fixed_length_chart
-from evenbreak.handicaps.systems.system import PlayedMatch, System
+from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
 from evenbreak.ratings.scale import SCALES
 
 __all__ = ["elo_system"]
@@ -50,7 +49,7 @@ def elo_system(k: Any = 16) -> System:
     Parameters
     ----------
     k
-        points for a game won against all expectation, a whole number from 1 on.
+        points for a game won against all expectation, a whole number from 1 to 1,000.
 
     Raises
     ------
@@ -61,13 +60,13 @@ def elo_system(k: Any = 16) -> System:
     >>> rule(PlayedMatch((1600, 1500), (5, 4), None)), rule(PlayedMatch((1600, 1500), (7, 1), None))
     ((-12, 12), (30, -30))
     """
-    points = whole(k, "k", at_least=1)
+    points = points_of(k, "k")
     return System(
         f"elo {points}",
         _SCALE,
         (),
         _PerGame(points),
-        f"{points} points for each game above what the ratings expect, rounded to whole points",
+        f"{points} point{'s' * (points > 1)} for each game above what Elo's scale expects",
         own_chart=fixed_length_chart(_GAMES, _SCALE),
         asks=("games",),
     )

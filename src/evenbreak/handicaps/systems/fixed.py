@@ -20,7 +20,7 @@ def fixed_length_system(games: Any = 9) -> System:
     Parameters
     ----------
     games
-        the longest that a match may last, an odd whole number.
+        the longest that a match may last, an odd whole number up to 999.
 
     Raises
     ------

@@ -15,10 +15,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.systems.npl import NPL
-from evenbreak.handicaps.systems.system import PlayedMatch, System
+from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
 
 __all__ = ["margin_system"]
 
@@ -45,7 +44,7 @@ def margin_system(most: Any = 2) -> System:
     Parameters
     ----------
     most
-        the points of a shut-out, a whole number from 1 on; 1 is a point a match.
+        the points of a shut-out, a whole number from 1 to 1,000; 1 is a point a match.
 
     Raises
     ------
@@ -56,14 +55,13 @@ def margin_system(most: Any = 2) -> System:
     >>> [rule(PlayedMatch((80, 75), (5, lost), (5, 5))) for lost in (0, 2, 3, 4)]
     [(2, -2), (2, -2), (1, -1), (1, -1)]
     """
-    points = whole(most, "most", at_least=1)
+    points = points_of(most, "most")
     return System(
         f"margin {points}",
         NPL.scale,
         NPL.charts,
         _Margin(points),
-        f"winner up and loser down {points} point{'s' * (points > 1)} times the share of the "
-        "loser's race that was left, rounded up",
+        f"by the share of the loser's race that was left, up to {points} point{'s' * (points > 1)}",
         own_chart=NPL.own_chart,
         asks=("games", "race"),
     )

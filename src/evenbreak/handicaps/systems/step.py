@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from evenbreak.checks import whole
 from evenbreak.handicaps.systems.npl import NPL
-from evenbreak.handicaps.systems.system import PlayedMatch, System
+from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
 
 __all__ = ["step_system"]
 
@@ -29,9 +28,9 @@ def step_system(up: Any, down: Any = None) -> System:
     Parameters
     ----------
     up
-        points, a whole number from 1 on.
+        points, a whole number from 1 to 1,000.
     down
-        points, a whole number from 0 on; None: as many as `up`. Where it is another number
+        points, a whole number from 0 to 1,000; None: as many as `up`. Where it is another number
         the league's mean rating moves with each match, by (up - down) / 2 for each of the two.
 
     Raises
@@ -44,8 +43,8 @@ def step_system(up: Any, down: Any = None) -> System:
     >>> step_system(2, 1).in_words
     'up 2 points for each match won, down 1 for each match lost'
     """
-    won = whole(up, "up", at_least=1)
-    lost = won if down is None else whole(down, "down")
+    won = points_of(up, "up")
+    lost = won if down is None else points_of(down, "down", at_least=0)
     return System(
         f"step {won}" if lost == won else f"step {won} {lost}",
         NPL.scale,

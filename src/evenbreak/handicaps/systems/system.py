@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.chart import Chart, chart
 from evenbreak.ratings.scale import Scale
 
-__all__ = ["PlayedMatch", "System", "UpdateRule"]
+__all__ = ["PlayedMatch", "System", "UpdateRule", "points_of"]
 
 
 class PlayedMatch(NamedTuple):
@@ -96,3 +97,32 @@ class System:
         if not self.charts:
             raise InputError(f"chart is not given, and the system {self.name} has none; give one")
         return chart(self.charts[0])
+
+    def known_charts(self) -> tuple[Chart, ...]:
+        """Return the printed charts of the system, and its own one where that is none of them.
+
+        >>> from evenbreak.handicaps import system_of
+        >>> [chart.name for chart in system_of("fixed 9").known_charts()]
+        ['fixed_9']
+        """
+        printed = tuple(chart(name) for name in self.charts)
+        own = self.own_chart
+        return printed if own is None or own in printed else (*printed, own)
+
+
+_MOST_POINTS = 1000
+"""No league moves ratings by more in a match."""
+
+
+def points_of(value: Any, name: str, *, at_least: int = 1) -> int:
+    """Return the points by which a rule moves ratings, if they are whole and not out of reach.
+
+    >>> points_of(5000, "up")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: up is 5000; give a whole number, 1000 or less
+    """
+    points = whole(value, name, at_least=at_least)
+    if points > _MOST_POINTS:
+        raise InputError(f"{name} is {points}; give a whole number, {_MOST_POINTS} or less")
+    return points
