@@ -1,3 +1,4 @@
+from evenbreak.league.on_dask import DaskExecutor as DaskExecutor
 from evenbreak.league.dump_cycle import DumpCycle as DumpCycle
 from evenbreak.league.dump_cycle import best_cycle as best_cycle
 from evenbreak.league.dump_cycle import dump_cycle as dump_cycle
@@ -10,6 +11,8 @@ from evenbreak.league.play import chunk_replicas as chunk_replicas
 from evenbreak.league.play import run_chunk as run_chunk
 from evenbreak.league.players import ESTABLISHED as ESTABLISHED
 from evenbreak.league.players import LeaguePlayers as LeaguePlayers
+from evenbreak.league.reestimate import Reestimated as Reestimated
+from evenbreak.league.reestimate import reestimate as reestimate
 from evenbreak.league.sandbag import DumpRow as DumpRow
 from evenbreak.league.sandbag import Sandbagging as Sandbagging
 from evenbreak.league.sandbag import entering_low as entering_low
@@ -19,6 +22,7 @@ from evenbreak.league.schedule import RandomPairing as RandomPairing
 from evenbreak.league.schedule import RoundRobin as RoundRobin
 from evenbreak.league.schedule import Schedule as Schedule
 from evenbreak.league.season import Season as Season
+from evenbreak.league.simulate import simulate as simulate
 from evenbreak.league.tally import Tally as Tally
 from evenbreak.league.watch import Watched as Watched
 from evenbreak.league.watch import watch as watch

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future
 from concurrent.futures import TimeoutError as NotYet
 from contextlib import contextmanager
@@ -45,7 +45,7 @@ def in_order(
     *,
     executor: Executor | None = None,
     jobs: int = 1,
-) -> Iterator[Result]:
+) -> Generator[Result]:
     """Yield ``task(shared, piece)`` for each piece, in the order of the pieces.
 
     Parameters

@@ -11,7 +11,9 @@ import logging
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Executor, Future
+from concurrent.futures import TimeoutError as NotYet
 from contextlib import contextmanager
+from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from evenbreak.errors import InputError, WorkerError
@@ -64,13 +66,14 @@ class DaskExecutor(Executor):
     >>> DaskExecutor("nowhere")  # doctest: +SKIP
     Traceback (most recent call last):
     ...
-    evenbreak.errors.WorkerError: no dask scheduler answers at nowhere; ...
+    evenbreak.errors.WorkerError: no dask scheduler answers at 'nowhere'; ...
     """
 
     def __init__(self, cluster: str | distributed.Client) -> None:
         self._own = isinstance(cluster, str)
-        self._client: Any = _connected(cluster) if isinstance(cluster, str) else cluster
-        self._name = f"the dask cluster at {self._client.scheduler.address}"
+        client: Any = _connected(cluster) if isinstance(cluster, str) else cluster
+        self._client = client
+        self._name = f"the dask cluster at {client.scheduler.address}"
         try:
             self._client.wait_for_workers(1, timeout=_PATIENCE)
         except TimeoutError:
@@ -152,12 +155,22 @@ def _connected(address: str) -> Any:
         ) from None
     for name in _LOGGERS:
         logging.getLogger(name).setLevel(logging.CRITICAL)
+    connect: Any = distributed.Client
+    answer: Future[Any] = Future()
+
+    def ask() -> None:
+        try:
+            answer.set_result(connect(address, timeout=_PATIENCE, set_as_default=False))
+        except BaseException as error:
+            answer.set_exception(error)
+
+    # The client's own timeout does not end its wait for one that accepts and says nothing.
+    Thread(target=ask, daemon=True).start()
     try:
-        connect: Any = distributed.Client
-        return connect(address, timeout=_PATIENCE, set_as_default=False)
-    except (OSError, ValueError, TypeError) as error:
+        return answer.result(timeout=_PATIENCE + 1)
+    except (OSError, ValueError, TypeError, NotYet) as error:
         raise WorkerError(
-            f"no dask scheduler answers at {address}; give the address that `dask scheduler` "
+            f"no dask scheduler answers at {address!r}; give the address that `dask scheduler` "
             f"prints, such as tcp://10.0.0.5:8786 ({type(error).__name__})"
         ) from None
 

@@ -1,0 +1,120 @@
+"""Who works, and how fast, leaves no trace in what a simulated league comes to."""
+
+import pickle
+import sys
+from concurrent.futures import Future, ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.league import (
+    LeaguePlayers,
+    RandomPairing,
+    Season,
+    chunk_replicas,
+    run_chunk,
+    simulate,
+)
+
+SEASON = Season(
+    LeaguePlayers.of([92, 80, 71, 64, 50, 47], skill_sd=5.0, day_sd=3.0, absence=0.1),
+    "npl",
+    schedule=RandomPairing(),
+    weeks=6,
+    play="racks",
+)
+
+
+def as_bytes(tally):
+    return {
+        name: None if value is None else np.asarray(value).tobytes()
+        for name, value in vars(tally).items()
+    }
+
+
+@pytest.fixture(scope="module")
+def alone():
+    return simulate(SEASON, replicas=205, seed=3)
+
+
+@pytest.mark.parametrize("jobs", [2, 7])
+def test_the_bytes_do_not_depend_on_the_number_of_jobs(alone, jobs):
+    assert as_bytes(simulate(SEASON, replicas=205, seed=3, jobs=jobs)) == as_bytes(alone)
+
+
+def test_the_bytes_do_not_depend_on_the_executor(alone):
+    with ThreadPoolExecutor(3) as threads:
+        assert as_bytes(simulate(SEASON, replicas=205, seed=3, executor=threads)) == as_bytes(alone)
+
+
+def test_a_season_sent_by_itself_is_the_same(alone):
+    sent = pickle.loads(pickle.dumps(SEASON))  # noqa: S301
+    assert as_bytes(simulate(sent, replicas=205, seed=3)) == as_bytes(alone)
+
+
+def test_chunks_have_the_streams_that_the_seed_spawns(alone):
+    size = chunk_replicas(SEASON, 205)
+    sizes = [size] * (205 // size) + [205 % size] * bool(205 % size)
+    assert len(sizes) >= 10
+    seeds = np.random.SeedSequence(3).spawn(len(sizes))
+    tallies = [run_chunk(SEASON, many, seed) for many, seed in zip(sizes, seeds, strict=True)]
+    total = tallies[0]
+    for tally in tallies[1:]:
+        total = total + tally
+    assert as_bytes(total) == as_bytes(alone)
+    assert alone.replicas.tolist() == sizes
+
+
+def test_sums_in_batches_are_sums(monkeypatch, alone):
+    module = sys.modules[simulate.__module__]
+    for batch in (1, 2, 3):
+        monkeypatch.setattr(module, "_BATCH", batch)
+        assert as_bytes(simulate(SEASON, replicas=205, seed=3)) == as_bytes(alone)
+
+
+def test_another_seed_is_another_season(alone):
+    other = simulate(SEASON, replicas=205, seed=4)
+    assert (other.wins != alone.wins).any()
+
+
+def test_progress_is_told_from_none_to_all():
+    told = []
+    simulate(SEASON, replicas=25, seed=1, progress=lambda done, total: told.append((done, total)))
+    assert told[0] == (0, 25)
+    assert told[-1] == (25, 25)
+    assert [done for done, _ in told] == sorted({done for done, _ in told})
+    assert len(told) == 1 + -(-25 // chunk_replicas(SEASON, 25))
+
+
+def test_an_interrupt_withdraws_what_waits():
+    class Slow(ThreadPoolExecutor):
+        def __init__(self):
+            self.given = []
+
+        def submit(self, fn, /, *args):
+            future = Future()
+            if not self.given:
+                future.set_result(fn(*args))
+            self.given.append(future)
+            return future
+
+    def press_ctrl_c(done, _):
+        if done:
+            raise KeyboardInterrupt
+
+    slow = Slow()
+    with pytest.raises(KeyboardInterrupt):
+        simulate(SEASON, replicas=100, seed=1, executor=slow, progress=press_ctrl_c)
+    assert len(slow.given) > 1
+    assert all(future.cancelled() for future in slow.given[1:])
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("replicas", 0), ("replicas", 1.5), ("seed", -1), ("seed", "x"), ("jobs", 0)],
+)
+def test_numbers_are_whole_and_large_enough(name, value):
+    right = {"replicas": 1, "seed": 1, "jobs": 1}
+    with pytest.raises(InputError, match=f"{name} is "):
+        simulate(SEASON, **{**right, name: value})
