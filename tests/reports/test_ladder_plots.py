@@ -66,14 +66,19 @@ def test_who_never_settles_within_the_picture_is_not_marked():
 
 def test_each_system_is_a_point_with_its_name():
     points = [
-        SystemPoint("step 2", 6.0, 22.0, unbeaten=True),
-        SystemPoint("step 1", 4.6, 44.0, unbeaten=True),
-        SystemPoint("elo 4", 7.0, 50.0, unbeaten=False),
+        SystemPoint("step 2", 20.8, 30.8, unbeaten=True),
+        SystemPoint("step 1", 15.4, 60.3, unbeaten=True),
+        SystemPoint("step 6", 36.3, 31.0, unbeaten=False),
+        SystemPoint("elo 4", 20.0, 50.0, unbeaten=None),
     ]
-    (axes,) = systems_figure(points).axes
+    (axes,) = systems_figure(points, chart="npl_10").axes
     drawn = {tuple(point) for line in axes.lines for point in line.get_xydata().tolist()}
     assert drawn == {(point.matches, point.sd) for point in points}
     assert {text.get_text() for text in axes.texts} == {point.name for point in points}
-    assert len(axes.get_legend().get_texts()) == 2
+    joined = axes.lines[0].get_xydata().tolist()
+    assert joined == [[30.8, 20.8], [60.3, 15.4]]
+    told = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert len(told) == 3
+    assert "npl_10" in told[0]
     (alone,) = systems_figure(points[:2]).axes
     assert len(alone.get_legend().get_texts()) == 1

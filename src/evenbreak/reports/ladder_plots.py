@@ -48,17 +48,19 @@ class SystemPoint(NamedTuple):
     name
         what is written beside it.
     sd
-        of the rating error in the long run, in points.
+        of the rating error in the long run, in percent of the points that double the odds.
     matches
-        the mean number of matches that a newcomer takes to settle.
+        the mean number of matches that a rating takes to settle which begins that many points
+        too low.
     unbeaten
-        whether no other system is both more accurate and faster.
+        of a size of the step: whether no other is both more exact and faster. None: another
+        system or chart, drawn for comparison.
     """
 
     name: str
     sd: float
     matches: float
-    unbeaten: bool
+    unbeaten: bool | None
 
 
 def ladder_figure(
@@ -181,62 +183,61 @@ def _draw_settling(axes: Axes, curve: SettlingCurve) -> None:
     )
 
 
-def systems_figure(
-    points: Iterable[SystemPoint], *, start: str = "30 points wrong", within: str = "5 points"
-) -> Figure:
+def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
     """Draw how wrong the ratings of systems stay over how long their newcomers take.
 
-    Filled dots are joined: no other system is both more accurate and faster than they are.
+    The sizes of the step that no other beats in both are filled and joined.
 
     Parameters
     ----------
     points
         the systems.
-    start, within
-        how wrong the newcomers are, and what settled means.
+    chart
+        the chart of the sizes of the step.
 
-    >>> figure = systems_figure([SystemPoint("step 1", 4.6, 44.0, unbeaten=True),
-    ...     SystemPoint("step 2", 6.1, 22.0, unbeaten=True)])
+    >>> figure = systems_figure([SystemPoint("step 1", 15.4, 60.3, True),
+    ...     SystemPoint("step 2", 20.8, 30.8, True)])
     >>> sorted(text.get_text() for text in figure.axes[0].texts)
     ['step 1', 'step 2']
     """
     figure, axes = new_axes(
-        f"matches until a newcomer {start} is within {within}, mean",
-        "standard deviation of the rating error (points)",
-        size=(6.8, 4.8),
+        "matches until a rating has settled, mean",
+        "sd of the rating error (% of the points that double the odds)",
+        size=(7.2, 5.0),
     )
     listed = sorted(points, key=lambda point: point.matches)
+    black, orange = LINES[0].color, LINES[2].color
+    front = [point for point in listed if point.unbeaten]
+    axes.plot(*_places(front), color="0.6", linewidth=0.8, zorder=1)
+    on_chart = f" on {chart}" if chart else ""
     kinds = (
-        (True, "o-", LINES[0].color, "none is both more accurate and faster"),
-        (False, "D", LINES[2].color, "another is both more accurate and faster"),
+        (True, "o", black, black, f"steps{on_chart}: none is both more exact and faster"),
+        (False, "o", "white", black, "another step is"),
+        (None, "D", orange, orange, "other charts and systems"),
     )
-    middle = sum(point.matches for point in (listed[0], listed[-1])) / 2.0
-    for unbeaten, mark, color, label in kinds:
-        drawn = [point for point in listed if point.unbeaten == unbeaten]
+    for unbeaten, mark, inside, edge, label in kinds:
+        drawn = [point for point in listed if point.unbeaten is unbeaten]
         if not drawn:
             continue
-        axes.plot(
-            [point.matches for point in drawn],
-            [point.sd for point in drawn],
-            mark,
-            color=color,
-            ms=5,
-            linewidth=0.8,
-            label=label,
-        )
+        axes.plot(*_places(drawn), mark, mfc=inside, mec=edge, ms=5, zorder=3, label=label)
         for point in drawn:
-            right = point.matches > middle and not unbeaten
             axes.annotate(
                 point.name,
                 (point.matches, point.sd),
-                (-6 if right else 5, 4),
+                (0, -12) if unbeaten is None else (0, 6),
                 textcoords="offset points",
-                ha="right" if right else "left",
+                ha="center",
                 fontsize=8,
+                bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
+                zorder=2,
+                color=edge,
                 parse_math=False,
             )
-    axes.margins(0.08, 0.1)
-    axes.set_ylim(bottom=0.0)
     axes.set_xlim(0.0, 1.15 * listed[-1].matches)
-    axes.legend(frameon=False, fontsize=9, loc="best")
+    axes.set_ylim(0.0, 1.1 * max(point.sd for point in listed))
+    axes.legend(frameon=False, fontsize=9, loc="upper right")
     return figure
+
+
+def _places(points: Sequence[SystemPoint]) -> tuple[list[float], list[float]]:
+    return [point.matches for point in points], [point.sd for point in points]
