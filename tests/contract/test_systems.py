@@ -18,7 +18,7 @@ from evenbreak.matches import final_scores, race_win_probability
 
 systems = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
 
-GAMES = np.array([0.0, 1e-9, 0.2, 0.5, 0.77, 1.0 - 1e-9, 1.0])
+GAMES = np.array([0.0, 5e-324, 1e-9, 0.2, 0.5, 0.77, 1.0 - 1e-9, 1.0])
 
 
 @pytest.fixture(scope="module", params=SYSTEMS.values(), ids=list(SYSTEMS))

@@ -131,17 +131,14 @@ class MatchTable:
         game = np.asarray(probability(p, "p"))
         _, place = self._races
         first = np.unique(place, return_index=True)[1]
-        games, won = self.games[first], self.won[first]
+        games, won = np.maximum(self.games[first], 0), self.won[first]
+        a, b = games[..., 0], games[..., 1]
         # The winner's last game comes last: only the games before it can be in any order.
-        winner = np.where(won, games[..., 0], games[..., 1])
-        loser = games.sum(axis=2) - winner
-        real = games[..., 0] != NOBODY
-        before = np.where(real, winner - 1, 0)
-        lost = np.where(real, loser, 0)
+        before, lost = np.maximum(np.where(won, a, b) - 1, 0), np.where(won, b, a)
         orders = gammaln(before + lost + 1) - gammaln(before + 1) - gammaln(lost + 1)
         down = (..., *(None,) * game.ndim)
-        log = orders[down] + xlogy(games[..., 0][down], game) + xlog1py(games[..., 1][down], -game)
-        by_race = np.where(real[down], np.exp(log), 0.0)
+        log = orders[down] + xlogy(a[down], game) + xlog1py(b[down], -game)
+        by_race = np.where((a + b > 0)[down], np.exp(log), 0.0)
         return by_race[place]
 
     @cached_property

@@ -5,9 +5,9 @@ Of a race in which the loser needed r games and won l of them,
     points = ceil(most (r - l) / r)
 
 so a shut-out moves both by `most`, and a match that goes to the last game by 1 (while r is not
-below `most`). The share of the loser's own race is counted, not games: a bare difference of
-games would take a point from the stronger of two players who are rated rightly every second
-match or so, since the weaker, who needs fewer games, cannot lose by as many.
+below `most`). The share of the loser's own race is counted, not games: the weaker player needs
+fewer games and cannot lose by as many, so that by bare games the stronger of two players who are
+rated rightly would lose a fifth of a point a match at the race 5:4, and more than a point at 7:2.
 """
 
 from __future__ import annotations
