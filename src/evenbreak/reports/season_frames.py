@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak import __version__
+from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 from evenbreak.league.tally import Tally
 
 if TYPE_CHECKING:
@@ -40,6 +41,9 @@ QUANTILES = (0.1, 0.5, 0.9)
 
 SPREAD = (0.05, 0.25, 0.5, 0.75, 0.95)
 """Those of the rating errors, in `ratings_by_week.csv`."""
+
+RARE = 0.001
+"""The part of all matches below which wide gaps are put together."""
 
 NEAR = 5
 """Points within which a rating is called near."""
@@ -167,7 +171,7 @@ def weeks_frame(tally: Tally) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def fairness_frame(tally: Tally) -> pd.DataFrame:
+def fairness_frame(season: Season, tally: Tally) -> pd.DataFrame:
     """Return how even the matches were: by the gap of true skills, and by fifth of skill.
 
     Returns
@@ -175,23 +179,26 @@ def fairness_frame(tally: Tally) -> pd.DataFrame:
     pandas.DataFrame
         group: 'all' matches, those of a 'gap' of the two skills of the day, or a 'fifth' of
         the players by true skill at the start, 1 the weakest; from and to, the span of the
-        gap in points (its upper end is not in it), or the number of the fifth; matches, in a
+        gap in points (its upper end is not in it; the last has none), or the number of the
+        fifth. A gap is about a third of a doubling of the odds wide, and the last takes in
+        all that are wider and rare, one match in a thousand or less; matches, in a
         season on average; p_win, P(the stronger wins) or, in a fifth, P(a player of it
         wins); p_hill_hill, P(the last game decides); p_shutout, P(the loser wins no game);
         mean_games of a match; each with its standard error.
     """
     import pandas as pd
 
-    gaps = np.concatenate([tally.gaps.sum(axis=1, keepdims=True), tally.gaps], axis=1)
+    width, spans = _spans(season, tally)
+    gaps = np.concatenate([spans.sum(axis=1, keepdims=True), spans], axis=1)
     matches = gaps[..., 0]
     replicas = float(tally.replicas.sum())
     rows: list[dict[str, Any]] = []
     for place in np.flatnonzero(matches.sum(axis=0)).tolist():
-        start = (place - 1) * tally.gap_width
+        last = place == gaps.shape[1] - 1
         row: dict[str, Any] = {
             "group": "gap" if place else "all",
-            "from": start if place else None,
-            "to": start + tally.gap_width if place else None,
+            "from": (place - 1) * width if place else None,
+            "to": place * width if place and not last else None,
             "matches": matches[:, place].sum() / replicas,
         }
         for k, name in enumerate(("p_win", "p_hill_hill", "p_shutout", "mean_games"), 1):
@@ -200,6 +207,19 @@ def fairness_frame(tally: Tally) -> pd.DataFrame:
         rows.append(row)
     frame = pd.DataFrame([*rows, *_fifths(tally)], columns=_FAIRNESS)
     return frame.astype({"from": "Int64", "to": "Int64"})
+
+
+def _spans(season: Season, tally: Tally) -> tuple[int, Floats]:
+    """Return the gaps put together to wider ones: their width, and (chunks, spans, 5) sums."""
+    third = season.system.scale.points_per_doubling / 3.0
+    each = max(1, round(third / tally.gap_width))
+    starts = np.arange(0, tally.gaps.shape[1], each)
+    spans = np.add.reduceat(tally.gaps, starts, axis=1)
+    beyond = np.cumsum(spans[..., 0].sum(axis=0)[::-1])[::-1]  # matches in a span or a later one
+    kept = max(1, int((beyond > RARE * beyond[0]).sum()))
+    return each * tally.gap_width, np.concatenate(
+        [spans[:, : kept - 1], spans[:, kept - 1 :].sum(axis=1, keepdims=True)], axis=1
+    )
 
 
 def _fifths(tally: Tally) -> list[dict[str, Any]]:
@@ -241,19 +261,21 @@ def season_frame(season: Season, tally: Tally, settings: Mapping[str, Any]) -> p
     """
     import pandas as pd
 
+    replicas = int(tally.replicas.sum())
     rows: list[tuple[str, Any, float | None]] = [
         *((name, value, None) for name, value in settings.items()),
         ("system", season.system.name, None),
         ("chart", season.chart.name, None),
-        ("schedule", type(season.schedule).__name__, None),
+        ("schedule", _schedule(season), None),
         ("play", season.play, None),
         ("players", len(season.players), None),
         ("weeks", season.weeks, None),
-        ("replicas", int(tally.replicas.sum()), None),
-        ("matches_a_season", float(tally.matches.sum() / 2 / tally.replicas.sum()), None),
+        ("replicas", replicas, None),
+        ("matches_a_season", float(tally.matches.sum() / 2 / replicas), None),
         *_rating_rows(weeks_frame(tally)),
-        *_fairness_rows(fairness_frame(tally)),
+        *_fairness_rows(fairness_frame(season, tally)),
         *_standing_rows(standings_frame(season, tally)),
+        ("mean_rating_change", float(tally.rating.sum() / tally.rating.size / replicas), None),
         ("evenbreak_version", __version__, None),
     ]
     frame = pd.DataFrame(rows, columns=["quantity", "value", "standard_error"])
@@ -294,12 +316,9 @@ def _standing_rows(standings: pd.DataFrame) -> list[tuple[str, Any, float | None
     """Return how far the table tells players apart, and how far luck does."""
     luck = float(np.sqrt((standings["points_sd"] ** 2).mean()))
     between = float(standings["points_mean"].std(ddof=0))
-    change = standings["rating_mean"] - standings["rating_start"]
-    error = float(np.sqrt((standings["rating_se"] ** 2).sum()) / len(standings))
     return [
         ("points_sd_between_players", between, None),
         ("points_sd_by_luck", luck, None),
-        ("mean_rating_change", float(change.mean()), error),
     ]
 
 
@@ -349,6 +368,18 @@ def truth_frame(season: Season, played: PlayedSeason) -> pd.DataFrame:
             "skill_end": played.skill_after,
         }
     )
+
+
+def _schedule(season: Season) -> str:
+    match season.schedule:
+        case RoundRobin(matches_a_week=matches):
+            return f"round robin, {matches} a week"
+        case RandomPairing(matches_a_week=matches):
+            return f"random, {matches} a week"
+        case FixedSchedule():
+            return f"list of {len(season.schedule):,} matches"
+        case _:
+            return type(season.schedule).__name__
 
 
 def names_of(season: Season) -> Sequence[str]:
