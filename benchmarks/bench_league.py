@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import operator
 from collections.abc import Callable
 from typing import Any
 
@@ -84,18 +86,10 @@ def bare_replicas(replicas: int, players: int) -> Callable[[], Any]:
     return play
 
 
-def chunks(season: Season, replicas: int) -> Any:
+def chunks(season: Season, replicas: int, size: int) -> Any:
     """Play all replicas in one process, chunk by chunk, and add the tallies up."""
-    size = chunk_replicas(season, replicas)
-    total = None
-    for seed, start in zip(
-        np.random.SeedSequence(1).spawn(-(-replicas // size)),
-        range(0, replicas, size),
-        strict=True,
-    ):
-        tally = run_chunk(season, min(size, replicas - start), seed)
-        total = tally if total is None else total + tally
-    return total
+    seeds = np.random.SeedSequence(1).spawn(replicas // size)
+    return functools.reduce(operator.add, (run_chunk(season, size, seed) for seed in seeds))
 
 
 def speed(matches: float, seconds: float) -> str:
@@ -115,13 +109,18 @@ def test_one_league(beside: Beside, benchmark: Any, players: int) -> None:
     print(ratio, speed(players / 2 * WEEKS, benchmark.extra_info["ours"]))
 
 
-def test_replicas(beside: Beside, benchmark: Any) -> None:
+@pytest.mark.parametrize("size", [1000, 200])
+def test_replicas(beside: Beside, benchmark: Any, size: int) -> None:
     season = season_of(64)
     season.lookup.expected  # noqa: B018
+    # `simulate` takes ten chunks of so few replicas for its standard errors, and chunks of 1,024
+    # where there are ten thousand.
+    assert chunk_replicas(season, 2000) == 200
     ratio = beside(
-        f"2,000 replicas of 64 players, {WEEKS} weeks / bare loop, replicas down",
-        lambda: chunks(season, 2000),
+        f"2,000 replicas of 64 players in chunks of {size:,} / bare loop, replicas down",
+        lambda: chunks(season, 2000, size),
         bare_replicas(2000, 64),
+        rounds=31,
         note="statistics in ours",
     )
     print(ratio, speed(2000 * 32 * WEEKS, benchmark.extra_info["ours"]))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.league.tally import FIFTHS, GAP_COLUMNS, WEEK_COLUMNS, Tally, fifths_of
+from evenbreak.league.tally import FIFTHS, WEEK_COLUMNS, Tally, fifths_of
 
 if TYPE_CHECKING:
     from evenbreak.league.season import Season
@@ -25,6 +25,10 @@ _LARGE = 1 << 20
 
 _BLOCK = 1 << 16
 """Ratings that are counted at a time, so that they stay in the cache."""
+
+
+_LOWEST = 1 << 15
+"""The least whole number of 16 bits with a sign, read without it."""
 
 
 class Ended(NamedTuple):
@@ -64,14 +68,19 @@ class Counting:
             error = rating[some] - skill[some]
             if here is not None:
                 error = error[here[some]]
-            if error.max(initial=0) > most or error.min(initial=0) < -most:
-                np.clip(error, -most, most, out=error)
             error += np.int16(most)
-            self.errors[week] += np.bincount(error.ravel(), minlength=2 * most + 1)
+            # As unsigned numbers the errors below all bins come last.
+            counted = np.bincount(error.view(np.uint16).ravel(), minlength=2 * most + 1)
+            self.errors[week] += counted[: 2 * most + 1]
+            if len(counted) == 2 * most + 1:
+                continue
+            self.errors[week, -1] += counted[2 * most + 1 : _LOWEST].sum()
+            self.errors[week, 0] += counted[_LOWEST:].sum()
 
     def matches(self, cell: NDArray[np.intp], won: NDArray[np.bool_], played: Any) -> None:
         """Count matches by their place in the tables, which is even, and by who wins."""
-        where = cell + won
+        where = cell
+        where += won
         np.add.at(self.cells, where.ravel() if played is None else where[played], 1)
 
     def scores(self, row: NDArray[Any], apart: NDArray[Any], score: Any, played: Any) -> None:
@@ -116,21 +125,28 @@ class Counting:
 
     def _gaps(self, width: int) -> NDArray[np.float64]:
         look = self.look
-        found = np.zeros((look.gap // width + 1, len(GAP_COLUMNS)))
+        bins = look.gap // width + 1
         skill = np.arange(-look.gap, look.gap + 1)
+        bin_of = np.abs(skill) // width
+
+        def summed(row: NDArray[np.intp], *columns: NDArray[Any]) -> list[NDArray[np.float64]]:
+            place = bin_of[row]
+            return [np.bincount(place, column, bins) for column in columns]
+
         # Of millions of cells a chunk comes to few.
-        at = np.flatnonzero(self.cells)
-        times, won = self.cells[at], at & 1
-        row, column = np.divmod(at >> 1, look.width)
-        stronger = np.where(skill[row] > 0, won, np.where(skill[row] < 0, 1 - won, 0.5))
-        sums = np.column_stack([times, times * stronger])
-        np.add.at(found[:, :2], np.abs(skill[row]) // width, sums)
-        if self.season.lookup.by_winner is None or self.season.play == "racks":
-            np.add.at(found[:, 2:], np.abs(skill) // width, self.codes @ look.noted)
+        lost, won = self.cells.reshape(-1, 2).T
+        both = lost + won
+        at = np.flatnonzero(both)
+        row = at // look.width
+        sign = np.sign(skill[row])
+        stronger = (both[at] + sign * (won[at] - lost[at])) / 2.0
+        sums = summed(row, both[at], stronger)
+        if look.by_winner is None or self.season.play == "racks":
+            noted = self.codes @ look.noted
+            sums += summed(np.arange(len(skill)), *noted.T)
         else:
-            noted = times[:, None] * look.expected[row, column]
-            np.add.at(found[:, 2:], np.abs(skill[row]) // width, noted)
-        return found
+            sums += summed(row, *(look.expected[:, at] * both[at]))
+        return np.column_stack(sums)
 
 
 def _squares(values: NDArray[Any]) -> NDArray[np.int64]:

@@ -149,14 +149,14 @@ class Lookup:
 
     @cached_property
     def expected(self) -> NDArray[np.float64]:
-        """The mean of each of `classes` given both differences: (2 * gap + 1, width, 3)."""
+        """The mean of each of `classes` given both differences: (3, (2 * gap + 1) * width)."""
         first, place = self._races
         means = np.empty((len(self.game), len(first), CLASSES))
         for start in range(0, len(self.game), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
             chances = self.table.chances(self.game[some])[first]
             means[some] = np.einsum("rog,roc->grc", chances, self.classes[first])
-        return means[:, place]
+        return np.ascontiguousarray(np.moveaxis(means[:, place], 2, 0)).reshape(CLASSES, -1)
 
     @cached_property
     def cumulative(self) -> tuple[NDArray[np.uint32], NDArray[np.intp]]:

@@ -9,6 +9,7 @@ taken in blocks that stay in the cache.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -41,6 +42,9 @@ _HIGHEST = 16_000
 
 _MANY = 30_000
 """Matches of a player beyond which the wins of another week might not fit 16 bits."""
+
+_LOOK = 8
+"""Weeks after which the highest and the lowest rating are looked up again."""
 
 _WIN = 1 << 16
 """A win in the upper bits of a player's state."""
@@ -116,20 +120,25 @@ class _Chunk:
         self.factors = _factors(season)
         self.drifts, self.strays = bool(players.drift.any()), bool(players.day_sd.any())
         self.stay = bool((players.joins == 1).all() and (players.leaves == 0).all())
-        self.today = _points(self.skill)
+        # Skills in whole points: true ones, and those of the day.
+        self.points = self.today = _points(self.skill)
+        self.beyond = self.strays or bool(players.skill_sd.any())
+        self.highest, self.lowest = int(players.rating.max()), int(players.rating.min())
+        self.longest = season.longest_move
+        self.rounds = 0
         self.count = Counting(season, replicas)
 
     def count_week(self, week: int, here: NDArray[np.bool_] | None) -> None:
         """Count the rating errors after a week, and see to it that the arrays still hold."""
         rating = self.state.astype(np.int16)
-        self.highest, self.lowest = int(rating.max()), int(rating.min())
-        if max(self.highest, -self.lowest) > _HIGHEST or self.matches.max() > _MANY:
+        if week % _LOOK == 0:
+            self.highest, self.lowest = int(rating.max()), int(rating.min())
+        if max(self.highest, -self.lowest) > _HIGHEST or self.rounds > _MANY:
             raise AccuracyError(
-                f"in week {week} a rating is beyond {_HIGHEST} points, or a player has more than "
-                f"{_MANY} matches; play fewer weeks"
+                f"by week {week} a rating may be beyond {_HIGHEST} points, or a player may have "
+                f"more than {_MANY} matches; play fewer weeks"
             )
-        skill = _points(self.skill) if self.drifts or self.strays else self.today
-        self.count.week(week, rating, skill, here)
+        self.count.week(week, rating, self.points, here)
 
     def here(self, week: int) -> NDArray[np.bool_] | None:
         """Return who is in the league in a week; None: everybody."""
@@ -142,8 +151,6 @@ class _Chunk:
         if self.strays:
             normal = rng.standard_normal(self.state.shape, dtype=np.float32)
             self.today = _points(self.skill + players.day_sd[:, None] * normal)
-        elif self.drifts:
-            self.today = _points(self.skill)
         absent = None
         if self.absence is not None:
             absent = random_bits(rng, self.state.shape) < self.absence
@@ -156,8 +163,12 @@ class _Chunk:
                 self._block(before, absent, a[some], b[some])
             if absent is None:
                 self._count_matches(a, b)
+        self.rounds += len(rounds)
+        self.highest += len(rounds) * self.longest
+        self.lowest -= len(rounds) * self.longest
         if self.drifts:
             self.skill = self.skill + players.drift[:, None]
+            self.points = self.today = _points(self.skill)
         self.count_week(week, here)
 
     def _rounds(self, week: int, here: NDArray[np.bool_] | None) -> list[Any]:
@@ -175,6 +186,7 @@ class _Chunk:
         return rounds
 
     def _count_matches(self, a: NDArray[np.intp], b: NDArray[np.intp]) -> None:
+        """Count what a round adds to the matches of all replicas."""
         if 2 * len(a) == len(self.matches):  # nobody occurs twice, so everybody plays
             self.matches += 1
         else:
@@ -189,23 +201,14 @@ class _Chunk:
         b: NDArray[np.intp],
     ) -> None:
         """Play matches in which nobody occurs twice."""
-        look, today = self.lookup, self.today
+        look = self.lookup
         one, two = before.take(a, axis=0), before.take(b, axis=0)
         apart = (one - two).astype(np.int16)  # the lower bits of the difference: of ratings
         if self.highest - self.lowest > look.widest:
             np.clip(apart, -look.widest, look.widest, out=apart)
-        row = today.take(a, axis=0).astype(np.intp)
-        row -= today.take(b, axis=0)
-        np.clip(row, -look.gap, look.gap, out=row)
-        row += look.gap
-        cell = (2 * (row * look.width + look.widest)) + (apart + apart)
+        row = self._rows(a, b)
+        cell = (row * (2 * look.width) + (2 * look.widest)) + (apart + apart)
         won, score = self._draw(row, cell, apart)
-        moves = self._moves(apart, won, score)
-        if self.factors is not None:
-            moves = tuple(
-                move * self._factor(self.factors, rows)
-                for move, rows in zip(moves, (a, b), strict=True)
-            )
         played = None
         if absent is not None:
             played = ~(absent.take(a, axis=0) | absent.take(b, axis=0))
@@ -213,19 +216,54 @@ class _Chunk:
         if score is not None:
             self.count.scores(row, apart, score, played)
             if self.games is not None:
-                place = (apart.astype(np.intp) + look.widest) * look.outcomes + score
-                for rows, games in zip((a, b), look.won_games, strict=True):
-                    self.games[rows] += games.take(place) * (1 if played is None else played)
-        for rows, state, move, wins in zip((a, b), (one, two), moves, (won, ~won), strict=True):
+                self._count_games(a, b, apart, score, played)
+        if before is not self.state:
+            one, two = self.state.take(a, axis=0), self.state.take(b, axis=0)
+        if look.steps is not None and self.factors is None and played is None:
+            up, down = look.steps
+            change = won * np.int32(_WIN + up - down)
+            change += np.int32(down)
+            one += change
+            two += np.int32(_WIN + up + down)
+            two -= change  # what the one does not get of the two changes, the other gets
+        else:
+            for state, change in zip(
+                (one, two), self._changes(a, b, apart, won, score), strict=True
+            ):
+                state += change if played is None else change * played
+        _put(self.state, a, one)
+        _put(self.state, b, two)
+        if played is not None:
+            self.matches[a] += played
+            self.matches[b] += played
+
+    def _rows(self, a: NDArray[np.intp], b: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Return how far the skills of the day are apart, from 0 on."""
+        row = self.today.take(a, axis=0).astype(np.intp)
+        row -= self.today.take(b, axis=0)
+        if self.beyond:
+            np.clip(row, -self.lookup.gap, self.lookup.gap, out=row)
+        row += self.lookup.gap
+        return row
+
+    def _count_games(
+        self, a: NDArray[np.intp], b: NDArray[np.intp], apart: Any, score: Any, played: Any
+    ) -> None:
+        assert self.games is not None  # noqa: S101
+        place = (apart.astype(np.intp) + self.lookup.widest) * self.lookup.outcomes + score
+        for rows, games in zip((a, b), self.lookup.won_games, strict=True):
+            self.games[rows] += games.take(place) * (1 if played is None else played)
+
+    def _changes(
+        self, a: NDArray[np.intp], b: NDArray[np.intp], apart: Any, won: Any, score: Any
+    ) -> Iterator[NDArray[np.int32]]:
+        """Yield what is added to the states of the two: moves and wins."""
+        for rows, move, wins in zip(
+            (a, b), self._moves(apart, won, score), (won, ~won), strict=True
+        ):
             change = wins * np.int32(_WIN)
-            change += move
-            if played is not None:
-                change *= played
-                self.matches[rows] += played
-            if before is not self.state:
-                state = self.state.take(rows, axis=0)
-            state += change
-            _put(self.state, rows, state)
+            change += move if self.factors is None else move * self._factor(self.factors, rows)
+            yield change
 
     def _draw(
         self, row: NDArray[Any], cell: NDArray[Any], apart: NDArray[np.int16]

@@ -92,14 +92,18 @@ class Season:
         """The races, moves and chances of the season's matches."""
         last = self.chart.rows[-1].difference_from
         doublings = _DOUBLINGS * self.system.scale.points_per_doubling
-        spread = int(self.players.rating.max() - self.players.rating.min())
-        widest = max(round(doublings), last, min(2 * last, spread + last // 2))
-        return match_table(self.system, self.chart, widest=widest)
+        return match_table(self.system, self.chart, widest=max(last, round(doublings)))
 
     @cached_property
     def lookup(self) -> Lookup:
         """The same as flat tables of whole numbers, for drawing."""
         return lookup_of(self.table, _widest_gap(self.players, self.weeks))
+
+    @cached_property
+    def longest_move(self) -> int:
+        """The most points that a match may move a rating."""
+        factors = [factor for _, factor in self.system.newcomer_steps]
+        return int(np.abs(self.table.moves).max()) * max(factors, default=1)
 
     @cached_property
     def fifths(self) -> NDArray[np.int64]:
