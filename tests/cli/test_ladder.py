@@ -120,14 +120,14 @@ def test_the_csv_is_the_law_with_the_chance_to_win(run):
 def test_all_options_reach_the_ladder(ladder):
     answer = ladder(
         *("--system", "step 2", "--scale", "40", "--equal-skill", "--day-sd", "4"),
-        *("--matches-a-night", "2", "--match-sd", "3", "--drift", "0.05"),
+        *("--matches-a-night", "3", "--match-sd", "3", "--drift", "0.05"),
     )
     system = replace(system_of("step 2"), scale=scale_of(40))
     built = Ladder(
         system,
         opponents=EQUAL_SKILL,
         day_sd=4.0,
-        matches_a_night=2,
+        matches_a_night=3,
         match_sd=3.0,
         drift=0.05,
     )
@@ -200,6 +200,9 @@ def test_a_terminal_is_told_what_varies(terminal):
     assert "skill rises by 0.1 points a match." in answer
     assert "points too low on average, and wanders about that" in answer
     assert "A player rated 25 points too high who moves as newcomers do" in answer
+    falling = " ".join(terminal("--drift", "-0.1").split())
+    assert "skill falls by 0.1 points a match." in falling
+    assert "points too high on average" in falling
     settled = " ".join(terminal("--from", "3").split())
     assert "An error of 3 counts as settled from the beginning." in settled
 
@@ -235,7 +238,8 @@ def test_the_picture(run, tmp_path, words):
         (("--day-sd", "-1"), 2, "give a number from 0 to"),
         (("--day-sd", "1e9"), 2, "give a number from 0 to"),
         (("--match-sd", "nan"), 2, "give a number from 0 to"),
-        (("--drift", "2"), 2, "give a number from -1 to 1"),
+        (("--drift", "2"), 2, "give a number from -0.9 to 0.9"),
+        (("--step", "100"), 1, "a smaller --step"),
         (("--matches-a-night", "3"), 2, "give --day-sd"),
         (("--autocorrelated", "--equal-skill"), 2, "exclude each other"),
         (("--equal-skill", "--league", "x.csv"), 2, "exclude each other"),
@@ -268,17 +272,23 @@ def test_systems_side_by_side(ladder):
     assert rows["elo 16", "fixed_9"]["sd_doublings"] < 1.0
 
 
-def test_a_row_of_the_comparison_says_what_the_ladder_says(ladder):
-    rows = ladder("--compare")["systems"]
-    (row,) = (row for row in rows if (row["system"], row["chart"]) == ("npl", "npl_10"))
+@pytest.fixture(scope="module")
+def compared(run):
+    result = run("ladder", "--compare", "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)["systems"]
+
+
+def test_a_row_of_the_comparison_says_what_the_ladder_says(ladder, compared):
+    (row,) = (row for row in compared if (row["system"], row["chart"]) == ("npl", "npl_10"))
     alone = ladder("--chart", "npl_10")
     assert row["sd"] == alone["sd"]
     assert row["settling_mean"] == alone["settling"]["mean"]
     assert row["p_favourite_mean"] == pytest.approx(alone["unfairness"]["favourite_mean"])
 
 
-def test_no_step_of_the_front_is_beaten(ladder):
-    steps = [row for row in ladder("--compare")["systems"] if row["on_front"] is not None]
+def test_no_step_of_the_front_is_beaten(compared):
+    steps = [row for row in compared if row["on_front"] is not None]
     assert [row["system"] for row in steps] == [f"step {step}" for step in STEPS]
     for row in steps:
         beaten = any(

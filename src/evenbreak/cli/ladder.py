@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.options import Whole, number, refuse, wants_json
-from evenbreak.cli.output import aligned, paragraphs, print_json, print_table, to_terminal
+from evenbreak.cli.output import aligned, paragraphs, print_json, print_table, say, to_terminal
 from evenbreak.cli.plot import plot_option, write_plot
 
 if TYPE_CHECKING:
@@ -20,6 +20,14 @@ LARGEST = 10_000
 """The largest error that can be typed, in points; a ladder says where it ends itself."""
 
 MOST_A_NIGHT = 20
+
+MOST_DRIFT = 0.9
+"""A rating that moves a point a match cannot follow a skill that does so each time."""
+
+_RUNS_AWAY = (
+    "the rating does not stay near the skill: the moves are too large for the scale, or the skill "
+    "drifts faster than they follow; give a smaller --step, another --system or less --drift"
+)
 
 SHARES = (0.5, 0.75, 0.9, 0.95, 0.99)
 """The parts of the ratings whose largest error a terminal shows."""
@@ -102,7 +110,7 @@ def _between(low: float, high: float) -> Callable[..., float | None]:
 @click.option(
     "--drift",
     metavar="POINTS",
-    callback=_between(-1.0, 1.0),
+    callback=_between(-MOST_DRIFT, MOST_DRIFT),
     help="By how much the player's skill rises with each match.",
 )
 @click.option(
@@ -146,6 +154,8 @@ def ladder(
         _print(found)
     if plot is not None:
         _draw(found, plot)
+    for reason in found.not_told:
+        say(f"Note: a part of the answer is left out: {reason}")
 
 
 def _answer(chart_name: str | None, asked: dict[str, Any]) -> LadderAnswer:
@@ -157,27 +167,31 @@ def _answer(chart_name: str | None, asked: dict[str, Any]) -> LadderAnswer:
         refuse_conflicts,
         system_of_options,
     )
+    from evenbreak.errors import AccuracyError
     from evenbreak.handicaps.ladder import Ladder
 
     refuse_conflicts(asked)
     system = system_of_options(asked)
     chart = chart_of_option(chart_name, system)
     opponents, name = opponents_of_options(asked)
-    built = Ladder(
-        system,
-        chart,
-        opponents=opponents,
-        day_sd=asked["day_sd"] or 0.0,
-        match_sd=asked["match_sd"] or 0.0,
-        matches_a_night=asked["matches_a_night"] or 1,
-        drift=asked["drift"] or 0.0,
-    )
+    try:
+        built = Ladder(
+            system,
+            chart,
+            opponents=opponents,
+            day_sd=asked["day_sd"] or 0.0,
+            match_sd=asked["match_sd"] or 0.0,
+            matches_a_night=asked["matches_a_night"] or 1,
+            drift=asked["drift"] or 0.0,
+        )
+    except AccuracyError:
+        raise AccuracyError(_RUNS_AWAY) from None
     doubling = round(system.scale.points_per_doubling)
     start, within = asked["start"], asked["within"]
     if start is None:
         start = -doubling
     if within is None:
-        within = max(round(doubling / 6), int(abs(built.steps).max()))
+        within = round(doubling / 6)
     if abs(start) > built.widest:
         refuse(
             f"--from is {start}; the ladder goes from {-built.widest} to {built.widest} points, "
@@ -212,7 +226,10 @@ def _draw(found: LadderAnswer, path: str) -> None:
     from evenbreak.reports.ladder_plots import SettlingCurve, ladder_figure
 
     asked = found.question
-    curve = SettlingCurve(asked.start, asked.within, [*accumulate(found.settling.chances)])
+    curve = None
+    if found.settling is not None:
+        settled = [*accumulate(found.settling.chances)]
+        curve = SettlingCurve(asked.start, asked.within, settled)
     figure = ladder_figure(
         found.law, natural=found.natural, within=asked.within, curve=curve, title=title(found)
     )

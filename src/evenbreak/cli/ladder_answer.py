@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from evenbreak.cli.output import SCHEMA_VERSION
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from evenbreak.handicaps.inflation import NewcomerInflation
     from evenbreak.handicaps.ladder import Ladder
     from evenbreak.handicaps.settling import Settling
     from evenbreak.stats.summary import Distribution
+
+Part = TypeVar("Part")
 
 __all__ = ["COLUMNS", "FAVOURITE", "OPPONENTS", "LadderAnswer", "Question", "as_json", "rows"]
 
@@ -60,6 +64,7 @@ class LadderAnswer:
 
     def __init__(self, ladder: Ladder, question: Question) -> None:
         self.ladder, self.question = ladder, question
+        self.not_told: list[str] = []
 
     @cached_property
     def law(self) -> Distribution:
@@ -106,26 +111,38 @@ class LadderAnswer:
         return newcomer_inflation(self.ladder, self.question.start)
 
     @cached_property
-    def settling(self) -> Settling:
-        """How long a player takes whose rating begins wrong."""
+    def settling(self) -> Settling | None:
+        """How long a player takes whose rating begins wrong; None where `not_told` says why."""
         from evenbreak.handicaps.settling import settling
 
         asked = self.question
-        return settling(self.ladder, asked.start, asked.within, newcomer=asked.newcomer)
+        return self._or_not_told(
+            lambda: settling(self.ladder, asked.start, asked.within, newcomer=asked.newcomer)
+        )
 
     @cached_property
-    def gap(self) -> float:
+    def gap(self) -> float | None:
         """1 less the largest eigenvalue below 1; -1 is set aside."""
         from evenbreak.handicaps.ladder_mixing import ladder_gap
 
-        return ladder_gap(self.ladder)
+        return self._or_not_told(lambda: ladder_gap(self.ladder))
 
     @cached_property
-    def mixing_matches(self) -> int:
+    def mixing_matches(self) -> int | None:
         """The matches after which an error begun at `start` is within 1/4 of its limit law."""
         from evenbreak.handicaps.ladder_mixing import ladder_mixing
 
-        return ladder_mixing(self.ladder, self.question.start)
+        return self._or_not_told(lambda: ladder_mixing(self.ladder, self.question.start))
+
+    def _or_not_told(self, part: Callable[[], Part]) -> Part | None:
+        """Return a part of the answer, or note why it cannot be had and let the rest be told."""
+        from evenbreak.errors import AccuracyError, InputError
+
+        try:
+            return part()
+        except (AccuracyError, InputError) as error:
+            self.not_told.append(str(error))
+        return None
 
 
 def rows(found: LadderAnswer) -> list[tuple[int, float, float, float]]:
@@ -139,7 +156,6 @@ def rows(found: LadderAnswer) -> list[tuple[int, float, float, float]]:
 def as_json(found: LadderAnswer) -> dict[str, Any]:
     """Return what --json prints of a ladder."""
     ladder, law, asked, favourite = found.ladder, found.law, found.question, found.favourite
-    settled = found.settling
     return {
         "system": ladder.system.name,
         "scale": ladder.system.scale.name,
@@ -172,14 +188,20 @@ def as_json(found: LadderAnswer) -> dict[str, Any]:
         "newcomer_leaves": found.newcomer_inflation.left,
         "gap": found.gap,
         "mixing_matches": found.mixing_matches,
-        "settling": {
-            "start": settled.start,
-            "within": settled.within,
-            "newcomer": settled.newcomer,
-            "mean": settled.mean,
-            "sd": settled.sd,
-            "quantiles": {f"{q:g}": settled.matches.quantile(q) for q in QUANTILES},
-            "after": {str(many): settled.after(many) for many in AFTER},
-        },
+        "settling": _settling(found.settling),
         "schema_version": SCHEMA_VERSION,
+    }
+
+
+def _settling(settled: Settling | None) -> dict[str, Any] | None:
+    if settled is None:
+        return None
+    return {
+        "start": settled.start,
+        "within": settled.within,
+        "newcomer": settled.newcomer,
+        "mean": settled.mean,
+        "sd": settled.sd,
+        "quantiles": {f"{q:g}": settled.matches.quantile(q) for q in QUANTILES},
+        "after": {str(many): settled.after(many) for many in AFTER},
     }

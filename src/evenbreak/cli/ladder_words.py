@@ -16,6 +16,7 @@ __all__ = ["heading", "ladder_sentences", "matches", "of_100", "points", "title"
 
 _FEW = 0.1
 """Rarer than this is told as one in so many."""
+_ALL = 0.995
 
 
 def title(found: LadderAnswer) -> str:
@@ -29,7 +30,7 @@ def heading(found: LadderAnswer) -> str:
     ladder = found.ladder
     told = [
         f"How wrong are ratings on {title(found)}?",
-        f"Ratings go {ladder.system.in_words}.",
+        f"System {ladder.system.name}: {ladder.system.in_words}.",
         OPPONENTS[found.question.opponents],
     ]
     if ladder.day_sd:
@@ -41,7 +42,8 @@ def heading(found: LadderAnswer) -> str:
     if ladder.match_sd:
         told.append(f"Everybody's form varies by {ladder.match_sd:g} points from match to match.")
     if ladder.drift:
-        told.append(f"The player's skill rises by {ladder.drift:g} points a match.")
+        way = "rises" if ladder.drift > 0.0 else "falls"
+        told.append(f"The player's skill {way} by {abs(ladder.drift):g} points a match.")
     return "\n".join(told)
 
 
@@ -50,13 +52,16 @@ def ladder_sentences(found: LadderAnswer) -> list[str]:
     told = [_how_wrong(found), _how_unfair(found.favourite), _how_fast(found), _how_soon(found)]
     if abs(found.inflation) >= 0.005:
         told.append(_inflation(found.inflation))
-    return told
+    return [paragraph for paragraph in told if paragraph]
 
 
 def _how_wrong(found: LadderAnswer) -> str:
     law, within = found.law, found.question.within
-    more = [of_100(found.off.at_least(many + 1)) for many in (within, 2 * within)]
-    if abs(law.mean) < 0.005:
+    more = [
+        f"{of_100(found.off.at_least(many + 1))} by more than {many}"
+        for many in dict.fromkeys((within, 2 * within))
+    ]
+    if abs(law.mean) < 0.05:
         text = f"In the long run a rating is off by {law.sd:.2f} points (standard deviation)"
     else:
         text = (
@@ -64,8 +69,8 @@ def _how_wrong(found: LadderAnswer) -> str:
             f"wanders about that by {law.sd:.2f} points (standard deviation)"
         )
     return (
-        f"{text}. 9 ratings of 10 are off by {points(found.off.quantile(0.9))} or less, {more[0]} "
-        f"by more than {within}, {more[1]} by more than {2 * within}."
+        f"{text}. 9 ratings of 10 are off by {points(found.off.quantile(0.9))} or less, "
+        f"{', '.join(more)}."
     )
 
 
@@ -83,6 +88,8 @@ def _how_unfair(favourite: Distribution) -> str:
 
 def _how_fast(found: LadderAnswer) -> str:
     asked, settled = found.question, found.settling
+    if settled is None:
+        return ""
     if abs(asked.start) <= asked.within:
         return f"An error of {asked.start} counts as settled from the beginning."
     law = settled.matches
@@ -100,11 +107,14 @@ def _how_soon(found: LadderAnswer) -> str:
     """Return gap and mixing in words."""
     import math
 
+    if found.gap is None or found.mixing_matches is None:
+        return ""
     half = math.log(0.5) / math.log1p(-found.gap)
+    every = "with every match" if half < 1.5 else f"every {matches(half)}"
     start = found.question.start
     begun = f"began {_too(start, str(abs(start)))}" if start else "began right"
     return (
-        f"In the end what is left of an old error fades by half every {matches(half)} (spectral "
+        f"In the end what is left of an old error fades by half {every} (spectral "
         f"gap {found.gap:.4f}). After {matches(found.mixing_matches)} a rating that {begun} can "
         "hardly be told from any other (total variation 0.25)."
     )
@@ -135,6 +145,8 @@ def _too(error: float, size: str) -> str:
 def _in_matches(chance: float) -> str:
     if chance < _FEW:
         return f"1 match in {1.0 / chance:,.0f}"
+    if chance > _ALL:
+        return "nearly all matches"
     return f"{100.0 * chance:.0f} matches of 100"
 
 
@@ -146,6 +158,8 @@ def of_100(chance: float) -> str:
     """
     if chance < 1e-9:
         return "none"
+    if chance > _ALL:
+        return "nearly all"
     return f"1 in {1.0 / chance:,.0f}" if chance < _FEW else f"{100.0 * chance:.0f} of 100"
 
 
