@@ -2,8 +2,8 @@
 
 The players of a night draw their deviations at its beginning; in its k-th match all of them
 have the same joint law of error and deviation. A round of the iteration takes the law of errors
-at the beginning of a night, sends the player through it, and corrects that law by the one that
-the average match of the night leaves as it is.
+at the beginning of a night, sends all players through it, and asks which law at the beginning
+is the same again at the end.
 
 Averaged over the matches of a night, P(move | error) is a chain whose stationary law is the
 average law exactly: what flows into an error in a night is what flows out of it.
@@ -12,7 +12,6 @@ average law exactly: what flows into an error in a night is what flows out of it
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -26,13 +25,11 @@ if TYPE_CHECKING:
     from evenbreak.handicaps.pairing import Pairing
 
     Floats: TypeAlias = NDArray[np.float64]
-    Against: TypeAlias = Callable[[int, Floats], Floats]
 
 __all__ = ["Night", "Settled", "settled"]
 
-_SETTLED = 1e-14
-_SETTLED_NIGHT = 1e-12
-_ROUNDS = 500
+_SETTLED = 1e-13
+_ROUNDS = 300
 
 
 class Night(NamedTuple):
@@ -52,30 +49,6 @@ class Settled(NamedTuple):
     law: Floats
     opponents: Floats
     changes: tuple[float, ...]
-
-
-class _Passed(NamedTuple):
-    """A night: P(move | error, deviation) in each match, and the joint law before each."""
-
-    chances: list[Floats]
-    joint: list[Floats]
-
-    @property
-    def law(self) -> Floats:
-        """The law of the error on the average of the matches."""
-        return np.asarray(sum(self.joint).sum(axis=1) / len(self.joint))  # type: ignore[union-attr]
-
-    @property
-    def average(self) -> Floats:
-        """P(move | error) on the average of the matches, and P(win | error) last."""
-        if self.joint[0].shape[1] == 1 and len(self.joint) == 1:
-            return self.chances[0][..., 0]
-        pairs = zip(self.chances, self.joint, strict=True)
-        flow = sum((chances * joint).sum(axis=2) for chances, joint in pairs)
-        weight = sum(joint.sum(axis=1) for joint in self.joint)
-        # Where a law is smaller than any float, what the first match does stands for all.
-        plain = self.chances[0].mean(axis=2)
-        return np.asarray(np.where(weight > 0.0, flow / np.where(weight > 0.0, weight, 1.0), plain))
 
 
 def settled(night: Night, error: Floats | None, drift: float, *, conserving: bool) -> Settled:
@@ -109,74 +82,107 @@ def settled(night: Night, error: Floats | None, drift: float, *, conserving: boo
     """
     pairing = night.pairing
     if error is not None:
-        chances = pairing.moves(np.outer(error, night.weights))
-        return _rounds(night, lambda _, __: chances, drift, error)[0]
-
-    def as_he_errs(_: int, joint: Floats) -> Floats:
-        return pairing.moves((joint + joint[::-1, ::-1]) / 2.0)
-
-    pace, rise = 0.0, math.inf
-    while abs(rise) > _SETTLED:
-        found, passed = _rounds(night, as_he_errs, pace)
-        rise = 0.0 if conserving else _mean_move(night, passed) - pace
-        pace += rise
-    if not drift:
-        return found
-    league = passed.chances
-    moving, _ = _rounds(night, lambda k, _: league[k], pace + drift, found.opponents)
-    return moving._replace(changes=found.changes)
-
-
-def _rounds(
-    night: Night, against: Against, fall: float, opponents: Floats | None = None
-) -> tuple[Settled, _Passed]:
-    """Return what a ladder comes to, and its night, if errors fall by so much with each match.
-
-    Parameters
-    ----------
-    against
-        from the number of a match and the player's joint law before it to P(move | error,
-        deviation), P(win | error, deviation) last.
-    opponents
-        the law of the opponents' errors; None: the player's own.
-    """
-    pairing = night.pairing
+        each = pairing.moves(np.outer(error, night.weights))
+        return _as_told(night, [each] * night.matches, drift, error, ())
     exact = np.zeros(len(pairing.errors))
     exact[len(exact) // 2] = 1.0
-    first = against(0, np.outer(exact, night.weights)) @ night.weights
-    steps, moves = _falling(pairing.steps, first[:-1], fall)
-    begun = long_run_law(steps, moves.T)
-    enough = _SETTLED if night.matches == 1 else _SETTLED_NIGHT
-    changes: list[float] = []
-    for _ in range(_ROUNDS):
-        passed = _pass(night, against, fall, begun)
-        average = passed.average
-        steps, moves = _falling(pairing.steps, average[:-1], fall)
-        law, met = long_run_law(steps, moves.T), passed.law
-        changes.append(float(np.abs(law - met).max()))
-        if changes[-1] <= enough:
-            even = (law + law[::-1]) / 2.0 if opponents is None else opponents
-            told = tuple(changes) if opponents is None or night.matches > 1 else ()
-            return Settled(steps, moves.T, average[-1], law, even, told), passed
-        begun = begun * np.divide(law, met, out=np.ones_like(law), where=met > 0.0)
-        begun /= begun.sum()
-    raise AccuracyError(
-        f"the law still changes by {changes[-1]:.3g} after {_ROUNDS} rounds; "
-        "give the opponents' error, or opponents=NATURAL, who are rated rightly"
-    )
+    chances = [pairing.moves(np.outer(exact, night.weights))] * night.matches
+    pace, changes = 0.0, [math.inf]
+    begun = _beginning(night, chances, pace)
+    while changes[-1] > _SETTLED and len(changes) <= _ROUNDS:
+        chances, joint = _against_the_same(night, pace, begun)
+        if not conserving:
+            pace = _mean_move(night, chances, joint)
+        again = _beginning(night, chances, pace)
+        changes.append(float(np.abs(again - begun).max()))
+        begun = again
+    if changes[-1] > _SETTLED:
+        raise AccuracyError(
+            f"the law still changes by {changes[-1]:.3g} after {_ROUNDS} rounds; "
+            "give the opponents' error, or opponents=NATURAL, who are rated rightly"
+        )
+    league = _as_told(night, chances, pace, exact, tuple(changes[1:]))
+    met = (league.law + league.law[::-1]) / 2.0
+    moving = _as_told(night, chances, pace + drift, met, league.changes) if drift else league
+    return moving._replace(opponents=met)
 
 
-def _pass(night: Night, against: Against, fall: float, begun: Floats) -> _Passed:
-    """Return a night that begins with this law of the errors."""
-    passed = _Passed([], [])
+def _as_told(
+    night: Night,
+    chances: list[Floats],
+    fall: float,
+    opponents: Floats,
+    changes: tuple[float, ...],
+) -> Settled:
+    """Return what a ladder comes to by these chances in each match of a night."""
+    steps = night.pairing.steps
+    joint = [np.outer(_beginning(night, chances, fall), night.weights)]
+    for each in chances[:-1]:
+        joint.append(_after(joint[-1], *_falling(steps, each[:-1], fall)))
+    average = _average(chances, joint)
+    steps, moves = _falling(steps, average[:-1], fall)
+    law = np.mean([one.sum(axis=1) for one in joint], axis=0)
+    return Settled(steps, moves.T, average[-1], law, opponents, changes)
+
+
+def _against_the_same(
+    night: Night, fall: float, begun: Floats
+) -> tuple[list[Floats], list[Floats]]:
+    """Return the chances in each match against players with the player's own law, made even.
+
+    Also the joint laws of error and deviation before each match, so made even.
+    """
+    chances, laws = [], []
     joint = np.outer(begun, night.weights)
     for match in range(night.matches):
-        chances = against(match, joint)
-        passed.chances.append(chances)
-        passed.joint.append(joint)
+        laws.append((joint + joint[::-1, ::-1]) / 2.0)
+        chances.append(night.pairing.moves(laws[-1]))
         if match + 1 < night.matches:
-            joint = _after(joint, *_falling(night.pairing.steps, chances[:-1], fall))
-    return passed
+            joint = _after(joint, *_falling(night.pairing.steps, chances[-1][:-1], fall))
+    return chances, laws
+
+
+def _beginning(night: Night, chances: list[Floats], fall: float) -> Floats:
+    """Return the law of the errors that is the same at the end of a night as at its beginning.
+
+    A night is a walk by what its matches move in sum: P(sum | error, deviation) is worked out
+    match by match, and averaged over the deviation.
+    """
+    sums, moved = _falling(night.pairing.steps, chances[0][:-1], fall)
+    for each in chances[1:]:
+        sums, moved = _one_match_more(sums, moved, *_falling(night.pairing.steps, each[:-1], fall))
+    return long_run_law(sums, (moved @ night.weights).T)
+
+
+def _one_match_more(
+    sums: NDArray[np.int64], moved: Floats, steps: NDArray[np.int64], chances: Floats
+) -> tuple[NDArray[np.int64], Floats]:
+    """Return the sums of moves, and their chances, after a match by these steps and chances."""
+    many = moved.shape[1]
+    reached = np.arange(sums[0] + min(steps[0], 0), sums[-1] + max(steps[-1], 0) + 1)
+    after = np.zeros((len(reached), *moved.shape[1:]))
+    begun = np.arange(many)
+    for total, before in zip(sums.tolist(), moved, strict=True):
+        place = np.clip(begun + total, 0, many - 1)
+        for step, chance in zip(steps.tolist(), chances, strict=True):
+            flow = before * chance[place]
+            stays = ((place + step < 0) | (place + step >= many))[:, None]
+            after[total + step - reached[0]] += np.where(stays, 0.0, flow)
+            after[total - reached[0]] += np.where(stays, flow, 0.0)
+    used = after.any(axis=(1, 2))
+    return reached[used], after[used]
+
+
+def _average(chances: list[Floats], joint: list[Floats]) -> Floats:
+    """Return P(move | error) on the average of the matches, and P(win | error) last."""
+    flow = sum(
+        ((each * law).sum(axis=2) for each, law in zip(chances, joint, strict=True)),
+        start=np.zeros(chances[0].shape[:2]),
+    )
+    weight = np.sum(joint, axis=(0, 2))
+    known = weight > 0.0
+    # Where a law is smaller than any float, one deviation is as good as another.
+    return np.where(known, flow / np.where(known, weight, 1.0), chances[0].mean(axis=2))
 
 
 def _after(joint: Floats, steps: NDArray[np.int64], chances: Floats) -> Floats:
@@ -211,6 +217,7 @@ def _falling(
     return both, moved
 
 
-def _mean_move(night: Night, passed: _Passed) -> float:
+def _mean_move(night: Night, chances: list[Floats], joint: list[Floats]) -> float:
     """Return the mean move of a rating, over the matches of a night."""
-    return float(night.pairing.steps @ passed.average[:-1] @ passed.law)
+    flow = _average(chances, joint)[:-1] @ np.mean([law.sum(axis=1) for law in joint], axis=0)
+    return float(night.pairing.steps @ flow)
