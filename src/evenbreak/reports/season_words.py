@@ -117,7 +117,7 @@ def _luck(standings: pd.DataFrame) -> str:
 def standings_rows(season: Season, tally: Tally) -> list[list[str]]:
     """Return the table as a terminal shows it, with its headings; of many the first and last."""
     frame = standings_frame(season, tally)
-    rows = [["", "player", "rated", "matches", "won", "8 of 10 seasons", "part", "rated then"]]
+    rows = [["", "player", "rated", "matches", "won", "8 of 10 seasons", "chance", "rated then"]]
     half = SHOWN // 2
     for place, row in enumerate(frame.to_dict("records")):
         if len(frame) > SHOWN + 1 and half <= place < len(frame) - half:
