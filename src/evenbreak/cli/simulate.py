@@ -270,7 +270,7 @@ def _simulated(season: Season, replicas: int, seed: int, jobs: int, cluster: str
                 seed=seed,
                 executor=executor,
                 jobs=jobs,
-                progress=lambda done, _: progress(done),
+                progress=progress,
             )
     finally:
         if executor is not None:

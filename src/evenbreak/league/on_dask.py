@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Executor, Future
 from concurrent.futures import TimeoutError as NotYet
 from contextlib import contextmanager
+from itertools import count
 from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -82,12 +83,14 @@ class DaskExecutor(Executor):
                 f"{self._name} has no worker; start one or more with `dask worker ADDRESS`"
             ) from None
         self._inner: Executor = self._client.get_executor(pure=False, retries=_RETRIES)
+        self._given = count()
         self._seen = time.monotonic()
         self.workers = sum(self._client.nthreads().values())
 
     def submit(self, fn: Callable[..., Value], /, *args: Any, **kwargs: Any) -> Future[Value]:
         """Give out a call; what `share` returned may be among its arguments."""
-        return self._inner.submit(fn, *args, **kwargs)
+        # What is given out first is done first: left to itself, dask takes any of the last ones.
+        return self._inner.submit(fn, *args, priority=-next(self._given), **kwargs)
 
     def share(self, value: Value) -> Value:
         """Send a value to the cluster once, and return what stands for it in `submit`."""
