@@ -131,7 +131,7 @@ class Counting:
 
         def summed(row: NDArray[np.intp], *columns: NDArray[Any]) -> list[NDArray[np.float64]]:
             place = bin_of[row]
-            return [np.bincount(place, column, bins) for column in columns]
+            return [np.asarray(np.bincount(place, column, bins), float) for column in columns]
 
         # Of millions of cells a chunk comes to few.
         lost, won = self.cells.reshape(-1, 2).T

@@ -131,12 +131,12 @@ class _Chunk:
     def count_week(self, week: int, here: NDArray[np.bool_] | None) -> None:
         """Count the rating errors after a week, and see to it that the arrays still hold."""
         rating = self.state.astype(np.int16)
-        if week % _LOOK == 0:
+        if week % _LOOK == 0 or max(self.highest, -self.lowest) > _HIGHEST:
             self.highest, self.lowest = int(rating.max()), int(rating.min())
         if max(self.highest, -self.lowest) > _HIGHEST or self.rounds > _MANY:
             raise AccuracyError(
-                f"by week {week} a rating may be beyond {_HIGHEST} points, or a player may have "
-                f"more than {_MANY} matches; play fewer weeks"
+                f"weeks is {self.season.weeks}, but by week {week} a rating is beyond {_HIGHEST} "
+                f"points, or a player has had more than {_MANY} matches; play fewer weeks"
             )
         self.count.week(week, rating, self.points, here)
 
