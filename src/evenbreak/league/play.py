@@ -122,7 +122,8 @@ class _Chunk:
         self.stay = bool((players.joins == 1).all() and (players.leaves == 0).all())
         # Skills in whole points: true ones, and those of the day.
         self.points = self.today = _points(self.skill)
-        self.beyond = self.strays or bool(players.skill_sd.any())
+        drawn_skills = self.strays or bool(players.skill_sd.any())
+        self.beyond = drawn_skills or season.widest_gap > self.lookup.gap
         self.highest, self.lowest = int(players.rating.max()), int(players.rating.min())
         self.longest = season.longest_move
         self.rounds = 0

@@ -97,7 +97,18 @@ class Season:
     @cached_property
     def lookup(self) -> Lookup:
         """The same as flat tables of whole numbers, for drawing."""
-        return lookup_of(self.table, _widest_gap(self.players, self.weeks))
+        return lookup_of(self.table, self.widest_gap)
+
+    @cached_property
+    def widest_gap(self) -> int:
+        """The largest difference of two skills of the day, five standard deviations included."""
+        players = self.players
+        around = _SDS * np.hypot(players.skill_sd, players.day_sd)
+        drifted = players.drift * (self.weeks - 1)
+        high = players.skill + np.maximum(drifted, 0.0) + around
+        low = players.skill + np.minimum(drifted, 0.0) - around
+        # A point more, since drift adds up in another order.
+        return int(np.rint(high.max()) - np.rint(low.min())) + 1
 
     @cached_property
     def longest_move(self) -> int:
@@ -131,12 +142,3 @@ def _check_schedule(schedule: Any, players: int) -> None:
 def draws_opponents(schedule: Schedule) -> bool:
     """Tell whether opponents are drawn by lot, so among those who are there."""
     return isinstance(schedule, RandomPairing)
-
-
-def _widest_gap(players: LeaguePlayers, weeks: int) -> float:
-    """Return the largest difference of two skills of the day that is told from a larger one."""
-    around = _SDS * np.hypot(players.skill_sd, players.day_sd)
-    drifted = players.drift * (weeks - 1)
-    high = players.skill + np.maximum(drifted, 0.0) + around
-    low = players.skill + np.minimum(drifted, 0.0) - around
-    return float(high.max() - low.min())
