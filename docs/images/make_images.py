@@ -3,12 +3,14 @@
 python docs/images/make_images.py
 """
 
+from itertools import accumulate
 from pathlib import Path
 
 import networkx as nx
 from matplotlib.figure import Figure
 
 from evenbreak.games import Ahead, OneBall, Race, Rack
+from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling
 from evenbreak.ratings import fit
 from evenbreak.reports import (
     RaceLimits,
@@ -20,6 +22,7 @@ from evenbreak.reports import (
     read_results,
     sheet_pages,
 )
+from evenbreak.reports.ladder_plots import SettlingCurve, ladder_figure
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE.parents[1] / "data" / "demo_league.csv"
@@ -44,6 +47,17 @@ def sheet() -> Figure:
     return page
 
 
+def ladder() -> Figure:
+    """Draw what `evenbreak ladder` draws of chart 10: the law, and how newcomers settle."""
+    model = Ladder("npl", chart("npl_10"), opponents=EQUAL_SKILL)
+    settled = [*accumulate(settling(model, -30, newcomer=True).chances)]
+    natural = Ladder("npl", chart("npl_10")).law()
+    curve = SettlingCurve(-30, 5, settled)
+    return ladder_figure(
+        model.law(), natural=natural, curve=curve, title="chart npl_10, system npl"
+    )
+
+
 def main() -> None:
     """Write every picture beside this file."""
     diagrams = {
@@ -51,6 +65,7 @@ def main() -> None:
         "ahead": draw(Ahead(3, 2, Rack(2 / 3)), title="Player 1 must lead by 3, player 2 by 2"),
         "drill": draw(drill(4)),
         "race": draw(Race(3, 2, Rack(0.6)), title="Race 3:2"),
+        "ladder": ladder(),
     }
     for name, figure in diagrams.items():
         (HERE / f"{name}.svg").write_bytes(image_bytes(figure, "svg"))

@@ -168,10 +168,12 @@ def _draw_settling(axes: Axes, curve: SettlingCurve) -> None:
         place = int(np.searchsorted(settled, part))
         if place < last:
             axes.plot([0, place, place], [part, part, 0.0], color="0.6", linewidth=0.8, zorder=0)
+            # Where the curve leaves room: below it, or above it on the left.
+            early = place < last / 2
             axes.annotate(
                 f"{name}: {place} matches",
-                (0, part),
-                (6, 4),
+                (place if early else 0, part),
+                (6, -13 if early else 4),
                 textcoords="offset points",
                 fontsize=9,
             )
