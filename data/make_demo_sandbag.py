@@ -4,11 +4,12 @@ Ten players meet on league nights and in cup matches, every week one of each, by
 the National Pool League, a point a match. Nine of them always play their best. Vito Drago
 plays seven of ten league nights 80 points below his skill. All names are made up.
 
-    python data/make_demo_sandbag.py
+    python data/make_demo_sandbag.py [FOLDER]
 """
 
 import csv
-import datetime
+import datetime as dt
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +30,7 @@ PLAYERS = {
     "Jo Stanhope": 55,
 }
 """The players with their ratings before the season."""
-WEEKS, FIRST = 26, datetime.date(2025, 9, 2)
+WEEKS, FIRST = 26, dt.date(2025, 9, 2)
 SANDBAGGER, SHARE, BELOW = "Vito Drago", 0.7, 80
 HERE = Path(__file__).parent
 
@@ -43,7 +44,7 @@ def season(seed: int) -> list[tuple[str, ...]]:
     ten, lines = chart("npl_10"), []
     for week in range(WEEKS):
         for event, day in (("League night", 0), ("Cup", 3)):
-            date = FIRST + datetime.timedelta(days=7 * week + day)
+            date = FIRST + dt.timedelta(days=7 * week + day)
             change = np.zeros_like(rating)
             for a, b in rng.permutation(len(names)).reshape(-1, 2):
                 needs = ten.race(int(rating[a] - rating[b]))
@@ -63,7 +64,7 @@ def season(seed: int) -> list[tuple[str, ...]]:
     return lines
 
 
-def main(folder: Path = HERE) -> None:
+def main(folder: Path) -> None:
     """Write the two files."""
     heads = ("date", "event", "player_a", "player_b", "race_a", "race_b", "score_a", "score_b")
     files = {
@@ -76,4 +77,4 @@ def main(folder: Path = HERE) -> None:
 
 
 if __name__ == "__main__":
-    main()
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else HERE)

@@ -65,7 +65,7 @@ class _Answer(NamedTuple):
     ladder: Ladder
     pays: Sandbagging
     best: DumpRow
-    cycle: DumpCycle
+    cycle: DumpCycle | None
     enters: dict[str, float]
 
 
@@ -151,7 +151,10 @@ def sandbag_pay(
     if compare:
         if chart_name is not None or plot is not None:
             refuse("--compare takes all charts of the system; leave --chart and --plot out")
-        found = [_answer(wide_ladder(system, one), question) for one in system.known_charts()]
+        found = [
+            _answer(wide_ladder(system, one), question, for_ever=False)
+            for one in system.known_charts()
+        ]
         _print_comparison(found, question, as_json=as_json)
         return
     chart = None if chart_name is None else found_chart(chart_name)
@@ -166,7 +169,7 @@ def sandbag_pay(
         write_plot(pay_figure(one.pays), plot)
 
 
-def _answer(ladder: Ladder, question: _Question) -> _Answer:
+def _answer(ladder: Ladder, question: _Question, *, for_ever: bool = True) -> _Answer:
     from evenbreak.league.dump_cycle import best_cycle
     from evenbreak.league.sandbag import entering_low, sandbagging
 
@@ -180,7 +183,8 @@ def _answer(ladder: Ladder, question: _Question) -> _Answer:
     low = {"established": entering_low(ladder, doubling, question.earnest)[-1]}
     if ladder.system.newcomer_steps:
         low["newcomer"] = entering_low(ladder, doubling, question.earnest, newcomer=True)[-1]
-    cycle = best_cycle(ladder, [10], lowest=-float(doubling), **stakes)
+    # It takes a while, and a comparison does not tell it.
+    cycle = best_cycle(ladder, [10], lowest=-float(doubling), **stakes) if for_ever else None
     return _Answer(ladder, pays, best, cycle, {name: float(wins) for name, wins in low.items()})
 
 
@@ -219,6 +223,7 @@ def _heading(found: _Answer, question: _Question) -> str:
 
 def _sentences(found: _Answer, question: _Question) -> list[str]:
     best, cycle = found.best, found.cycle
+    doubling = round(found.ladder.system.scale.points_per_doubling)
     told = [
         f"Most profit: {best.dumped} dumped, for {best.profit:.2f}."
         if best.dumped
@@ -227,17 +232,17 @@ def _sentences(found: _Answer, question: _Question) -> list[str]:
     least = min(found.pays.rows, key=lambda row: row.break_even)
     if math.isfinite(least.break_even):
         told.append(
-            f"A match must be worth {least.break_even:.2f} times as much in earnest as where it is "
-            f"dumped, or the {question.earnest} matches bring no profit (least of all with "
-            f"{least.dumped} dumped)."
+            f"The {question.earnest} matches bring a profit only if one is worth at least "
+            f"{least.break_even:.2f} times as much in earnest as where it is dumped; that is with "
+            f"{least.dumped} dumped."
         )
-    if cycle.dumped:
+    if cycle is not None and cycle.dumped:
         told.append(
-            f"For ever, {cycle.dumped} of each {cycle.dumped + cycle.earnest} dumped: he sits "
-            f"{-cycle.rating_error:.1f} points below his skill as he begins in earnest, wins "
-            f"{cycle.p_win:.4f} of those, {cycle.profit:.2f} a match."
+            f"For ever, dumping {cycle.dumped} of each {cycle.dumped + cycle.earnest}: rated "
+            f"{-cycle.rating_error:.1f} points too low as he begins in earnest, he wins "
+            f"{cycle.p_win:.4f} of those matches, a profit of {cycle.profit:.2f} a match. It is "
+            f"the best for who dares to be {doubling} points off."
         )
-    doubling = round(found.ladder.system.scale.points_per_doubling)
     steps = (
         f", {found.enters['newcomer']:.2f} with newcomer steps"
         if "newcomer" in found.enters
@@ -323,6 +328,6 @@ def _as_json(found: _Answer) -> dict[str, Any]:
         "best": dict(zip(found.best._fields, _plain(found.best), strict=True)),
         "p_win": found.pays.p_win.tolist(),
         "p_honest": found.pays.p_honest.tolist(),
-        "cycle": found.cycle._asdict(),
+        "cycle": None if found.cycle is None else found.cycle._asdict(),
         "enters_low": found.enters,
     }

@@ -87,7 +87,7 @@ def dump_cycle(
     for _ in range(40):
         squared = lazy @ lazy
         squared /= squared.sum(axis=0)
-        if np.abs(squared - lazy).max() < 1e-14:
+        if np.abs(squared - lazy).max() < 1e-12:
             break
         lazy = squared
     law = np.linalg.matrix_power(dump, down) @ (lazy @ start_law(ladder, 0))

@@ -42,8 +42,11 @@ def pay_figure(pays: Sandbagging) -> Figure:
         label = f"{dumped} dumped" if dumped else "honest"
         axes.plot(matches, pays.p_win[dumped], **line._asdict(), label=label)
     axes.set_xlim(1, max(many, 2))
-    axes.margins(y=0.08)
-    axes.legend(loc="upper right", fontsize=9)
+    axes.locator_params(axis="x", integer=True)
+    # Room above the lines for their names.
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.25 * (high - low))
+    axes.legend(loc="upper center", fontsize=9, ncols=3)
     return figure
 
 
@@ -74,6 +77,7 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
         axes.plot(*_curve(one), **line._asdict(), label=one.player)
     axes.set_yscale("log")
     axes.set_xlim(left=0)
+    axes.locator_params(axis="x", integer=True)
     legend = axes.legend(loc="upper left", fontsize=9)
     for text in legend.get_texts():
         text.set_parse_math(False)
