@@ -35,6 +35,9 @@ WEEKS = 30
 MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
 LARGEST_SD = 1_000.0
 
+MANY = 100_000
+"""Players times weeks from which one season in full takes seconds."""
+
 EXAMPLES = """\b
 Examples:
   evenbreak simulate roster.csv --chart npl_10 --weeks 30 --out season
@@ -294,6 +297,8 @@ def _one_season(season: Season, seed: int) -> dict[str, bytes]:
     from evenbreak.reports.season_frames import matches_frame, truth_frame
     from evenbreak.reports.to_csv import to_csv
 
+    if len(season.players) * season.weeks > MANY:
+        say("Playing one season rack by rack; --no-matches does without it")
     played = season_matches(season, seed)
     return {
         "matches.csv": to_csv(matches_frame(played)),

@@ -110,7 +110,7 @@ def _luck(standings: pd.DataFrame) -> str:
     return (
         f"How much of the table is luck? A player's matches won vary by {luck:.1f} from season to "
         f"season (standard deviation), the players' means by {between:.1f}: {_percent(part)} of "
-        "what one table shows is who they are, the rest is luck."
+        "what one table shows is who they are and how often they play, the rest is luck."
     )
 
 
