@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from evenbreak.cli.ladder_answer import COLUMNS
@@ -13,6 +14,7 @@ from evenbreak.handicaps import chart, system_of
 from evenbreak.handicaps.ladder import Ladder
 from evenbreak.handicaps.opponents import EQUAL_SKILL, opponents_of
 from evenbreak.handicaps.settling import settling
+from evenbreak.handicaps.systems import FAMILIES
 from evenbreak.ratings.scale import scale_of
 
 ROSTER = Path(__file__).resolve().parents[2] / "data" / "demo_roster.csv"
@@ -94,6 +96,16 @@ def test_how_long_a_wrong_rating_takes(ladder):
     assert told["mean"] == found.mean
     assert told["quantiles"]["0.9"] == found.matches.quantile(0.9)
     assert told["after"] == {str(many): found.after(many) for many in (10, 20, 50, 100, 200)}
+
+
+def test_who_is_favoured_and_by_how_much(ladder):
+    # Opponents are rated rightly: the player's own error says who is the favourite.
+    told = ladder("--chart", "npl_10")["unfairness"]
+    built = Ladder("npl", chart("npl_10"))
+    law, win = np.array(built.law().probability), np.maximum(built.wins, 1.0 - built.wins)
+    assert told["favourite_mean"] == pytest.approx(float(law @ win))
+    assert told["favourite_over_60"] == pytest.approx(float(law[win >= 0.6].sum()))
+    assert told["favourite_quantiles"]["0.5"] == 0.5
 
 
 def test_newcomers_settle_sooner(ladder):
@@ -225,6 +237,12 @@ def test_the_picture(run, tmp_path, words):
     assert f"Wrote {path}" in result.stderr
 
 
+def test_the_help_names_all_systems(run):
+    text = " ".join(run("ladder", "--help").stdout.split())
+    for family in FAMILIES.values():
+        assert family.grammar in text
+
+
 @pytest.mark.parametrize(
     ("words", "code", "told"),
     [
@@ -248,6 +266,7 @@ def test_the_picture(run, tmp_path, words):
         (("--system", "elo 16", "--scale", "npl"), 2, "leave --scale out"),
         (("--step", "2", "--newcomer"), 2, "leave --newcomer out"),
         (("--scale", "-3"), 2, "scale is '-3'"),
+        (("--chart", "-", "--league", "-"), 2, "only one file can be"),
         (("--plot", "x.pdf"), 2, ".png or .svg"),
     ],
 )

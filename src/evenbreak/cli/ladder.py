@@ -60,7 +60,13 @@ def _between(low: float, high: float) -> Callable[..., float | None]:
     metavar="NAME_OR_FILE",
     help="The chart that says the races.  [default: the system's own]",
 )
-@click.option("--system", "system_name", metavar="NAME", help="How ratings move.  [default: npl]")
+@click.option(
+    "--system",
+    "system_name",
+    metavar="NAME",
+    help="How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].  "
+    "[default: npl]",
+)
 @click.option(
     "--step", type=Whole(1, 100), metavar="K", help="Instead: up K with a win, down K with a loss."
 )
@@ -171,6 +177,8 @@ def _answer(chart_name: str | None, asked: dict[str, Any]) -> LadderAnswer:
     from evenbreak.handicaps.ladder import Ladder
 
     refuse_conflicts(asked)
+    if chart_name == asked["league"] == "-":
+        refuse("- stands for standard input, which only one file can be; name the other")
     system = system_of_options(asked)
     chart = chart_of_option(chart_name, system)
     opponents, name = opponents_of_options(asked)
