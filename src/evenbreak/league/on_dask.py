@@ -11,7 +11,6 @@ import logging
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Executor, Future
-from concurrent.futures import TimeoutError as NotYet
 from contextlib import contextmanager
 from itertools import count
 from threading import Thread
@@ -171,7 +170,7 @@ def _connected(address: str) -> Any:
     Thread(target=ask, daemon=True).start()
     try:
         return answer.result(timeout=_PATIENCE + 1)
-    except (OSError, ValueError, TypeError, NotYet) as error:
+    except Exception as error:  # whatever it is, we are not connected
         raise WorkerError(
             f"no dask scheduler answers at {address!r}; give the address that `dask scheduler` "
             f"prints, such as tcp://10.0.0.5:8786 ({type(error).__name__})"

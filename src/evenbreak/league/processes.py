@@ -4,25 +4,35 @@ They are spawned, not forked: a fork copies locks that other threads hold (numpy
 is not to be had everywhere. So each worker is sent what is shared once, as it starts.
 
 Ctrl-C on a terminal reaches the workers too. They leave it to the parent, which closes its end of
-a pipe; a worker whose pipe is closed ends, in the middle of a piece if need be. The pipe closes
-also where the parent is killed, so that no worker outlives it.
+a pipe; a worker whose pipe is closed ends, in the middle of a piece if need be, but not in the
+middle of a result: the parent would wait for the rest of it. The pipe closes also where the parent
+is killed, so that no worker outlives it.
 """
 
 from __future__ import annotations
 
 import os
 import signal
+import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
-from threading import Thread
+from threading import Lock, Thread
 from typing import Any
 
 __all__ = ["worker_processes"]
 
 _kept: tuple[Callable[[Any, Any], Any], Any]
+"""What a worker works with."""
+
+_at_work = False
+_door = Lock()
+"""Held to leave work, and to end a worker that is at it."""
+
+_GRACE = 3.0
+"""Seconds in which an idle worker whose parent lets go hears of it as usual."""
 
 
 @contextmanager
@@ -81,9 +91,19 @@ def _begin(listen: Connection, task: Callable[[Any, Any], Any], shared: Any) -> 
 
 def _end_with_parent(listen: Connection) -> None:
     listen.poll(None)
+    with _door:
+        if _at_work:
+            os._exit(1)
+    time.sleep(_GRACE)
     os._exit(1)
 
 
 def _do(piece: Any) -> Any:
+    global _at_work
     task, shared = _kept
-    return task(shared, piece)
+    _at_work = True
+    try:
+        return task(shared, piece)
+    finally:
+        with _door:
+            _at_work = False
