@@ -55,7 +55,7 @@ def bare_league(players: int) -> Callable[[], Any]:
             apart = rating[a] - rating[b] + WIDEST
             gap = skill[a] - skill[b] + WIDEST
             won = rng.random(half) < flat.take(gap * width + apart)
-            move = np.where(won, 1, -1)
+            move = 2 * won - 1
             rating[a] += move
             rating[b] -= move
         return rating
@@ -78,7 +78,7 @@ def bare_replicas(replicas: int, players: int) -> Callable[[], Any]:
             apart = rating[:, a] - rating[:, b] + WIDEST
             gap = skill[a] - skill[b] + WIDEST
             won = rng.random((replicas, half)) < flat.take(gap * width + apart)
-            move = np.where(won, 1, -1)
+            move = 2 * won - 1
             rating[:, a] += move
             rating[:, b] -= move
         return rating

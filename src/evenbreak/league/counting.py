@@ -62,13 +62,13 @@ class Counting:
     ) -> None:
         """Count the rating errors of those who are in the league (None: everybody)."""
         most = self.widest
+        lowest = skill - np.int16(most)
         step = max(1, _BLOCK // rating.shape[1])
         for start in range(0, len(rating), step):
             some = slice(start, start + step)
-            error = rating[some] - skill[some]
+            error = rating[some] - lowest[some]
             if here is not None:
                 error = error[here[some]]
-            error += np.int16(most)
             # As unsigned numbers the errors below all bins come last.
             counted = np.bincount(error.view(np.uint16).ravel(), minlength=2 * most + 1)
             self.errors[week] += counted[: 2 * most + 1]

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["chunk_replicas", "run_chunk"]
 
-_BLOCK = 1 << 14
+_BLOCK = 1 << 15
 """Matches that are played at a time."""
 
 _CHUNK = 1 << 16
@@ -222,7 +222,8 @@ class _Chunk:
             one, two = self.state.take(a, axis=0), self.state.take(b, axis=0)
         if look.steps is not None and self.factors is None and played is None:
             up, down = look.steps
-            change = won * np.int32(_WIN + up - down)
+            change = won.astype(np.int32)
+            change *= np.int32(_WIN + up - down)
             change += np.int32(down)
             one += change
             two += np.int32(_WIN + up + down)

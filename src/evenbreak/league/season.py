@@ -90,9 +90,11 @@ class Season:
     @cached_property
     def table(self) -> MatchTable:
         """The races, moves and chances of the season's matches."""
-        last = self.chart.rows[-1].difference_from
-        doublings = _DOUBLINGS * self.system.scale.points_per_doubling
-        return match_table(self.system, self.chart, widest=max(last, round(doublings)))
+        doubling = self.system.scale.points_per_doubling
+        least = max(self.chart.rows[-1].difference_from, round(_DOUBLINGS * doubling))
+        # Where no two ratings are further apart than the table is wide, none need be clipped.
+        spread = int(self.players.rating.max() - self.players.rating.min()) + round(doubling)
+        return match_table(self.system, self.chart, widest=max(least, min(spread, 2 * least)))
 
     @cached_property
     def lookup(self) -> Lookup:
