@@ -122,6 +122,7 @@ def test_the_same_seed_gives_the_same_bytes_for_any_number_of_jobs(run, season, 
         (("--random", "--racks"), {"schedule": "random, 1 a week", "play": "racks"}),
         (("--chart", "NPL-8", "--weeks", "3"), {"chart": "npl_8", "weeks": "3"}),
         (("--system", "step 2", "--weeks", "5"), {"system": "step 2"}),
+        (("--scale", "45", "--weeks", "2"), {"points_per_doubling": "45.000000"}),
         (("--day-sd", "7.5", "--weeks", "2"), {"day_sd": "7.500000"}),
         (("--weeks", "4", *FIXTURES), {"weeks": "4"}),
     ],
@@ -146,6 +147,15 @@ def test_json_has_every_quantity_and_its_error(run, tmp_path):
 
 
 @pytest.mark.usefixtures("no_pictures")
+def test_ratings_of_another_scale_and_charts_of_another_are_doubted(run, tmp_path):
+    words = ("simulate", ROSTER, *FEW, "--weeks", "2", "--out", str(tmp_path / "out"))
+    assert "Note" not in run(*words).stderr
+    found = run(*words, "--scale", "fargo")
+    assert "Note: ratings on the fargo scale are about 500, here they are about" in found.stderr
+    assert "Note: the races of npl_10 fit a scale on which about" in found.stderr
+
+
+@pytest.mark.usefixtures("no_pictures")
 def test_a_weekly_list_is_cut_with_a_word(run, tmp_path):
     found = run("simulate", ROSTER, *FIXTURES, *FEW, "--weeks", "4", "--out", str(tmp_path / "o"))
     assert "demo_schedule.csv: what is after week 4 is not played" in found.stderr
@@ -165,8 +175,10 @@ def test_a_weekly_list_is_cut_with_a_word(run, tmp_path):
         (("--day-sd", "-1"), "'-1'; give points from 0 to 1,000"),
         (("--day-sd", "5,5"), "with a decimal point: 5.5"),
         (("--seed", "-1"), "give a whole number from 0"),
+        (("--scale", "big"), "scale is 'big'; give"),
+        (("--system", "elo 16", "--scale", "npl"), "leave --scale out"),
         (("--system", "gut feeling"), "system is 'gut feeling'; give"),
-        (("--chart", "apa_8ball"), "is a chart of skill levels; give one of rating differences"),
+        (("--chart", "apa_8ball"), "is a chart of skill levels"),
     ],
 )
 def test_wrong_use_is_refused_and_nothing_is_written(run, tmp_path, options, words):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.options import Whole, number, refuse, wants_json
+from evenbreak.cli.options import Whole, number, wants_json
 from evenbreak.cli.output import (
     SCHEMA_VERSION,
     aligned,
@@ -18,19 +18,20 @@ from evenbreak.cli.output import (
     to_terminal,
 )
 from evenbreak.cli.progress import Progress
+from evenbreak.cli.simulate_season import (
+    WEEKS,
+    refuse_contradictions,
+    remarks,
+    season_of_options,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from evenbreak.handicaps.chart import Chart
     from evenbreak.league.season import Season
     from evenbreak.league.tally import Tally
-    from evenbreak.reports.read_league import LeagueFile
 
 __all__ = ["simulate"]
-
-WEEKS = 30
-"""How long a season is where neither --weeks nor a schedule says it."""
 
 MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
 LARGEST_SD = 1_000.0
@@ -67,6 +68,12 @@ def _day_sd(ctx: click.Context, param: click.Parameter, value: str) -> float:
     show_default=True,
     metavar="NAME",
     help="The league's system: how ratings move, and on which scale.",
+)
+@click.option(
+    "--scale",
+    "scale_name",
+    metavar="npl|fargo|elo|POINTS",
+    help="What ratings mean: POINTS of difference double the odds.  [default: the system's]",
 )
 @click.option(
     "--chart",
@@ -140,8 +147,6 @@ def _day_sd(ctx: click.Context, param: click.Parameter, value: str) -> float:
 def simulate(
     roster: str,
     out: str,
-    system_name: str,
-    chart_name: str | None,
     replicas: int,
     seed: int,
     jobs: int,
@@ -161,10 +166,10 @@ def simulate(
     from evenbreak.reports.season_frames import season_frame
     from evenbreak.reports.write_files import write_files
 
-    _refuse_contradictions(roster, out, jobs, cluster, played)
+    refuse_contradictions(roster, out, jobs, cluster, played)
     file = read_league(roster, day_sd=played["day_sd"])
-    season = _season(file, system_name, chart_name, played)
-    for remark in _remarks(file):
+    season = season_of_options(file, played)
+    for remark in remarks(file, season):
         say(remark)
     tally = _simulated(season, replicas, seed, jobs, cluster)
     settings = {"roster_file": PurePath(file.source).name, "seed": seed, "day_sd": played["day_sd"]}
@@ -176,85 +181,6 @@ def simulate(
     write_files(out, files)
     say(f"Wrote {', '.join(files)} to {out}")
     _print(season, tally, told, as_json)
-
-
-def _refuse_contradictions(
-    roster: str, out: str, jobs: int, cluster: str | None, played: dict[str, Any]
-) -> None:
-    ways = {
-        "--schedule": played["schedule_path"] is not None,
-        "--round-robin": played["round_robin"],
-        "--random": played["by_lot"],
-    }
-    chosen = [name for name, given in ways.items() if given]
-    if len(chosen) > 1:
-        refuse(f"{' and '.join(chosen)} exclude each other; leave all but one out")
-    if ways["--schedule"] and played["matches"] is not None:
-        refuse("--schedule and --matches exclude each other; the schedule says who has how many")
-    if cluster is not None and jobs > 1:
-        refuse("--dask and --jobs exclude each other; a cluster has as many workers as it has")
-    if cluster is not None and not cluster.strip():
-        refuse("--dask is empty; give the scheduler's address, such as tcp://10.0.0.5:8786")
-    if not out.strip():
-        refuse("--out is empty; name a folder, or . for this one")
-    if [roster, played["schedule_path"]].count("-") > 1:
-        refuse("- stands for standard input, which only one file can be; name the others")
-
-
-def _season(
-    file: LeagueFile, system_name: str, chart_name: str | None, played: dict[str, Any]
-) -> Season:
-    from evenbreak.handicaps.systems import system_of
-    from evenbreak.league.schedule import RandomPairing, RoundRobin, Schedule
-    from evenbreak.league.season import Season
-    from evenbreak.reports.read_schedule import read_schedule
-
-    system = system_of(system_name)
-    matches = played["matches"] or 1
-    weeks = played["weeks"]
-    schedule: Schedule
-    if played["schedule_path"] is not None:
-        fixtures = read_schedule(played["schedule_path"], file.roster)
-        for warning in fixtures.warnings:
-            say(f"Warning: {warning}")
-        schedule, last = fixtures.schedule, fixtures.schedule.weeks
-        if weeks is not None and weeks < last:
-            say(f"Warning: {fixtures.source}: what is after week {weeks} is not played")
-        weeks = weeks or last
-    elif played["by_lot"]:
-        schedule = RandomPairing(matches)
-    else:
-        schedule = RoundRobin(len(file.players), matches)
-    play = "racks" if played["racks"] else "matches"
-    chart = None if chart_name is None else _chart(chart_name)
-    return Season(file.players, system, chart, schedule, weeks or WEEKS, play)
-
-
-def _chart(name: str) -> Chart:
-    from evenbreak.handicaps.chart import Chart
-    from evenbreak.reports.read_chart import find_chart
-
-    found = find_chart(name)
-    if not isinstance(found, Chart):
-        refuse(f"--chart {name!r} is a chart of skill levels; give one of rating differences")
-    return found
-
-
-def _remarks(file: LeagueFile) -> list[str]:
-    """Return what is assumed of the players, and what looks odd in their list."""
-    remarks = [f"Warning: {warning}" for warning in file.warnings]
-    many = len(file.players)
-    if file.guessed:
-        remarks.append(
-            f"The true skill of {file.guessed:,} of {many:,} players is drawn anew for each "
-            "season, by rating and standard error"
-        )
-    if file.exact:
-        remarks.append(
-            f"{file.exact:,} of {many:,} players are taken to be rated rightly at the start: "
-            "neither skill nor standard_error is stated"
-        )
-    return remarks
 
 
 def _simulated(season: Season, replicas: int, seed: int, jobs: int, cluster: str | None) -> Tally:

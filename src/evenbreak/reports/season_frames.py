@@ -265,6 +265,7 @@ def season_frame(season: Season, tally: Tally, settings: Mapping[str, Any]) -> p
     rows: list[tuple[str, Any, float | None]] = [
         *((name, value, None) for name, value in settings.items()),
         ("system", season.system.name, None),
+        ("points_per_doubling", season.system.scale.points_per_doubling, None),
         ("chart", season.chart.name, None),
         ("schedule", _schedule(season), None),
         ("play", season.play, None),

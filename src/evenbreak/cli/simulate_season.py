@@ -1,0 +1,103 @@
+"""What the options of `evenbreak simulate` stand for: a season of these players."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.cli.options import refuse
+from evenbreak.cli.output import say
+
+if TYPE_CHECKING:
+    from evenbreak.league.season import Season
+    from evenbreak.reports.read_league import LeagueFile
+
+__all__ = ["WEEKS", "refuse_contradictions", "remarks", "season_of_options"]
+
+WEEKS = 30
+"""How long a season is where neither --weeks nor a schedule says it."""
+
+FAR = 3.0
+"""Doublings of the odds that a league is not away from the middle of its scale."""
+
+
+def refuse_contradictions(
+    roster: str, out: str, jobs: int, cluster: str | None, played: dict[str, Any]
+) -> None:
+    """Refuse options that exclude each other or say nothing."""
+    ways = {
+        "--schedule": played["schedule_path"] is not None,
+        "--round-robin": played["round_robin"],
+        "--random": played["by_lot"],
+    }
+    chosen = [name for name, given in ways.items() if given]
+    if len(chosen) > 1:
+        refuse(f"{' and '.join(chosen)} exclude each other; leave all but one out")
+    if ways["--schedule"] and played["matches"] is not None:
+        refuse("--schedule and --matches exclude each other; the schedule says who has how many")
+    if cluster is not None and jobs > 1:
+        refuse("--dask and --jobs exclude each other; a cluster has as many workers as it has")
+    if cluster is not None and not cluster.strip():
+        refuse("--dask is empty; give the scheduler's address, such as tcp://10.0.0.5:8786")
+    if not out.strip():
+        refuse("--out is empty; name a folder, or . for this one")
+    if [roster, played["schedule_path"]].count("-") > 1:
+        refuse("- stands for standard input, which only one file can be; name the others")
+
+
+def season_of_options(file: LeagueFile, played: dict[str, Any]) -> Season:
+    """Return the season that is asked for: its system, chart, schedule and weeks."""
+    from evenbreak.cli.ladder_options import chart_of_option, system_of_options
+    from evenbreak.league.schedule import RandomPairing, RoundRobin, Schedule
+    from evenbreak.league.season import Season
+    from evenbreak.reports.read_schedule import read_schedule
+
+    system = system_of_options({**played, "step": None})
+    chart = chart_of_option(played["chart_name"], system)
+    matches = played["matches"] or 1
+    weeks = played["weeks"]
+    schedule: Schedule
+    if played["schedule_path"] is not None:
+        fixtures = read_schedule(played["schedule_path"], file.roster)
+        for warning in fixtures.warnings:
+            say(f"Warning: {warning}")
+        schedule, last = fixtures.schedule, fixtures.schedule.weeks
+        if weeks is not None and weeks < last:
+            say(f"Warning: {fixtures.source}: what is after week {weeks} is not played")
+        weeks = weeks or last
+    elif played["by_lot"]:
+        schedule = RandomPairing(matches)
+    else:
+        schedule = RoundRobin(len(file.players), matches)
+    play = "racks" if played["racks"] else "matches"
+    return Season(file.players, system, chart, schedule, weeks or WEEKS, play)
+
+
+def remarks(file: LeagueFile, season: Season) -> list[str]:
+    """Return what is assumed of the players, and what looks odd in their list."""
+    told = [f"Warning: {warning}" for warning in file.warnings]
+    many = len(file.players)
+    if file.guessed:
+        told.append(
+            f"The true skill of {file.guessed:,} of {many:,} players is drawn anew for each "
+            "season, by rating and standard error"
+        )
+    if file.exact:
+        told.append(
+            f"{file.exact:,} of {many:,} players are taken to be rated rightly at the start: "
+            "neither skill nor standard_error is stated"
+        )
+    return [*told, *_doubts(file, season)]
+
+
+def _doubts(file: LeagueFile, season: Season) -> list[str]:
+    """Return a word on ratings that do not look like those of the system's scale."""
+    import numpy as np
+
+    scale = season.system.scale
+    middle = float(np.median(file.players.rating))  # one slip makes no other scale
+    if not scale.centre or abs(middle - scale.centre) <= FAR * scale.points_per_doubling:
+        return []
+    return [
+        f"Note: ratings on the {scale.name} scale are about {scale.centre:g}, here they are about "
+        f"{middle:g}; --scale says what they mean"
+    ]
