@@ -34,7 +34,8 @@ def unfairness(ladder: Ladder) -> Distribution:
     A fair match has the chance 1/2, and so would all matches have if the ratings were right and
     the chart without steps. The standard deviation says how far a typical match is from it;
     `better_off` looks at whoever of the two is favoured. Chances within 1e-12 of each other are
-    taken together.
+    taken together. With several matches a night the form of the night is taken to be
+    independent of the error, which later in a night it is not quite.
 
     >>> from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart
     >>> law = unfairness(Ladder("npl", chart("npl_10"), opponents=EQUAL_SKILL))
