@@ -39,6 +39,14 @@ def test_honest_players_are_flagged_as_seldom_as_stated(honest, alpha, start, ma
         assert found.p_win == pytest.approx(0.5, abs=0.02)
 
 
+@pytest.mark.parametrize("system", ["elo", "margin"])
+def test_other_systems_and_scales_have_the_same_bound(system):
+    asked = {"matches": 30, "replicas": 200, "alpha": 0.2, "honest": "established"}
+    ladder = Ladder(system)
+    assert watch_power(ladder, share=0.0, **asked).flagged[-1] <= 0.35
+    assert watch_power(ladder, share=0.9, marked=0.5, **asked).flagged[-1] > 0.5
+
+
 def test_established_is_no_bound_for_the_misrated():
     found = watch_power(LADDER, share=0.0, matches=40, honest="established", start=-30, replicas=60)
     assert found.flagged[-1] > 0.5

@@ -33,7 +33,8 @@ KINDS: tuple[tuple[float, int | None], ...] = (
     (0.9, 60),
     (0.9, None),
 )
-"""Who is simulated: the share of the matches that he dumps, and by how many points."""
+"""Who is simulated: the share of the matches that he dumps, and how many points below his skill
+he plays them, where 30 double the odds."""
 
 EXAMPLES = """\b
 Examples:
@@ -122,7 +123,9 @@ def sandbag_power(
         refuse("--points is of the matches that he dumps; give their --share")
     chart = None if chart_name is None else found_chart(chart_name)
     ladder = Ladder(found_system(system_name), chart)
-    kinds = KINDS if share is None else ((0.0, None), (share, points))
+    size = ladder.system.scale.points_per_doubling / 30.0
+    several = [(part, None if low is None else round(low * size)) for part, low in KINDS]
+    kinds = several if share is None else [(0.0, None), (share, points)]
     found = []
     with Progress("kinds of players simulated") as progress:
         for count, (part, depth) in enumerate(kinds, 1):

@@ -22,6 +22,7 @@ P(e_t ever reaches 1 / alpha | honest) <= alpha (Ville 1939).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -29,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.stats.summary import Distribution
 
 __all__ = [
@@ -62,13 +63,30 @@ WIDEST = 60
 """The largest rating error at the start, in points, that an honest player may have."""
 
 
+_UNITS = SCALES["npl"]
+
+
+def units(points: float, scale: Scale) -> int:
+    """Return points of a scale in the whole points in which skills are told here.
+
+    30 of them double the odds of a game, as in the National Pool League, whose points they are;
+    on other scales ratings are rounded to them.
+
+    >>> from evenbreak.ratings.scale import SCALES
+    >>> units(72.0, SCALES["npl"]), units(610.0, SCALES["fargo"])
+    (72, 183)
+    """
+    # Halves upwards, as `evenbreak matchups` rounds.
+    return math.floor(points * _UNITS.points_per_doubling / scale.points_per_doubling + 0.5)
+
+
 class Result(NamedTuple):
     """A match as the player who is watched sees it.
 
     Parameters
     ----------
     opponent
-        the opponent's rating, in whole points.
+        the opponent's rating, in whole points of which 30 double the odds.
     games
         games won and lost; None where only the winner is known.
     race
@@ -94,7 +112,7 @@ class Likelihood:
     scale
         what a difference of skill means for a game.
     error
-        the law of an opponent's rating less his skill, in whole points.
+        the law of an opponent's rating less his skill, in points of the scale.
 
     >>> from evenbreak.ratings.scale import SCALES
     >>> even = Likelihood(SCALES["npl"], Distribution((0,), (1.0,)))
@@ -105,10 +123,11 @@ class Likelihood:
 
     def __init__(self, scale: Scale, error: Distribution) -> None:
         self.scale = scale
-        self.least = int(min(error.values))
-        self.weights = np.zeros(int(max(error.values)) - self.least + 1)
-        for value, chance in zip(error.values, error.probability, strict=True):
-            self.weights[int(value) - self.least] = float(chance)
+        values = [units(float(value), scale) for value in error.values]
+        self.least = min(values)
+        self.weights = np.zeros(max(values) - self.least + 1)
+        for value, chance in zip(values, error.probability, strict=True):
+            self.weights[value - self.least] += float(chance)
 
     def of(
         self,
@@ -136,7 +155,7 @@ class Likelihood:
         two arrays of shape (last - first + 1,)
         """
         points = np.arange(first + self.least, last + self.least + self.weights.size)
-        p, q = self.scale.win_probability(points), self.scale.win_probability(-points)
+        p, q = _UNITS.win_probability(points), _UNITS.win_probability(-points)
         beaten = np.ones_like(p) if race is None else race_win_probability(q, *race[::-1])
         chance = self._chance(p, q, games, race, won=won)
         # A defeat of which nobody knows how likely it was weighs no more than honest play.

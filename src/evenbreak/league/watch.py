@@ -22,6 +22,7 @@ from evenbreak.league.evidence import (
     Evidence,
     Likelihood,
     Result,
+    units,
 )
 from evenbreak.league.nights import Night
 from evenbreak.stats.summary import Distribution
@@ -149,17 +150,17 @@ def watch(
     names: tuple[str, ...] = ()
     for night in nights:
         names = night.moves.before.players
-        rating = np.floor(night.moves.before.rating + 0.5)  # as `evenbreak matchups` rounds
+        rating = night.moves.before.rating
         for match in night.moves.matches:
             row = int(night.rows[match.row])
             may = marked is None or bool(marked[row])
             sides = ((match.winner, match.loser, 1), (match.loser, match.winner, -1))
             for player, other, turn in sides:
-                start.setdefault(player, int(rating[player]))
+                start.setdefault(player, units(float(rating[player]), system.scale))
                 rows.setdefault(player, []).append(row)
                 results.setdefault(player, []).append(
                     Result(
-                        int(rating[other]),
+                        units(float(rating[other]), system.scale),
                         _turned(match.games, turn),
                         _turned(match.race, turn),
                         turn == 1,
@@ -192,7 +193,7 @@ def watch_player(
     Parameters
     ----------
     rating
-        his rating at the start, in whole points.
+        his rating at the start, in whole points of which 30 double the odds.
     results
         his matches, in the order in which they were played.
     likelihood

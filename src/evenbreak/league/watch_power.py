@@ -20,6 +20,7 @@ from evenbreak.league.evidence import (
     WIDEST,
     Evidence,
     Likelihood,
+    units,
 )
 from evenbreak.league.sandbag import start_law
 from evenbreak.league.watch import at_skills, drift_room, skill_prior
@@ -195,7 +196,7 @@ class _Simulated:
     ) -> tuple[NDArray[np.int64], NDArray[np.int64], Floats]:
         """Return each player's first alarm (their number: none), errors, and wins in earnest."""
         size, many = error.size, dumps.size
-        rated = error.copy()
+        rated = np.array([units(float(one), self.likelihood.scale) for one in error])
         evidence = Evidence(skill_prior(self.likelihood).repeat(size, axis=0), shares, _WAYS)
         alarm = np.full(size, many)
         errors = np.empty((size, many), dtype=np.int64)
