@@ -219,6 +219,7 @@ def _limit_from_the_middle(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the limit, begun in the middle, of a walk with walls that no match crosses."""
     from evenbreak.chains import chain_from_arrays, stochastic_limit
 
+    matrix = np.minimum(matrix, 1.0)  # sums of chances may miss 1 by rounding
     sources, targets = np.nonzero(matrix)
     many = len(matrix)
     chain = chain_from_arrays(range(many), sources, targets, matrix[sources, targets])

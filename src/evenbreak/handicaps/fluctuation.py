@@ -32,7 +32,7 @@ def deviations(sd: float) -> NDArray[np.float64]:
     >>> deviations(0.0), deviations(0.5)[3:8].round(4)
     (array([1.]), array([0.0013, 0.1573, 0.6827, 0.1573, 0.0013]))
     """
-    if not sd:
+    if sd < 0.01:  # no deviation rounds to a point then
         return np.ones(1)
     far = math.ceil(_FARTHEST * sd)
     # Of the half below 0 no digit is lost, and the law is the same on both sides.

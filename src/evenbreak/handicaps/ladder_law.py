@@ -157,20 +157,20 @@ def _beginning(night: Night, chances: list[Floats], fall: float) -> Floats:
 def _one_match_more(
     sums: NDArray[np.int64], moved: Floats, steps: NDArray[np.int64], chances: Floats
 ) -> tuple[NDArray[np.int64], Floats]:
-    """Return the sums of moves, and their chances, after a match by these steps and chances."""
+    """Return the sums of moves, and their chances, after a match by these steps and chances.
+
+    An error beyond an end moves as it would at that end; it is held there at the end of the
+    night. Held at once, an even number of matches could move an error by an odd number of
+    points, and how often it does so in ages would decide between even and odd errors.
+    """
     many = moved.shape[1]
-    reached = np.arange(sums[0] + min(steps[0], 0), sums[-1] + max(steps[-1], 0) + 1)
+    reached = np.unique(sums[:, None] + steps)
     after = np.zeros((len(reached), *moved.shape[1:]))
-    begun = np.arange(many)
     for total, before in zip(sums.tolist(), moved, strict=True):
-        place = np.clip(begun + total, 0, many - 1)
-        for step, chance in zip(steps.tolist(), chances, strict=True):
-            flow = before * chance[place]
-            stays = ((place + step < 0) | (place + step >= many))[:, None]
-            after[total + step - reached[0]] += np.where(stays, 0.0, flow)
-            after[total - reached[0]] += np.where(stays, flow, 0.0)
-    used = after.any(axis=(1, 2))
-    return reached[used], after[used]
+        place = np.clip(np.arange(many) + total, 0, many - 1)
+        where = np.searchsorted(reached, total + steps)
+        after[where] += before * chances[:, place]
+    return reached, after
 
 
 def _average(chances: list[Floats], joint: list[Floats]) -> Floats:
