@@ -1,10 +1,10 @@
-from evenbreak.league.on_dask import DaskExecutor as DaskExecutor
 from evenbreak.league.dump_cycle import DumpCycle as DumpCycle
 from evenbreak.league.dump_cycle import best_cycle as best_cycle
 from evenbreak.league.dump_cycle import dump_cycle as dump_cycle
 from evenbreak.league.nights import Night as Night
 from evenbreak.league.nights import nights_of as nights_of
 from evenbreak.league.nights import played_nights as played_nights
+from evenbreak.league.on_dask import DaskExecutor as DaskExecutor
 from evenbreak.league.one_season import PlayedSeason as PlayedSeason
 from evenbreak.league.one_season import season_matches as season_matches
 from evenbreak.league.play import chunk_replicas as chunk_replicas

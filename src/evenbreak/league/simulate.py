@@ -3,6 +3,9 @@
 Replicas are parted into chunks by the season and the number of replicas alone; each chunk has its
 own stream of random numbers, the child of the seed that bears its number; and tallies are added in
 the order of the chunks. So who worked, and how fast, leaves no trace in the result.
+
+Chunks are given out by the parcel, whose tallies are added where they are made: sums of whole
+numbers do not depend on how they are bracketed.
 """
 
 from __future__ import annotations
@@ -29,10 +32,38 @@ _BATCH = 64
 """Tallies that are added up before they are added to the rest: each sum copies what it has."""
 
 
-class _Chunk(NamedTuple):
+_PARCEL = 1 << 24
+"""Matches, more or less, that are given out at a time: half a second's work, for which it pays to
+send a tally."""
+
+_PARCELS = 64
+"""Parcels that there are at least where there are as many chunks: no worker is idle for long."""
+
+
+class _Work(NamedTuple):
+    """What all workers know: the season, and how its replicas are parted into chunks."""
+
+    season: Season
     replicas: int
+    size: int
     seed: int
-    number: int
+
+    def chunks(self) -> int:
+        return -(-self.replicas // self.size)
+
+    def parcels(self) -> list[range]:
+        """Return the numbers of the chunks of each parcel."""
+        matches = self.size * self.season.weeks * len(self.season.players) // 2
+        many = max(1, min(_PARCEL // max(matches, 1), self.chunks() // _PARCELS))
+        numbers = range(self.chunks())
+        return [numbers[first : first + many] for first in numbers[::many]]
+
+    def play(self, number: int) -> Tally:
+        """Return the tally of one chunk."""
+        replicas = min(self.size, self.replicas - number * self.size)
+        # The child that `spawn` gives as the one of this number, without its elder siblings.
+        child = np.random.SeedSequence(self.seed, spawn_key=(number,))
+        return run_chunk(self.season, replicas, child)
 
 
 def simulate(
@@ -60,7 +91,7 @@ def simulate(
     jobs
         number of processes where there is no executor; 1 works in this one.
     progress
-        called with the replicas done and `replicas` as the work begins, and after each chunk.
+        called with the replicas done and `replicas` as the work begins, and after each parcel.
 
     Raises
     ------
@@ -82,27 +113,19 @@ def simulate(
     """
     replicas = whole(replicas, "replicas", at_least=1)
     seed, jobs = whole(seed, "seed"), whole(jobs, "jobs", at_least=1)
-    size = chunk_replicas(season, replicas)
     # Made once and sent: computed by each worker, its last bits might be those of another machine.
     _ = season.lookup
+    work = _Work(season, replicas, chunk_replicas(season, replicas), seed)
+    parcels = work.parcels()
+    jobs = min(jobs, len(parcels))
     tell = progress or _tell_nobody
     tell(0, replicas)
-    chunks = _chunks(replicas, size, seed)
-    jobs = min(jobs, -(-replicas // size))  # no more processes than chunks
-    with closing(in_order(_play, season, chunks, executor=executor, jobs=jobs)) as tallies:
+    with closing(in_order(_play, work, parcels, executor=executor, jobs=jobs)) as tallies:
         return _sum(_told(tallies, replicas, tell))
 
 
-def _chunks(replicas: int, size: int, seed: int) -> Iterator[_Chunk]:
-    for number, done in enumerate(range(0, replicas, size)):
-        yield _Chunk(min(size, replicas - done), seed, number)
-
-
-def _play(season: Season, chunk: _Chunk) -> Tally:
-    # The child that `spawn` gives as the one of this number, without its elder siblings.
-    return run_chunk(
-        season, chunk.replicas, np.random.SeedSequence(chunk.seed, spawn_key=(chunk.number,))
-    )
+def _play(work: _Work, numbers: range) -> Tally:
+    return _sum(map(work.play, numbers))
 
 
 def _told(
