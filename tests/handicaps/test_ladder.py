@@ -1,3 +1,4 @@
+import pickle
 from fractions import Fraction
 from itertools import pairwise
 from math import comb, erf, sqrt
@@ -151,7 +152,7 @@ def test_model_b_law_of_a_short_chart_is_the_one_of_exact_rounds():
     np.testing.assert_allclose(chances(found.law()), [float(x) for x in law], rtol=1e-11)
 
 
-@pytest.mark.parametrize("sd", [0.0, 3.0])
+@pytest.mark.parametrize("sd", [0.0, 1.5])
 @pytest.mark.parametrize(
     "opponents",
     [
@@ -164,7 +165,7 @@ def test_model_b_law_of_a_short_chart_is_the_one_of_exact_rounds():
 )
 def test_kernel_is_the_sum_over_all_that_may_be(opponents, sd):
     ladder = Ladder("step 2 2", chart("npl_8"), opponents=opponents, match_sd=sd, widest=16)
-    for error in (-16, -5, 0, 9):
+    for error in (-16, 0, 9):
         for place, step in enumerate(ladder.steps.tolist()):
             expected = brute_moves(ladder, error, step)
             assert ladder.kernel[error + 16, place] == pytest.approx(expected, abs=1e-12)
@@ -347,15 +348,14 @@ def test_drift_makes_a_game_too():
 
 
 def test_equal_ladders_are_equal_and_copies_too():
-    import pickle
-
     ladder = Ladder("npl", chart("npl_8"), opponents=EQUAL_SKILL, widest=20)
     assert ladder == Ladder(chart("npl_8"), opponents=EQUAL_SKILL, widest=20)
     assert ladder != Ladder(chart("npl_8"), widest=20)
     assert ladder.system is system_of("npl")
     assert Ladder("npl").chart == chart("npl_10")
-    law = ladder.law()
-    assert pickle.loads(pickle.dumps(ladder.law())) == law  # noqa: S301
+    copy = pickle.loads(pickle.dumps(ladder))  # noqa: S301
+    assert copy == ladder
+    assert copy.law() == ladder.law()
 
 
 @pytest.mark.parametrize(
