@@ -58,7 +58,7 @@ class Tally:
         large.
     errors
         how many players stood at each rating error (rating less true skill, rounded to whole
-        points) at the start and after each week: shape (weeks + 1, 2 * widest + 1), from
+        points) at the start and after each week, its drift included: shape (weeks + 1, 2 * widest + 1), from
         -widest to widest, where what is further off stands too.
     gap_width
         points of a bin of `gaps`.
@@ -70,9 +70,16 @@ class Tally:
         means given the two ratings and skills of each match, and not drawn.
     weeks
         shape (chunks, weeks + 1, 3), the columns of `WEEK_COLUMNS`: players in the league, and
-        their rating errors and squares of these, summed.
+        their rating errors (as `errors` counts them) and squares of these, summed.
     fifths
         shape (chunks, 5, 2): matches and wins by fifth of true skill at the start.
+
+    >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
+    >>> season = Season(LeaguePlayers.of([60, 50], skill=[50, 50]), "npl", weeks=100)
+    >>> one, two = (run_chunk(season, 50, seed) for seed in np.random.SeedSequence(1).spawn(2))
+    >>> both = one + two
+    >>> both.replicas, both.matches, both.weeks.shape
+    (array([50, 50]), array([10000, 10000]), (2, 101, 3))
     """
 
     replicas: Counts
