@@ -58,8 +58,8 @@ class Tally:
         large.
     errors
         how many players stood at each rating error (rating less true skill, rounded to whole
-        points) at the start and after each week, its drift included: shape (weeks + 1, 2 * widest + 1), from
-        -widest to widest, where what is further off stands too.
+        points) at the start and after each week, its drift included: shape (weeks + 1,
+        2 * widest + 1), from -widest to widest, where what is further off stands too.
     gap_width
         points of a bin of `gaps`.
     gaps
