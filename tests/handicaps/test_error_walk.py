@@ -113,3 +113,9 @@ def test_a_walk_that_stands_still_has_no_law():
 def test_wins_that_make_no_ladder_are_refused(wins, message):
     with pytest.raises(InputError, match=message):
         RatingLadder(wins)
+
+
+@pytest.mark.parametrize("state", [-2, 2, 1000])
+def test_beyond_the_ends_there_is_no_state(state):
+    with pytest.raises(InputError, match=f"state is {state}; give a rating error from -1 to 1"):
+        RatingLadder([0.75, 0.5, 0.25]).moves(state)

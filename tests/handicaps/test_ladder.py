@@ -23,6 +23,8 @@ from evenbreak.handicaps import (
     match_table,
     system_of,
 )
+from evenbreak.handicaps.fluctuation import deviation_grid, deviations
+from evenbreak.handicaps.pairing import pairing_of
 from evenbreak.ratings import SCALES
 from evenbreak.stats import Distribution
 
@@ -221,7 +223,10 @@ def test_every_rule_has_the_law_of_its_matrix(system):
     law = chances(ladder.law())
     assert law.sum() == pytest.approx(1.0)
     M = np.zeros((145, 145))
-    np.add.at(M, (ladder.targets, np.arange(145)[:, None]), ladder.kernel)
+    for before in range(145):
+        for step, chance in zip(ladder.steps.tolist(), ladder.kernel[before].tolist(), strict=True):
+            after = before + step
+            M[after if 0 <= after < 145 else before, before] += chance
     np.testing.assert_allclose(M @ law, law, atol=1e-13)
 
 
@@ -393,3 +398,21 @@ def test_a_law_that_does_not_settle_is_not_given(monkeypatch):
     monkeypatch.setattr(ladder_law, "_ROUNDS", 3)
     with pytest.raises(AccuracyError, match="after 3 rounds"):
         Ladder(chart("npl_8"), opponents=AUTOCORRELATED).law()
+
+
+@pytest.mark.parametrize(("system", "day_sd"), [("step 2", 110.0), ("step 3", 100.0)])
+def test_the_line_is_wide_enough_for_forms_that_vary_much(system, day_sd):
+    ladder = Ladder(system, day_sd=day_sd)
+    wider = Ladder(system, day_sd=day_sd, widest=2 * ladder.widest)
+    assert ladder.law().sd == pytest.approx(wider.law().sd, rel=1e-6)
+
+
+def test_a_night_of_one_match_may_be_reckoned_by_any_grid_of_forms():
+    # A form that lasts for the night is held at few points; one for a match has every point.
+    ladder = Ladder("npl", chart("npl_20"), day_sd=70.0)
+    days, weights = deviation_grid(deviations(70.0), 30.0)
+    pairing = pairing_of(
+        ladder.system, ladder.chart, ladder.widest, ladder.opponents, np.ones(1), days
+    )
+    wins = pairing.moves(np.outer(ladder.errors == 0, weights))[-1] @ weights
+    np.testing.assert_allclose(wins, ladder.wins, atol=1e-11)

@@ -19,9 +19,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.chains import chain_from_arrays, chain_of, stochastic_limit
+from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.chart import Chart
+from evenbreak.handicaps.error_walk import long_run_law
 from evenbreak.handicaps.ladder_chain import error_on
 from evenbreak.handicaps.match_table import MatchTable, match_table
 from evenbreak.handicaps.systems import system_of
@@ -195,26 +196,10 @@ def in_step_law(system: Any, chart: Chart | None = None, *, widest: Any = None) 
     law = np.full(len(errors), 1.0 / len(errors))
     for _ in range(_ROUNDS):
         met = in_step @ law
-        after = _limit(errors, steps, (by_pair @ law) / met)
+        after = long_run_law(steps // unit, ((by_pair @ law) / met).T)
+        # Rounding would tilt it, and a tilt grows: see docs/explanation/ladder.md.
+        after = (after + after[::-1]) / 2.0
         if np.abs(after - law).max() <= _SETTLED:
             return Distribution(tuple(errors.tolist()), tuple(after.tolist()))
         law = after
     raise AccuracyError(f"the law still changes after {_ROUNDS} rounds; give another chart")
-
-
-def _limit(
-    errors: NDArray[np.int64], steps: NDArray[np.int64], kernel: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the limit of the ladder with these moves, P(step | error) of shape (steps, errors)."""
-    many, unit = len(errors), int(errors[1] - errors[0])
-    place = np.arange(many)
-    matrix = np.zeros((many, many))
-    for step, chance in zip(steps.tolist(), kernel, strict=True):
-        to = place + step // unit
-        matrix[place, np.where((to < 0) | (to >= many), place, to)] += chance
-    before, after = np.nonzero(matrix)
-    chain = chain_from_arrays(errors.tolist(), before, after, matrix[before, after], start=0)
-    found = stochastic_limit(chain)
-    law = np.array([float(found.get(error, 0.0)) for error in errors.tolist()])
-    # Rounding would tilt it, and a tilt grows: see docs/explanation/ladder.md.
-    return np.asarray((law + law[::-1]) / 2.0)

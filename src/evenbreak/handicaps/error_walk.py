@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["ErrorWalk", "RatingLadder", "long_run_law"]
+__all__ = ["ErrorWalk", "RatingLadder", "long_run_law", "walk_matrix"]
 
 
 class ErrorWalk:
@@ -56,14 +56,17 @@ class ErrorWalk:
         """No error."""
         return 0
 
-    @property
-    def targets(self) -> NDArray[np.int64]:
-        """The error after each move, as a place in `errors`; shape (errors, steps)."""
-        return _targets(len(self.kernel), self.steps)
-
     def moves(self, state: int) -> Mapping[int, float]:
-        """Return the probability of each next error, given the error `state`."""
+        """Return the probability of each next error, given the error `state`.
+
+        Raises
+        ------
+        InputError
+            if the state is beyond an end.
+        """
         half = len(self.kernel) // 2
+        if not -half <= state <= half:
+            raise InputError(f"state is {state!r}; give a rating error from {-half} to {half}")
         after: dict[int, float] = {}
         for step, chance in zip(
             self.steps.tolist(), self.kernel[state + half].tolist(), strict=True
@@ -82,9 +85,7 @@ class ErrorWalk:
         # Beyond a certain win or loss there may be no way back to the start or out from it.
         if math.gcd(*steps.tolist()) != 1 or not (kernel > 0.0).all() or np.abs(steps).max() > 1:
             return None
-        many = len(kernel)
-        chances = np.zeros((many, many))
-        np.add.at(chances, (np.arange(many)[:, None], self.targets), kernel)
+        chances = walk_matrix(steps, kernel)
         sources, targets = np.nonzero(chances)
         return ArcArrays(self.errors.tolist(), sources, targets, chances[sources, targets])
 
@@ -185,10 +186,10 @@ def _law_of_class(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDAr
         if up.all() and down.all():
             return line_law(up, down)
     else:
-        law = _eliminated(_matrix(steps, kernel), int(np.abs(steps).max()))
+        law = _eliminated(walk_matrix(steps, kernel), int(np.abs(steps).max()))
         if np.isfinite(law).all():
             return law
-    return _limit_from_the_middle(_matrix(steps, kernel))
+    return _limit_from_the_middle(walk_matrix(steps, kernel))
 
 
 def _eliminated(matrix: NDArray[np.float64], band: int) -> NDArray[np.float64]:
@@ -226,14 +227,24 @@ def _limit_from_the_middle(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(stochastic_limit(chain, many // 2).probability)
 
 
-def _matrix(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
+def walk_matrix(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return P(error j after the match | error i before it), shape (errors, errors).
+
+    Rows are the errors before. A move that would lead beyond an end is not made.
+
+    Parameters
+    ----------
+    steps, kernel
+        as in `long_run_law`.
+
+    >>> walk_matrix(np.array([-1, 1]), np.array([[0.25, 0.75], [0.5, 0.5], [0.75, 0.25]]))
+    array([[0.25, 0.75, 0.  ],
+           [0.5 , 0.  , 0.5 ],
+           [0.  , 0.75, 0.25]])
+    """
     many = len(kernel)
-    matrix = np.zeros((many, many))
-    np.add.at(matrix, (np.arange(many)[:, None], _targets(many, steps)), kernel)
-    return matrix
-
-
-def _targets(many: int, steps: NDArray[np.int64]) -> NDArray[np.int64]:
     place = np.arange(many)[:, None]
     after = place + steps
-    return np.where((after >= 0) & (after < many), after, place)
+    matrix = np.zeros((many, many))
+    np.add.at(matrix, (place, np.where((after >= 0) & (after < many), after, place)), kernel)
+    return matrix

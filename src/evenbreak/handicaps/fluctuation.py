@@ -16,7 +16,7 @@ from scipy.special import ndtr
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["averages", "deviation_grid", "deviations"]
+__all__ = ["averages", "deviation_grid", "deviations", "difference_law"]
 
 _FARTHEST = 8.3
 """Standard deviations beyond which a normal law has no more than 1e-16."""
@@ -42,24 +42,38 @@ def deviations(sd: float) -> NDArray[np.float64]:
     return np.asarray(law / law.sum())
 
 
-def deviation_grid(sd: float) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return points and their chances that stand for a deviation rounded to whole points.
+def difference_law(*sds: float) -> NDArray[np.float64]:
+    """Return the law of how much better one player's form is than another's, over -k, ..., k.
 
-    Above 4 points of standard deviation the points are as far apart as half of it: for a
-    function as smooth as a chance to win the trapezoidal rule is then exact to 1e-12. The
-    1/12 is what rounding adds to the variance.
+    Each of the two has deviations of these standard deviations, all of them independent.
 
-    >>> points, chances = deviation_grid(8.0)
-    >>> len(points), round(float(chances @ points**2), 9)
-    (35, 64.083333333)
+    >>> difference_law(0.0), difference_law(0.5)[8:13].round(4)
+    (array([1.]), array([0.0266, 0.2152, 0.5156, 0.2152, 0.0266]))
     """
-    if sd <= _FINE:
-        law = deviations(sd)
-        return np.arange(len(law)) - len(law) // 2, law
-    apart = int(sd / 2.0)
-    far = math.ceil(_FARTHEST * sd / apart)
-    points = apart * np.arange(-far, far + 1)
-    weights = np.exp(-(points**2) / (2.0 * (sd * sd + 1.0 / 12.0)))
+    law = np.ones(1)
+    for sd in sds:
+        law = np.convolve(np.convolve(law, deviations(sd)), deviations(sd))
+    return law
+
+
+def deviation_grid(
+    law: NDArray[np.float64], doubling: float
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return points and chances that stand for a law over -k, ..., k in a mean over it.
+
+    Above 4 points of standard deviation the points are as far apart as half of it, or as half a
+    `doubling` of the odds if that is less: for a function as smooth as a chance to win the
+    trapezoidal rule is then exact to 1e-11.
+
+    >>> points, chances = deviation_grid(deviations(8.0), 30.0)
+    >>> len(points), round(float(chances @ points**2), 9)
+    (33, 64.083333333)
+    """
+    half = len(law) // 2
+    sd = math.sqrt(law @ (np.arange(len(law)) - half) ** 2)
+    apart = max(int(min(sd, doubling) / 2.0), 1) if sd > _FINE else 1
+    points = apart * np.arange(-(half // apart), half // apart + 1)
+    weights = law[half + points]
     return points, weights / weights.sum()
 
 

@@ -22,7 +22,7 @@ from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.chart import Chart
 from evenbreak.handicaps.error_walk import ErrorWalk
-from evenbreak.handicaps.fluctuation import deviation_grid, deviations
+from evenbreak.handicaps.fluctuation import deviation_grid, deviations, difference_law
 from evenbreak.handicaps.ladder_law import Night, Settled, settled
 from evenbreak.handicaps.opponents import NATURAL, Opponents
 from evenbreak.handicaps.pairing import pairing_of
@@ -69,7 +69,8 @@ class Ladder(ErrorWalk):
         after a match it rises by one point with this chance. His opponents' skills are steady.
     widest
         errors are cut at -widest and widest points. None: 2, 4 or 8 doublings of the odds, so
-        wide that each end has a chance below 1e-9 against opponents who are rated rightly.
+        wide that each end has a chance below 1e-9 with a match a night against opponents who
+        are rated rightly.
 
     Raises
     ------
@@ -142,7 +143,7 @@ class Ladder(ErrorWalk):
             "drift": _number(drift, "drift", -1.0, 1.0),
         }
         values["widest"] = (
-            _usual_width(by, chart, values["drift"])
+            _usual_width(by, chart, values["day_sd"], values["match_sd"], values["drift"])
             if widest is None
             else whole(widest, "widest", at_least=1)
         )
@@ -192,11 +193,9 @@ class Ladder(ErrorWalk):
     @cached_property
     def _settled(self) -> Settled:
         shared = self.matches_a_night > 1 and self.day_sd > 0.0
-        days, weights = deviation_grid(self.day_sd if shared else 0.0)
-        blur = np.ones(1)
-        for sd in (self.match_sd, 0.0 if shared else self.day_sd):
-            law = deviations(sd)
-            blur = np.convolve(np.convolve(blur, law), law)  # the player's and the opponent's
+        doubling = self.system.scale.points_per_doubling
+        days, weights = deviation_grid(deviations(self.day_sd if shared else 0.0), doubling)
+        blur = difference_law(self.match_sd, 0.0 if shared else self.day_sd)
         pairing = pairing_of(self.system, self.chart, self.widest, self.opponents, blur, days)
         matches = self.matches_a_night if shared else 1
         night = Night(pairing, weights, matches)
@@ -238,16 +237,17 @@ def _number(value: Any, name: str, low: float, high: float) -> float:
 
 
 @lru_cache(maxsize=64)
-def _usual_width(system: System, chart: Chart, drift: float) -> int:
+def _usual_width(system: System, chart: Chart, day_sd: float, match_sd: float, drift: float) -> int:
     """Return so wide a line that next to nothing is at its ends."""
     for doublings in _DOUBLINGS:
         widest = round(doublings * system.scale.points_per_doubling)
-        law = Ladder(system, chart, drift=drift, widest=widest)._settled.law  # noqa: SLF001
+        ladder = Ladder(system, chart, day_sd=day_sd, match_sd=match_sd, drift=drift, widest=widest)
+        law = ladder.law().probability
         # Moves of several points leave gaps near the ends: look at a stretch of each.
         near = max(1, widest // 20)
-        if law[:near].sum() + law[-near:].sum() <= _AT_AN_END:
+        if sum(law[:near]) + sum(law[-near:]) <= _AT_AN_END:
             return widest
     raise AccuracyError(
         f"the rating error goes beyond {widest} points: the moves are too large for the scale, "
-        "or the skill drifts away from the rating; give widest yourself"
+        "the form varies too much, or the skill drifts away from the rating; give widest yourself"
     )

@@ -14,13 +14,14 @@ import numpy as np
 
 from evenbreak.chains import Chain, chain_from_arrays
 from evenbreak.errors import InputError
+from evenbreak.handicaps.error_walk import walk_matrix
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.handicaps.ladder import Ladder
 
-__all__ = ["chain_of_errors", "error_on", "has_parity", "move_matrix", "unit_of"]
+__all__ = ["chain_of_errors", "error_on", "move_matrix", "period_of", "unit_of"]
 
 
 def move_matrix(ladder: Ladder, factor: int = 1) -> NDArray[np.float64]:
@@ -30,23 +31,13 @@ def move_matrix(ladder: Ladder, factor: int = 1) -> NDArray[np.float64]:
     an end is not made.
     """
     if factor == 1 or not ladder.drift:
-        return _matrix(ladder.steps * factor, ladder.kernel)
+        return walk_matrix(ladder.steps * factor, ladder.kernel)
     # The factor is one of the match's moves, not of the skill that grows meanwhile.
     steady = replace(ladder, drift=0.0)
     shift, chance = -np.sign(ladder.drift), abs(ladder.drift)
     grown = np.tile([1.0 - chance, chance], (len(ladder.errors), 1))
-    by_match = _matrix(steady.steps * factor, steady.kernel)
-    return np.asarray(by_match @ _matrix(np.array([0, int(shift)]), grown))
-
-
-def _matrix(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
-    many = len(kernel)
-    place = np.arange(many)
-    matrix = np.zeros((many, many))
-    for step, chance in zip(steps.tolist(), kernel.T, strict=True):
-        to = place + step
-        matrix[place, np.where((to < 0) | (to >= many), place, to)] += chance
-    return matrix
+    by_match = walk_matrix(steady.steps * factor, steady.kernel)
+    return np.asarray(by_match @ walk_matrix(np.array([0, int(shift)]), grown))
 
 
 def chain_of_errors(ladder: Ladder) -> Chain:
@@ -60,17 +51,27 @@ def chain_of_errors(ladder: Ladder) -> Chain:
 
 def unit_of(ladder: Ladder) -> int:
     """Return the number of points of which all moves that can happen are multiples."""
-    return math.gcd(*ladder.steps[(ladder.kernel > 0.0).any(axis=0)].tolist())
+    return math.gcd(*_moves(ladder))
 
 
-def has_parity(ladder: Ladder) -> bool:
-    """Return whether an error away from the ends comes back to itself in even matches only.
+def period_of(ladder: Ladder) -> int:
+    """Return the period that the matches give the error, away from the ends.
 
-    It does where all moves are odd multiples of one number: +-1, +-3, or +1 and -3.
+    An error comes back to itself only after a multiple of so many matches: 2 by moves of +-1 or
+    +-3, 3 by +2 and -1, 4 by +1 and -3, 1 by moves of one and two points either way. All moves
+    have the same remainder by the common divisor of their differences. A skill that drifts is
+    left out: it breaks the period, but by a seldom point only slowly.
     """
-    unit = unit_of(ladder)
-    moves = ladder.steps[(ladder.kernel > 0.0).any(axis=0)]
-    return unit > 0 and bool((moves // unit % 2).all())
+    if ladder.drift:
+        ladder = replace(ladder, drift=0.0, day_sd=0.0, match_sd=0.0)
+    moves = _moves(ladder)
+    unit = math.gcd(*moves)
+    return math.gcd(*(move - moves[0] for move in moves)) // unit if unit and moves[1:] else 1
+
+
+def _moves(ladder: Ladder) -> list[int]:
+    """Return the moves that can happen."""
+    return [int(move) for move in ladder.steps[(ladder.kernel > 0.0).any(axis=0)]]
 
 
 def error_on(widest: int, start: Any, what: str = "rating error") -> int:

@@ -92,7 +92,8 @@ def settled(night: Night, error: Floats | None, drift: float, *, conserving: boo
     while changes[-1] > _SETTLED and len(changes) <= _ROUNDS:
         chances, joint = _against_the_same(night, pace, begun)
         if not conserving:
-            pace = _mean_move(night, chances, joint)
+            # A pace that misses a whole number by rounding would mix what never mixes.
+            pace = round(_mean_move(night, chances, joint), 12)
         again = _beginning(night, chances, pace)
         changes.append(float(np.abs(again - begun).max()))
         begun = again

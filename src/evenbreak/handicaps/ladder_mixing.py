@@ -1,15 +1,17 @@
 """How fast a ladder forgets where a rating began.
 
 By steps of one point either way an error is even after an even number of matches if it was even
-at first, for ever (but for the ends of the line, where it is once in ages): the chain has an
-eigenvalue at -1, or within rounding of it, and its powers do not settle. What settles is the
-average over two matches that follow each other. So the eigenvalue by -1 is set aside, and
-distances are those of the two-match average.
+at first, for ever (but for the ends of the line, where it is once in ages): the chain has the
+period 2 and an eigenvalue at -1, or within rounding of it, and its powers do not settle. What
+settles is the average over two matches that follow each other. So the eigenvalue by -1 is set
+aside, and distances are those of the two-match average.
+
+Other moves have other periods: up 2 points and down 1 has the period 3, with eigenvalues by all
+three roots of unity, and what settles is the average over three matches.
 """
 
 from __future__ import annotations
 
-from itertools import count
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,8 +22,8 @@ from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.ladder_chain import (
     chain_of_errors,
     error_on,
-    has_parity,
     move_matrix,
+    period_of,
     unit_of,
 )
 
@@ -36,10 +38,11 @@ _MOST_MATCHES = 100_000
 
 
 def ladder_gap(ladder: Ladder) -> float:
-    """Return 1 minus the largest modulus of an eigenvalue, but for 1 and the one by -1.
+    """Return 1 minus the largest modulus of an eigenvalue, but for those of the period.
 
-    The distance of the two-match average from the limit falls like (1 - gap)^matches in the
-    end, so that log(2) / gap matches or so halve it.
+    Those are the ones by 1 and, by moves of a point either way, by -1. The distance of the average
+    over a period of matches from the limit falls like (1 - gap)^matches in the end, so that
+    log(2) / gap matches or so halve it.
 
     Parameters
     ----------
@@ -69,9 +72,9 @@ def ladder_gap(ladder: Ladder) -> float:
     root = np.sqrt(law[kept])
     scaled = move_matrix(ladder)[np.ix_(kept, kept)] * root[:, None] / root
     values = _eigenvalues(scaled)
-    values = np.delete(values, np.abs(values - 1.0).argmin())
-    if has_parity(ladder) and len(values):
-        values = np.delete(values, np.abs(values + 1.0).argmin())
+    period = period_of(ladder)
+    for unity in np.exp(2j * np.pi * np.arange(period) / period)[: len(values)]:
+        values = np.delete(values, np.abs(values - unity).argmin())
     gap = 1.0 - float(np.abs(values).max(initial=0.0))
     if gap < 1e-9:
         raise AccuracyError(
@@ -89,9 +92,9 @@ def _eigenvalues(matrix: NDArray[np.float64]) -> NDArray[Any]:
 def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
     """Return after how many matches a rating error is within `eps` of its limit law.
 
-    Within: in total variation, half the sum of the absolute differences, of the average over
-    that match and the next; the law is conditional on the error at the start, and the limit is
-    that of errors begun there.
+    Within: in total variation, half the sum of the absolute differences, of the average over a
+    period of matches (that match and the next, by moves of a point either way); the law is
+    conditional on the error at the start, and the limit is that of errors begun there.
 
     Parameters
     ----------
@@ -126,13 +129,14 @@ def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
     now = np.eye(len(chain))[place]
     found, matrix = stochastic_limit(chain, now), chain.matrix
     limit = np.array([float(found.get(error, 0.0)) for error in chain.states])
-    for matches in count():
-        after = matrix @ now
-        if np.abs((now + after) / 2.0 - limit).sum() / 2.0 <= eps:
+    laws = [now]
+    for _ in range(period_of(ladder) - 1):
+        laws.append(matrix @ laws[-1])
+    average = np.mean(laws, axis=0)
+    for matches in range(_MOST_MATCHES + 1):
+        if np.abs(average - limit).sum() / 2.0 <= eps:
             return matches
-        if matches == _MOST_MATCHES:
-            break
-        now = after
+        average = matrix @ average
     raise AccuracyError(
         f"the law is not within {eps:g} of its limit after {_MOST_MATCHES} matches; give a larger "
         "eps"

@@ -5,20 +5,19 @@ the opponent's error e, the chart sees the difference
 
     i - (s + e)    given the skill,        i - r    given the rating,
 
-and the games are decided by the difference of skill, -s or e - r. The fluctuations of both
-players' form spread the latter by a normal law, of twice the variance of one player's form.
+and the games are decided by the difference of skill, -s or e - r, and by that of the two players'
+form, over whose law all chances are averaged.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.handicaps.fluctuation import deviations
+from evenbreak.handicaps.fluctuation import deviation_grid, difference_law
 from evenbreak.handicaps.match_table import MatchTable, match_table
 
 if TYPE_CHECKING:
@@ -28,8 +27,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Meetings", "meetings_of"]
 
-_NODES = 24
-"""Of Gauss and Hermite: exact for polynomials of the form's deviation up to degree 47."""
 _RARE = 1e-18
 
 
@@ -93,20 +90,10 @@ class Meetings:
     def _forms(self) -> Iterator[tuple[NDArray[np.float64], float]]:
         """Yield the game chances of all differences of skill, form by form, with weights."""
         scale = self.ladder.system.scale
-        spread = math.sqrt(2.0 * sum(map(_variance, (self.ladder.day_sd, self.ladder.match_sd))))
-        if not spread:
-            yield scale.win_probability(self.skills), 1.0
-            return
-        nodes, weights = np.polynomial.hermite_e.hermegauss(_NODES)
-        for node, weight in zip(nodes, weights / weights.sum(), strict=True):
-            yield scale.win_probability(self.skills + spread * node), float(weight)
-
-
-def _variance(sd: float) -> float:
-    """Return the variance of a deviation that is rounded to whole points."""
-    law = deviations(sd)
-    points = np.arange(len(law)) - len(law) // 2
-    return float(law @ points**2)
+        law = difference_law(self.ladder.day_sd, self.ladder.match_sd)
+        forms, weights = deviation_grid(law, scale.points_per_doubling)
+        for form, weight in zip(forms.tolist(), weights.tolist(), strict=True):
+            yield scale.win_probability(self.skills + form), weight
 
 
 def meetings_of(ladder: Ladder) -> Meetings:
