@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import functools
-import operator
 from collections.abc import Callable
 from typing import Any
 
@@ -11,8 +9,7 @@ import numpy as np
 import pytest
 
 from evenbreak.handicaps import chart
-from evenbreak.league import LeaguePlayers, RandomPairing, Season, run_chunk
-from evenbreak.league.play import chunk_replicas
+from evenbreak.league import LeaguePlayers, RandomPairing, Season, run_chunk, simulate
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings.scale import scale_of
 
@@ -86,12 +83,6 @@ def bare_replicas(replicas: int, players: int) -> Callable[[], Any]:
     return play
 
 
-def chunks(season: Season, replicas: int, size: int) -> Any:
-    """Play all replicas in one process, chunk by chunk, and add the tallies up."""
-    seeds = np.random.SeedSequence(1).spawn(replicas // size)
-    return functools.reduce(operator.add, (run_chunk(season, size, seed) for seed in seeds))
-
-
 def speed(matches: float, seconds: float) -> str:
     return f"{matches / seconds / 1e6:.0f} million matches a second"
 
@@ -109,16 +100,12 @@ def test_one_league(beside: Beside, benchmark: Any, players: int) -> None:
     print(ratio, speed(players / 2 * WEEKS, benchmark.extra_info["ours"]))
 
 
-@pytest.mark.parametrize("size", [1000, 200])
-def test_replicas(beside: Beside, benchmark: Any, size: int) -> None:
+def test_replicas(beside: Beside, benchmark: Any) -> None:
     season = season_of(64)
     season.lookup.expected  # noqa: B018
-    # `simulate` takes ten chunks of so few replicas for its standard errors, and chunks of 1,024
-    # where there are ten thousand.
-    assert chunk_replicas(season, 2000) == 200
     ratio = beside(
-        f"2,000 replicas of 64 players in chunks of {size:,} / bare loop, replicas down",
-        lambda: chunks(season, 2000, size),
+        f"2,000 replicas of 64 players, {WEEKS} weeks / bare loop, replicas down",
+        lambda: simulate(season, replicas=2000, seed=1),
         bare_replicas(2000, 64),
         rounds=31,
         note="statistics in ours",

@@ -13,7 +13,8 @@ LOOK = lookup_of(TABLE, 15.2)
 
 def test_chances_to_win_are_those_of_the_table() -> None:
     p = system_of("npl").scale.win_probability(np.arange(-16.0, 17.0))
-    held = LOOK.wins[::2].reshape(33, 41) / 2.0**32
+    race = LOOK.twice_race[np.arange(-20, 21)] // 2
+    held = LOOK.wins[::2].reshape(33, LOOK.races)[:, race] / 2.0**32
     assert LOOK.gap == 16
     assert np.abs(held - TABLE.wins(p).T).max() <= 2.0**-32
     assert np.array_equal(LOOK.wins[::2], LOOK.wins[1::2])
@@ -28,7 +29,7 @@ def test_chances_of_scores_add_up_to_those_of_the_table() -> None:
 
 
 def test_what_is_expected_of_a_match() -> None:
-    hill, shut, games = LOOK.expected.reshape(3, 33, 41)[:, 16, 20]  # equal in rating and skill
+    hill, shut, games = LOOK.expected.reshape(3, 33, LOOK.races)[:, 16, LOOK.twice_race[0] // 2]
     assert hill == pytest.approx(70 / 256)  # 4-4 of eight even games
     assert shut == pytest.approx(2 / 32)
     assert games == pytest.approx(

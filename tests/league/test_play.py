@@ -21,9 +21,9 @@ from evenbreak.league import (
     RoundRobin,
     Season,
     Tally,
-    chunk_replicas,
     run_chunk,
 )
+from evenbreak.league.parts import parts_of
 from evenbreak.league.play import _Chunk
 from evenbreak.matches import final_scores
 
@@ -143,7 +143,7 @@ def test_wins_by_cell_are_those_of_the_table() -> None:
     often = both * chance * (1 - chance) > 10
     z = (won - both * chance)[often] / np.sqrt(both * chance * (1 - chance))[often]
     assert both.sum() == 60 * 32 * 500
-    assert often.sum() > 1000
+    assert often.sum() > 400
     assert np.abs(z).max() < 5.5
     assert abs((z**2).mean() - 1) < 5 * np.sqrt(2 / often.sum())
 
@@ -342,15 +342,90 @@ def test_ratings_that_run_away_are_not_wrapped_round() -> None:
         run_chunk(season, 3, SEED)
 
 
-def test_chunks_fit_the_cache_and_are_ten_at_least() -> None:
+def test_chunks_fit_the_cache_and_there_are_many_batches() -> None:
     season = Season(LeaguePlayers.of([50] * 64), "npl")
-    assert [chunk_replicas(season, n) for n in (1, 9, 10, 200, 2000, 10**6)] == [
-        1,
-        1,
-        1,
-        20,
-        200,
-        1024,
-    ]
+    parts = [tuple(parts_of(season, n)) for n in (1, 31, 64, 2000, 20_000, 10**6)]
+    assert parts == [(1, 1024), (1, 1024), (3, 341), (100, 10), (1000, 1), (1024, 1)]
     large = dataclasses.replace(season, players=LeaguePlayers.of([50] * 10**5), schedule=None)
-    assert chunk_replicas(large, 100) == 1
+    assert parts_of(large, 100) == (1, 1)
+    assert parts_of(dataclasses.replace(season, weeks=10_000), 2000) == (100, 1)
+
+
+@pytest.mark.parametrize("play", ["matches", "racks"])
+@pytest.mark.parametrize("schedule", [RandomPairing(2), RoundRobin(7), None])
+def test_batches_side_by_side_are_leagues_of_their_own(play: str, schedule) -> None:
+    club = LeaguePlayers.of(
+        [50, 60, 70, 80, 90, 55, 65],
+        skill=[50, 60, 70, 80, 90, 80, 30],
+        joins=[1, 1, 3, 1, 1, 1, 1],
+        leaves=[0, 4, 0, 0, 0, 0, 0],
+        absence=0.1,
+        drift=0.5,
+        day_sd=3.0,
+        played=[0, 5, 10, 50, 50, 50, 50],
+    )
+    fixtures = schedule or FixedSchedule([1, 1, 4, 5, 5], [0, 1, 2, 5, 4], [1, 2, 3, 6, 0])
+    season = Season(club, "npl", schedule=fixtures, weeks=6, play=play)
+    one = run_chunk(season, 20, SEED, batches=60)
+    many = chunks(season, 20, 60)
+    assert one.replicas.tolist() == many.replicas.tolist()
+    assert one.weeks[..., 0].tolist() == many.weeks[..., 0].tolist()
+    for k, (above, below) in enumerate((("wins", 1200), ("wins", None), ("rating", 1200))):
+        means = [getattr(t, above) / (below or t.matches) for t in (one, many)]
+        off = np.hypot(one.player_errors()[k], many.player_errors()[k])
+        assert (np.abs(means[0] - means[1]) <= 5 * off).all()
+    assert one.gaps[..., 0].sum() == one.matches.sum() / 2
+    assert one.fifths[..., 0].sum() == one.matches.sum()
+    assert (one.gaps[..., 0].sum(axis=1) == one.fifths[..., 0].sum(axis=1) / 2).all()
+    assert one.wins_counts.sum() == one.rating_counts.sum() == 7 * 1200
+    assert (one.errors @ one.error_values).tolist() == one.weeks[..., 1].sum(axis=0).tolist()
+
+
+def test_standard_errors_hold_where_replicas_share_their_opponents() -> None:
+    # He who wins nearly all is met more often in one draw than in another.
+    club = LeaguePlayers.of([60] * 8, skill=[150, *[60] * 7])
+    season = Season(club, "npl", schedule=RandomPairing(), weeks=8)
+    tallies = [run_chunk(season, 50, seed, batches=32) for seed in SEED.spawn(60)]
+    for k, column in enumerate(
+        (lambda t: t.wins / 1600, lambda t: t.wins / t.matches, lambda t: t.rating / 1600)
+    ):
+        means = np.array([column(tally) for tally in tallies])[:, 1:]
+        stated = np.array([tally.player_errors()[k] for tally in tallies])[:, 1:]
+        ratio = means.var(axis=0, ddof=1).mean() / (stated**2).mean()
+        assert 0.7 < ratio < 1.4  # of 60 tallies, with 7 players who are hardly independent
+        alone = np.mean([t.wins_squared / 1600 - (t.wins / 1600) ** 2 for t in tallies]) / 1600
+        assert (stated[:, :] ** 2).mean() > (3 * alone if k == 0 else 0)
+
+
+def test_a_player_has_the_errors_of_his_batches() -> None:
+    season = Season(LeaguePlayers.of([50, 60, 70, 80], absence=0.3), "npl", weeks=6)
+    seeds = SEED.spawn(40)
+    each = [run_chunk(season, 20, seed) for seed in seeds]
+    total = reduce(add, each)
+    wins, matches, rating = (
+        np.array([getattr(tally, name) for tally in each]) for name in ("wins", "matches", "rating")
+    )
+    points, chance, moved = total.player_errors()
+    assert points == pytest.approx(wins.std(axis=0, ddof=1) / 20 / np.sqrt(40))
+    assert moved == pytest.approx(rating.std(axis=0, ddof=1) / 20 / np.sqrt(40))
+    assert chance == pytest.approx(total.mean_and_error(wins, matches)[1])
+    assert np.isnan(each[0].player_errors()[0]).all()
+
+
+class OwnDraw:
+    """A schedule of one's own that draws as well: one round or two a week."""
+
+    def pairs(self, week: int, rng: np.random.Generator, count: int) -> list:  # noqa: ARG002
+        rounds = 1 + int(rng.integers(2))
+        order = [rng.permutation(count) for _ in range(rounds)]
+        return [(o[: count // 2], o[count // 2 :]) for o in order]
+
+
+def test_a_schedule_of_ones_own_is_drawn_for_each_batch() -> None:
+    season = Season(LeaguePlayers.of([50, 60, 70, 80]), "npl", schedule=OwnDraw(), weeks=5)
+    tally = run_chunk(season, 3, SEED, batches=50)
+    played = tally.weeks.shape[0], tally.fifths[..., 0].sum(axis=1) / 4 / 3
+    assert played[0] == 50
+    assert played[1].min() >= 5
+    assert len(set(played[1].tolist())) > 2
+    assert tally.wins.sum() * 2 == tally.matches.sum()

@@ -12,10 +12,10 @@ from evenbreak.league import (
     LeaguePlayers,
     RandomPairing,
     Season,
-    chunk_replicas,
     run_chunk,
     simulate,
 )
+from evenbreak.league.parts import Parts, parts_of
 from evenbreak.league.simulate import _Work
 
 SEASON = Season(
@@ -34,8 +34,16 @@ def as_bytes(tally):
     }
 
 
+@pytest.fixture(scope="module", autouse=True)
+def small_chunks():
+    """Part the few replicas of these tests as many are."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(sys.modules[parts_of.__module__], "_CHUNK", 20 * len(SEASON.players))
+        yield
+
+
 @pytest.fixture(scope="module")
-def alone():
+def alone(small_chunks):  # noqa: ARG001
     return simulate(SEASON, replicas=205, seed=3)
 
 
@@ -55,16 +63,15 @@ def test_a_season_sent_by_itself_is_the_same(alone):
 
 
 def test_chunks_have_the_streams_that_the_seed_spawns(alone):
-    size = chunk_replicas(SEASON, 205)
-    sizes = [size] * (205 // size) + [205 % size] * bool(205 % size)
-    assert len(sizes) >= 10
-    seeds = np.random.SeedSequence(3).spawn(len(sizes))
-    tallies = [run_chunk(SEASON, many, seed) for many, seed in zip(sizes, seeds, strict=True)]
+    assert parts_of(SEASON, 205) == Parts(replicas=10, batches=2)
+    *full, left = np.random.SeedSequence(3).spawn(11)
+    tallies = [run_chunk(SEASON, 10, seed, batches=2) for seed in full]
+    tallies.append(run_chunk(SEASON, 5, left))
     total = tallies[0]
     for tally in tallies[1:]:
         total = total + tally
     assert as_bytes(total) == as_bytes(alone)
-    assert alone.replicas.tolist() == sizes
+    assert alone.replicas.tolist() == [10] * 20 + [5]
 
 
 @pytest.mark.parametrize(("name", "value"), [("_BATCH", 1), ("_BATCH", 3), ("_PARCELS", 3)])
@@ -75,9 +82,9 @@ def test_how_sums_are_bracketed_changes_nothing(monkeypatch, alone, name, value)
 
 @pytest.mark.parametrize("replicas", [1, 9, 1000, 64_001, 1_000_000])
 def test_parcels_are_every_chunk_once_in_order(replicas):
-    work = _Work(SEASON, replicas, chunk_replicas(SEASON, replicas), 1)
+    work = _Work(SEASON, replicas, parts_of(SEASON, replicas), 1)
     numbers = [number for parcel in work.parcels() for number in parcel]
-    assert numbers == list(range(-(-replicas // work.size)))
+    assert numbers == list(range(work.chunks()))
 
 
 def test_another_seed_is_another_season(alone):
@@ -87,9 +94,9 @@ def test_another_seed_is_another_season(alone):
 
 def test_progress_is_told_from_none_to_all():
     told = []
-    simulate(SEASON, replicas=25, seed=1, progress=lambda done, total: told.append((done, total)))
-    assert told[0] == (0, 25)
-    assert told[-1] == (25, 25)
+    simulate(SEASON, replicas=250, seed=1, progress=lambda done, total: told.append((done, total)))
+    assert told[0] == (0, 250)
+    assert told[-1] == (250, 250)
     assert [done for done, _ in told] == sorted({done for done, _ in told})
     assert len(told) > 10
 

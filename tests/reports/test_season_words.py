@@ -34,7 +34,7 @@ def test_an_operator_is_told_how_wrong_how_fair_and_who_profits():
 
 
 def test_nobody_profits_where_all_are_alike():
-    words, _ = told(Season(LeaguePlayers.of([80] * 4), "npl", weeks=8), many=2, replicas=5)
+    words, _ = told(Season(LeaguePlayers.of([80] * 4), "npl", weeks=8), many=10, replicas=5)
     assert words[3].startswith("Who profits? Nobody that these seasons can tell")
 
 

@@ -13,7 +13,7 @@ __getattr__, __dir__, __all__ = attach(
         "nights": ["Night", "nights_of", "played_nights"],
         "on_dask": ["DaskExecutor"],
         "one_season": ["PlayedSeason", "season_matches"],
-        "play": ["chunk_replicas", "run_chunk"],
+        "play": ["run_chunk"],
         "players": ["ESTABLISHED", "LeaguePlayers"],
         "reestimate": ["Reestimated", "reestimate"],
         "sandbag": ["DumpRow", "Sandbagging", "entering_low", "sandbagging"],

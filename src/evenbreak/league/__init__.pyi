@@ -7,7 +7,6 @@ from evenbreak.league.nights import played_nights as played_nights
 from evenbreak.league.on_dask import DaskExecutor as DaskExecutor
 from evenbreak.league.one_season import PlayedSeason as PlayedSeason
 from evenbreak.league.one_season import season_matches as season_matches
-from evenbreak.league.play import chunk_replicas as chunk_replicas
 from evenbreak.league.play import run_chunk as run_chunk
 from evenbreak.league.players import ESTABLISHED as ESTABLISHED
 from evenbreak.league.players import LeaguePlayers as LeaguePlayers

@@ -40,7 +40,7 @@ class Lookup:
         the largest skill difference, in whole points; larger ones are taken for it.
     wins
         P(player 1 wins) in 2^32nds, flat and each twice, so that who wins may be added to the
-        place: 2 * ((skill difference + gap) * width + rating difference + widest).
+        place: 2 * ((skill difference + gap) * races + number of the race).
     """
 
     table: MatchTable
@@ -56,6 +56,16 @@ class Lookup:
     def width(self) -> int:
         """How many rating differences there are."""
         return 2 * self.table.widest + 1
+
+    @property
+    def races(self) -> int:
+        """How many different races there are."""
+        return len(self._races[0])
+
+    @cached_property
+    def twice_race(self) -> NDArray[np.intp]:
+        """Twice the number of the race by rating difference, the negative ones from the end."""
+        return np.asarray(np.roll(2 * self._races[1], -self.widest))
 
     @property
     def outcomes(self) -> int:
@@ -149,14 +159,14 @@ class Lookup:
 
     @cached_property
     def expected(self) -> NDArray[np.float64]:
-        """The mean of each of `classes` given both differences: (3, (2 * gap + 1) * width)."""
-        first, place = self._races
+        """The mean of each of `classes` by skill difference and race: (3, rows * races)."""
+        first, _ = self._races
         means = np.empty((len(self.game), len(first), CLASSES))
         for start in range(0, len(self.game), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
             chances = self.table.chances(self.game[some])[first]
             means[some] = np.einsum("rog,roc->grc", chances, self.classes[first])
-        return np.ascontiguousarray(np.moveaxis(means[:, place], 2, 0)).reshape(CLASSES, -1)
+        return np.ascontiguousarray(np.moveaxis(means, 2, 0)).reshape(CLASSES, -1)
 
     @cached_property
     def cumulative(self) -> tuple[NDArray[np.uint32], NDArray[np.intp]]:
@@ -176,10 +186,7 @@ class Lookup:
     @cached_property
     def _races(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Where each race stands first, and which race each rating difference has."""
-        _, first, place = np.unique(
-            self.table.needs, axis=0, return_index=True, return_inverse=True
-        )
-        return first, place.reshape(-1)
+        return _races_of(self.table)
 
 
 def lookup_of(table: MatchTable, gap: float) -> Lookup:
@@ -187,8 +194,13 @@ def lookup_of(table: MatchTable, gap: float) -> Lookup:
     certain = _CERTAIN * table.system.scale.points_per_doubling
     size = int(np.ceil(min(max(gap, 1.0), certain)))
     p = table.system.scale.win_probability(np.arange(-size, size + 1.0))
-    wins = np.repeat(_in_bits(table.wins(p).T).ravel(), 2)
+    wins = np.repeat(_in_bits(table.wins(p)[_races_of(table)[0]].T).ravel(), 2)
     return Lookup(table, size, wins)
+
+
+def _races_of(table: MatchTable) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    _, first, place = np.unique(table.needs, axis=0, return_index=True, return_inverse=True)
+    return first, place.reshape(-1)
 
 
 def _in_bits(chance: Any) -> NDArray[np.uint32]:

@@ -2,14 +2,20 @@
 
 Ratings are an array of small whole numbers, players down and replicas across, so that the
 replicas of a player lie side by side in memory: a round gathers the rows of those who meet,
-looks all their matches up in flat tables by rating difference and skill difference, draws who
+looks all their matches up in flat tables by race and skill difference, draws who
 wins with 32 random bits a match, and adds the moves. All is counted on the way. Rounds are
 taken in blocks that stay in the cache.
+
+Replicas that lie side by side share the draw of opponents: they are a *batch*. Standard errors
+come from how batches differ, so there must be many, and numpy wants long arrays. So a *chunk*
+plays several batches as if they were one league: the players of the second one stand below
+those of the first.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,23 +25,18 @@ from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.systems import step_after
 from evenbreak.league.counting import Counting, Ended
 from evenbreak.league.drawing import draw_scores, draw_winners, play_racks, random_bits
-from evenbreak.league.season import Season, draws_opponents
+from evenbreak.league.schedule import FixedSchedule, RandomPairing, Round, RoundRobin
+from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
 
 if TYPE_CHECKING:
     from evenbreak.league.lookup import Lookup
     from evenbreak.league.players import LeaguePlayers
 
-__all__ = ["chunk_replicas", "run_chunk"]
+__all__ = ["run_chunk"]
 
 _BLOCK = 1 << 15
 """Matches that are played at a time."""
-
-_CHUNK = 1 << 16
-"""Players times replicas that a chunk has if the season is not larger by itself."""
-
-_CHUNKS = 10
-"""Chunks that there are at least where there are as many replicas: errors come from them."""
 
 _HIGHEST = 16_000
 """Points beyond which differences do not fit 16 bits."""
@@ -50,30 +51,21 @@ _WIN = 1 << 16
 """A win in the upper bits of a player's state."""
 
 
-def chunk_replicas(season: Season, replicas: int) -> int:
-    """Return how many replicas a chunk should have: as many as the cache holds.
-
-    There are ten chunks or more where there are ten replicas or more, since standard errors
-    come from how chunks differ.
-
-    >>> from evenbreak.league import LeaguePlayers
-    >>> chunk_replicas(Season(LeaguePlayers.of([50] * 64), "npl"), 100_000)
-    1024
-    """
-    return max(1, min(_CHUNK // len(season.players), replicas // _CHUNKS))
-
-
-def run_chunk(season: Season, replicas: int, seed: np.random.SeedSequence) -> Tally:
-    """Return the tally of a chunk: replicas of a season that share the draw of opponents.
+def run_chunk(
+    season: Season, replicas: int, seed: np.random.SeedSequence, *, batches: int = 1
+) -> Tally:
+    """Return the tally of a chunk: batches of replicas, each with its own draw of opponents.
 
     Parameters
     ----------
     season
         what is played.
     replicas
-        how many times, 1 or more.
+        how many times each batch plays it, 1 or more.
     seed
         whence all draws of the chunk come; the same one gives the same tally.
+    batches
+        how many batches there are, 1 or more.
 
     Raises
     ------
@@ -86,7 +78,7 @@ def run_chunk(season: Season, replicas: int, seed: np.random.SeedSequence) -> Ta
     >>> tally.matches, int(tally.wins.sum()), int(tally.rating.sum())
     (array([1200, 1200, 1200, 1200]), 2400, 0)
     """
-    chunk = _Chunk(season, replicas, np.random.Generator(np.random.SFC64(seed)))
+    chunk = _Chunk(season, replicas, np.random.Generator(np.random.SFC64(seed)), batches)
     chunk.count_week(0, chunk.here(1))
     for week in range(1, season.weeks + 1):
         chunk.play(week)
@@ -96,28 +88,34 @@ def run_chunk(season: Season, replicas: int, seed: np.random.SeedSequence) -> Ta
 class _Chunk:
     """The state of the replicas while they are played.
 
+    Its arrays have a row for each player of the first batch, then of the second one, and so on.
+
     `state` has a player's rating in its lower 16 bits and his wins in its upper ones, so that
     both are gathered and put back together: rating + 2^16 wins.
     """
 
-    def __init__(self, season: Season, replicas: int, rng: np.random.Generator) -> None:
+    def __init__(
+        self, season: Season, replicas: int, rng: np.random.Generator, batches: int = 1
+    ) -> None:
         players = season.players
-        shape = len(players), replicas
-        self.season, self.rng, self.replicas = season, rng, replicas
+        shape = batches * len(players), replicas
+        self.season, self.rng, self.replicas, self.batches = season, rng, replicas, batches
         self.lookup: Lookup = season.lookup
         self.state = np.empty(shape, dtype=np.int32)
-        self.state[:] = players.rating[:, None]
+        self.state[:] = self._column(players.rating)
         # One column where all replicas are alike: then there is less to look up.
-        self.skill: NDArray[np.floating[Any]] = players.skill[:, None]
+        self.skill: NDArray[np.floating[Any]] = self._column(players.skill)
         if players.skill_sd.any():
             drawn = rng.standard_normal(shape, dtype=np.float32)
-            self.skill = self.skill + players.skill_sd[:, None] * drawn
+            self.skill = self.skill + self._column(players.skill_sd) * drawn
         self.began = self.skill
         self.games = np.zeros(shape, dtype=np.int32) if season.play == "racks" else None
-        self.absence = _absence(players)
-        columns = 1 if self.absence is None else replicas
-        self.matches = np.zeros((len(players), columns), dtype=np.int32)
+        absence = _absence(players)
+        self.absence = None if absence is None else self._column(absence)
+        columns = 1 if absence is None else replicas
+        self.matches = np.zeros((shape[0], columns), dtype=np.int32)
         self.factors = _factors(season)
+        self.before = None if self.factors is None else self._column(players.played)
         self.drifts, self.strays = bool(players.drift.any()), bool(players.day_sd.any())
         self.stay = bool((players.joins == 1).all() and (players.leaves == 0).all())
         # Skills in whole points: true ones, and those of the day.
@@ -127,7 +125,12 @@ class _Chunk:
         self.highest, self.lowest = int(players.rating.max()), int(players.rating.min())
         self.longest = season.longest_move
         self.rounds = 0
-        self.count = Counting(season, replicas)
+        self.count = Counting(season, replicas, batches)
+
+    def _column(self, of_players: NDArray[Any]) -> NDArray[Any]:
+        """Return a column of the players for all rows."""
+        stacked = of_players if self.batches == 1 else np.tile(of_players, self.batches)
+        return stacked[:, None]
 
     def count_week(self, week: int, here: NDArray[np.bool_] | None) -> None:
         """Count the rating errors after a week, and see to it that the arrays still hold."""
@@ -142,8 +145,8 @@ class _Chunk:
         self.count.week(week, rating, self.points, here)
 
     def here(self, week: int) -> NDArray[np.bool_] | None:
-        """Return who is in the league in a week; None: everybody."""
-        return None if self.stay else self.season.players.here(week)
+        """Return which rows are in the league in a week; None: all."""
+        return None if self.stay else self._column(self.season.players.here(week))[:, 0]
 
     def play(self, week: int) -> None:
         """Play a week: its matches, its moves, its drift."""
@@ -151,7 +154,7 @@ class _Chunk:
         here = self.here(week)
         if self.strays:
             normal = rng.standard_normal(self.state.shape, dtype=np.float32)
-            self.today = _points(self.skill + players.day_sd[:, None] * normal)
+            self.today = _points(self.skill + self._column(players.day_sd) * normal)
         absent = None
         if self.absence is not None:
             absent = random_bits(rng, self.state.shape) < self.absence
@@ -168,23 +171,32 @@ class _Chunk:
         self.highest += len(rounds) * self.longest
         self.lowest -= len(rounds) * self.longest
         if self.drifts:
-            self.skill = self.skill + players.drift[:, None]
+            self.skill = self.skill + self._column(players.drift)
             self.points = self.today = _points(self.skill)
         self.count_week(week, here)
 
-    def _rounds(self, week: int, here: NDArray[np.bool_] | None) -> list[Any]:
-        """Return who meets whom, of those who are in the league."""
-        schedule, many = self.season.schedule, len(self.state)
+    def _rounds(self, week: int, here: NDArray[np.bool_] | None) -> list[Round]:
+        """Return which rows meet, of those who are in the league."""
+        schedule, many = self.season.schedule, len(self.season.players)
+        first = many * np.arange(self.batches)[:, None]  # row of each batch
+        if isinstance(schedule, RandomPairing):
+            if here is None and self.batches == 1:
+                return schedule.pairs(week, self.rng, many)
+            who = np.flatnonzero(self.season.players.here(week))
+            drawn = (
+                schedule.pairs(week, self.rng, len(who))
+                if self.batches == 1
+                else schedule.many_pairs(self.rng, len(who), self.batches)
+            )
+            return [((who[a] + first).ravel(), (who[b] + first).ravel()) for a, b in drawn]
+        if isinstance(schedule, RoundRobin | FixedSchedule):
+            rounds = [(a + first, b + first) for a, b in schedule.pairs(week, self.rng, many)]
+        else:  # it may draw as well
+            each = [schedule.pairs(week, self.rng, many) for _ in range(self.batches)]
+            rounds = [_below(of_batches, many) for of_batches in zip_longest(*each)]
         if here is None:
-            return list(schedule.pairs(week, self.rng, many))
-        if draws_opponents(schedule):
-            who = np.flatnonzero(here)
-            return [(who[a], who[b]) for a, b in schedule.pairs(week, self.rng, len(who))]
-        rounds = []
-        for a, b in schedule.pairs(week, self.rng, many):
-            both = here[a] & here[b]
-            rounds.append((a[both], b[both]))
-        return rounds
+            return [(a.ravel(), b.ravel()) for a, b in rounds]
+        return [(a[both], b[both]) for a, b in rounds for both in [here[a] & here[b]]]
 
     def _count_matches(self, a: NDArray[np.intp], b: NDArray[np.intp]) -> None:
         """Count what a round adds to the matches of all replicas."""
@@ -208,14 +220,17 @@ class _Chunk:
         if self.highest - self.lowest > look.widest:
             np.clip(apart, -look.widest, look.widest, out=apart)
         row = self._rows(a, b)
-        cell = (row * (2 * look.width) + (2 * look.widest)) + (apart + apart)
+        cell = np.empty(apart.shape, dtype=np.intp)
+        np.take(look.twice_race, apart, out=cell, mode="wrap")
+        cell += row * (2 * look.races)
         won, score = self._draw(row, cell, apart)
         played = None
         if absent is not None:
             played = ~(absent.take(a, axis=0) | absent.take(b, axis=0))
-        self.count.matches(cell, won, played)
+        batch = a // len(self.season.players) if self.batches > 1 else None
+        self.count.matches(cell, won, played, batch)
         if score is not None:
-            self.count.scores(row, apart, score, played)
+            self.count.scores(row, apart, score, played, batch)
             if self.games is not None:
                 self._count_games(a, b, apart, score, played)
         if before is not self.state:
@@ -302,9 +317,13 @@ class _Chunk:
 
     def _factor(self, factors: NDArray[np.int16], rows: NDArray[np.intp]) -> NDArray[np.int16]:
         """Return by what factor these players move: newcomers move more."""
+        assert self.before is not None  # noqa: S101
         last = len(factors) - 1
-        before = np.minimum(self.season.players.played[rows], last)[:, None]
-        return factors.take(np.minimum(before + self.matches.take(rows, axis=0), last))
+        before = np.minimum(self.before[rows], last)
+        factor: NDArray[np.int16] = factors.take(
+            np.minimum(before + self.matches.take(rows, axis=0), last)
+        )
+        return factor
 
     def ended(self) -> Ended:
         """Return the arrays with which the chunk ends."""
@@ -319,12 +338,19 @@ def _points(skill: NDArray[Any]) -> NDArray[np.int16]:
     return rounded
 
 
+def _below(of_batches: Sequence[Round | None], many: int) -> Round:
+    """Return a round of each batch as one, the players of each below those of the one before."""
+    there = [(k * many, pairs) for k, pairs in enumerate(of_batches) if pairs is not None]
+    a, b = (np.concatenate([first + pairs[side] for first, pairs in there]) for side in (0, 1))
+    return a, b
+
+
 def _absence(players: LeaguePlayers) -> NDArray[np.uint32] | None:
-    """Return P(absent) in 2^32nds, a column, or None: nobody ever is."""
+    """Return P(absent) in 2^32nds, or None: nobody ever is."""
     if not players.absence.any():
         return None
     scaled = np.minimum(np.rint(np.ldexp(players.absence, 32)), 2.0**32 - 1.0)
-    return np.asarray(scaled.astype(np.uint32)[:, None])
+    return np.asarray(scaled.astype(np.uint32))
 
 
 def _factors(season: Season) -> NDArray[np.int16] | None:

@@ -108,9 +108,21 @@ class RandomPairing:
 
     def pairs(self, week: int, rng: np.random.Generator, count: int) -> list[Round]:  # noqa: ARG002
         """Return the rounds of a week, drawn from `rng`."""
+        return [_matched(rng, count) for _ in range(self.matches_a_week)]
+
+    def many_pairs(
+        self, rng: np.random.Generator, count: int, times: int
+    ) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+        """Return the rounds of a week of many leagues alike, a row for each of them.
+
+        >>> (a, b), = RandomPairing().many_pairs(np.random.default_rng(1), 6, 2)
+        >>> np.sort(np.hstack([a, b])).tolist()
+        [[0, 1, 2, 3, 4, 5], [0, 1, 2, 3, 4, 5]]
+        """
         half = count // 2
-        drawn = [rng.permutation(count) for _ in range(self.matches_a_week)]
-        return [(order[:half], order[half : 2 * half]) for order in drawn]
+        seats = np.broadcast_to(np.arange(count), (times, count))
+        drawn = [rng.permuted(seats, axis=1) for _ in range(self.matches_a_week)]
+        return [(order[:, :half], order[:, half : 2 * half]) for order in drawn]
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,6 +192,19 @@ class FixedSchedule:
             week: rounds_of(self.a[part], self.b[part])
             for week, part in zip(weeks.tolist(), parts, strict=True)
         }
+
+
+def _matched(rng: np.random.Generator, count: int) -> Round:
+    """Return a round in which all ways to pair `count` players are equally likely.
+
+    Half of them are drawn, in an order drawn by lot; whoever is left meets them in his own
+    order. That is half the work of an order of all.
+    """
+    half = count // 2
+    drawn = rng.choice(count, count - half, replace=False)
+    left = np.ones(count, dtype=bool)
+    left[drawn] = False
+    return np.flatnonzero(left), drawn[:half]  # of an odd number the last one drawn sits out
 
 
 def rounds_of(a: NDArray[Any], b: NDArray[Any]) -> list[Round]:

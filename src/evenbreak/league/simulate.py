@@ -1,8 +1,9 @@
 """Many replicas of a season, on as many workers as there are, with the same result for any number.
 
-Replicas are parted into chunks by the season and the number of replicas alone; each chunk has its
-own stream of random numbers, the child of the seed that bears its number; and tallies are added in
-the order of the chunks. So who worked, and how fast, leaves no trace in the result.
+Replicas are parted into batches, and these into chunks, by the season and the number of replicas
+alone. Each chunk has its own stream of random numbers, the child of the seed that bears its
+number, and tallies are added in the order of the chunks. So who worked, and how fast, leaves no
+trace in the result.
 
 Chunks are given out by the parcel, whose tallies are added where they are made: sums of whole
 numbers do not depend on how they are bracketed.
@@ -22,7 +23,8 @@ import numpy as np
 
 from evenbreak.checks import whole
 from evenbreak.league.executors import in_order
-from evenbreak.league.play import chunk_replicas, run_chunk
+from evenbreak.league.parts import Parts, parts_of
+from evenbreak.league.play import run_chunk
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
 
@@ -45,25 +47,37 @@ class _Work(NamedTuple):
 
     season: Season
     replicas: int
-    size: int
+    parts: Parts
     seed: int
 
     def chunks(self) -> int:
-        return -(-self.replicas // self.size)
+        """Return how many chunks there are: the full ones, and one of the replicas left over."""
+        full, left = divmod(self.replicas, self.parts.replicas)
+        return -(-full // self.parts.batches) + (left > 0)
 
     def parcels(self) -> list[range]:
         """Return the numbers of the chunks of each parcel."""
-        matches = self.size * self.season.weeks * len(self.season.players) // 2
+        matches = (
+            self.parts.replicas
+            * self.parts.batches
+            * self.season.weeks
+            * len(self.season.players)
+            // 2
+        )
         many = max(1, min(_PARCEL // max(matches, 1), self.chunks() // _PARCELS))
         numbers = range(self.chunks())
         return [numbers[first : first + many] for first in numbers[::many]]
 
     def play(self, number: int) -> Tally:
         """Return the tally of one chunk."""
-        replicas = min(self.size, self.replicas - number * self.size)
+        size, many = self.parts
+        full, left = divmod(self.replicas, size)
+        batches = min(many, full - number * many)
+        if batches <= 0:
+            size, batches = left, 1
         # The child that `spawn` gives as the one of this number, without its elder siblings.
         child = np.random.SeedSequence(self.seed, spawn_key=(number,))
-        return run_chunk(self.season, replicas, child)
+        return run_chunk(self.season, size, child, batches=batches)
 
 
 def simulate(
@@ -82,7 +96,7 @@ def simulate(
     season
         what is played.
     replicas
-        how many times, 1 or more. Standard errors want ten or more.
+        how many times, 1 or more. Standard errors want twenty or more.
     seed
         a whole number from 0; the same one gives the same tally to the last bit.
     executor
@@ -103,7 +117,7 @@ def simulate(
     Notes
     -----
     A script that asks for two jobs or more does so under ``if __name__ == "__main__":``, since
-    each worker imports it. Memory does not grow with the replicas but for some kilobytes a chunk.
+    each worker imports it. Memory does not grow with the replicas but for some kilobytes a batch.
 
     >>> from evenbreak.league import LeaguePlayers
     >>> season = Season(LeaguePlayers.of([92, 80, 71, 64]), "npl", weeks=12)
@@ -115,7 +129,7 @@ def simulate(
     seed, jobs = whole(seed, "seed"), whole(jobs, "jobs", at_least=1)
     # Made once and sent: computed by each worker, its last bits might be those of another machine.
     _ = season.lookup
-    work = _Work(season, replicas, chunk_replicas(season, replicas), seed)
+    work = _Work(season, replicas, parts_of(season, replicas), seed)
     parcels = work.parcels()
     jobs = min(jobs, len(parcels))
     tell = progress or _tell_nobody

@@ -6,7 +6,6 @@ same name with `_se` behind: by how much, as one standard deviation, another see
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -60,8 +59,7 @@ def standings_frame(season: Season, tally: Tally) -> pd.DataFrame:
         points_p10, points_p50, points_p90 of the matches won in a season; p_win and p_win_se,
         P(the player wins | he plays a match); rating_mean, rating_se, rating_sd and quantiles
         of the rating after the season. Quantiles are missing where the league is too large for
-        all of its players' laws to be kept. Standard errors hold given the pairings that were
-        drawn.
+        all of its players' laws to be kept.
     """
     import pandas as pd
 
@@ -70,22 +68,20 @@ def standings_frame(season: Season, tally: Tally) -> pd.DataFrame:
     moved, rating_sd = _mean_and_sd(tally.rating, tally.rating_squared, replicas)
     matches = tally.matches / replicas
     known = matches > 0
-    root = math.sqrt(replicas)
+    points_se, p_win_se, rating_se = tally.player_errors()
     columns: dict[str, Any] = {
         "player": names_of(season),
         "rating_start": players.rating,
         "skill_start": players.skill,
         "matches": matches,
         "points_mean": points,
-        "points_se": points_sd / root,
+        "points_se": points_se,
         "points_sd": points_sd,
         **_quantiles("points", tally.wins_counts, 0),
         "p_win": np.divide(points, matches, out=np.full_like(points, np.nan), where=known),
-        "p_win_se": np.divide(
-            points_sd / root, matches, out=np.full_like(points, np.nan), where=known
-        ),
+        "p_win_se": p_win_se,
         "rating_mean": players.rating + moved,
-        "rating_se": rating_sd / root,
+        "rating_se": rating_se,
         "rating_sd": rating_sd,
         **_quantiles("rating", tally.rating_counts, players.rating),
     }
