@@ -145,3 +145,9 @@ def test_a_simulated_closed_league_is_in_step_or_not():
     mixed, error = league_sd(begun, 2000, seed=6)
     assert abs(mixed - 4.4168) < 4.5 * error
     assert mixed - right > 0.05
+
+
+@pytest.mark.parametrize("state", [-61, 61])
+def test_a_pair_has_no_state_beyond_the_ends(state):
+    with pytest.raises(InputError, match=f"state is {state}; give a rating difference from -60"):
+        ClosedPair("npl").moves(state)

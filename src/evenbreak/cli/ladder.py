@@ -25,8 +25,9 @@ MOST_DRIFT = 0.9
 """A rating that moves a point a match cannot follow a skill that does so each time."""
 
 _RUNS_AWAY = (
-    "the rating does not stay near the skill: the moves are too large for the scale, or the skill "
-    "drifts faster than they follow; give a smaller --step, another --system or less --drift"
+    "the rating does not stay near the skill: the moves are too large for the scale, the form "
+    "varies too much, or the skill drifts faster than they follow; give a smaller --step, another "
+    "--system, or less of --day-sd, --match-sd or --drift"
 )
 
 SHARES = (0.5, 0.75, 0.9, 0.95, 0.99)

@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from evenbreak.cli.output import SCHEMA_VERSION
+from evenbreak.handicaps.unfairness import CLEAR_FAVOURITE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,12 +18,9 @@ if TYPE_CHECKING:
 
 Part = TypeVar("Part")
 
-__all__ = ["COLUMNS", "FAVOURITE", "OPPONENTS", "LadderAnswer", "Question", "as_json", "rows"]
+__all__ = ["COLUMNS", "OPPONENTS", "LadderAnswer", "Question", "as_json", "rows"]
 
 COLUMNS = ("error", "probability", "cumulative", "p_win")
-
-FAVOURITE = 0.6
-"""From this chance to win on, a player counts as a clear favourite."""
 
 QUANTILES = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 AFTER = (10, 20, 50, 100, 200)
@@ -181,7 +179,7 @@ def as_json(found: LadderAnswer) -> dict[str, Any]:
         "unfairness": {
             "mean_off_even": favourite.mean - 0.5,
             "favourite_mean": favourite.mean,
-            "favourite_over_60": favourite.at_least(FAVOURITE),
+            "favourite_over_60": favourite.at_least(CLEAR_FAVOURITE),
             "favourite_quantiles": {f"{q:g}": favourite.quantile(q) for q in QUANTILES},
         },
         "inflation": found.inflation,

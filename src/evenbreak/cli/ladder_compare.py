@@ -145,7 +145,7 @@ def _cells(row: SystemRow) -> list[str]:
     return [
         *(row.system, row.chart, f"{row.sd:.2f}", f"{100.0 * row.sd_doublings:.1f}"),
         *(f"{row.settling_mean:.1f}", str(row.settling_p90), f"{100.0 * row.favourite:.1f}"),
-        *(f"{100.0 * row.lopsided:.0f} %", f"{row.games:.1f}"),
+        *(f"{100.0 * row.clear_favourite:.0f} %", f"{row.games:.1f}"),
     ]
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from evenbreak.cli.ladder_answer import FAVOURITE, OPPONENTS
+from evenbreak.cli.ladder_answer import OPPONENTS
+from evenbreak.handicaps.unfairness import CLEAR_FAVOURITE
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -79,11 +80,13 @@ def _how_unfair(favourite: Distribution) -> str:
         "That makes favourites in matches that are meant to be even. On average the favourite "
         f"wins {100.0 * favourite.mean:.1f} % of such matches"
     )
-    often = favourite.at_least(FAVOURITE)
+    often = favourite.at_least(CLEAR_FAVOURITE)
     if often == 0.0:
-        return f"{text}; no match has a favourite of {100 * FAVOURITE:g} % or more."
+        return f"{text}; no match has a favourite of {100 * CLEAR_FAVOURITE:g} % or more."
     verb = "has" if often < _FEW else "have"
-    return f"{text}; {_in_matches(often)} {verb} a favourite of {100 * FAVOURITE:g} % or more."
+    return (
+        f"{text}; {_in_matches(often)} {verb} a favourite of {100 * CLEAR_FAVOURITE:g} % or more."
+    )
 
 
 def _how_fast(found: LadderAnswer) -> str:

@@ -103,8 +103,16 @@ class ClosedPair:
         return self.table.chances(self.system.scale.win_probability(self.skill_difference))
 
     def moves(self, state: int) -> Mapping[int, float]:
-        """Return the probability of each next rating difference, given the difference `state`."""
+        """Return the probability of each next rating difference, given the difference `state`.
+
+        Raises
+        ------
+        InputError
+            if the state is beyond an end.
+        """
         size = self.table.widest
+        if not -size <= state <= size:
+            raise InputError(f"state is {state!r}; give a rating difference from {-size} to {size}")
         apart = self.table.moves[state + size] @ [1, -1]
         led_to = np.where(np.abs(state + apart) > size, state, state + apart)
         nexts, place = np.unique(led_to, return_inverse=True)

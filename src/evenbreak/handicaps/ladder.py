@@ -62,8 +62,8 @@ class Ladder(ErrorWalk):
     match_sd
         the same of the deviation that is new in each match.
     matches_a_night
-        how many matches a player has on a night, each against another opponent. It matters
-        only with a `day_sd`.
+        how many matches a player has on a night, each against another opponent; ratings move
+        after each. It matters only with a `day_sd`.
     drift
         points by which the player's skill rises with each match, on average, from -1 to 1:
         after a match it rises by one point with this chance. His opponents' skills are steady.
@@ -85,7 +85,7 @@ class Ladder(ErrorWalk):
     night have something in common. `kernel` is then what holds on the average of the matches
     of all nights, and its law is exact for that average; how fast a rating settles follows
     from it to good approximation only. Such nights take a fraction of a second for moves of
-    few points, and a minute for moves as different as Elo's on a line of 600 errors.
+    few points, and minutes for moves as different as Elo's on a line of 600 errors.
 
     Source: the natural and the autocorrelated distributions of Fig. 5.9 and after it. The
     limit of a +-1 ladder is that of the powers of M, since an error stays at the two ends now

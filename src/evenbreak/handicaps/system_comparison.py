@@ -18,7 +18,7 @@ from evenbreak.handicaps.meetings import meetings_of
 from evenbreak.handicaps.opponents import EQUAL_SKILL, Opponents
 from evenbreak.handicaps.settling import settling
 from evenbreak.handicaps.systems import step_system
-from evenbreak.handicaps.unfairness import better_off, unfairness
+from evenbreak.handicaps.unfairness import CLEAR_FAVOURITE, better_off, unfairness
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.chart import Chart
@@ -44,8 +44,8 @@ class SystemRow(NamedTuple):
         the mean, and how many are enough for nine in ten.
     favourite
         the mean chance to win of whoever is favoured by the errors; 0.5 is a fair night.
-    lopsided
-        the share of matches in which the favourite has more than 60 %.
+    clear_favourite
+        the share of matches in which the favourite has a chance of 60 % or more.
     games
         the mean number of games in a match.
     inflation
@@ -59,7 +59,7 @@ class SystemRow(NamedTuple):
     settling_mean: float
     settling_p90: int
     favourite: float
-    lopsided: float
+    clear_favourite: float
     games: float
     inflation: float
 
@@ -111,7 +111,7 @@ def system_row(ladder: Ladder) -> SystemRow:
         settling_mean=settled.mean,
         settling_p90=int(settled.matches.quantile(0.9)),
         favourite=favoured.mean,
-        lopsided=1.0 - favoured.between(0.0, 0.6),
+        clear_favourite=favoured.at_least(CLEAR_FAVOURITE),
         games=mean_games(ladder),
         inflation=inflation(ladder),
     )
@@ -189,6 +189,11 @@ def step_front(
     ------
     InputError
         if there is no step, or one is not such a number.
+
+    Notes
+    -----
+    How soon a long step settles depends on where it lands: from 30 points too low both 5 and 6
+    take five wins more than losses, so that the shorter of them is better in both.
 
     >>> for point in step_front([1, 2, 4]):
     ...     print(point.step, round(point.sd, 2), round(point.settling_mean, 1), point.on_front)

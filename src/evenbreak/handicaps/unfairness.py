@@ -12,7 +12,10 @@ from evenbreak.stats.summary import Distribution
 if TYPE_CHECKING:
     from evenbreak.handicaps.ladder import Ladder
 
-__all__ = ["better_off", "unfairness"]
+__all__ = ["CLEAR_FAVOURITE", "better_off", "unfairness"]
+
+CLEAR_FAVOURITE = 0.6
+"""From this chance to win a match on, a player counts as its clear favourite."""
 
 _DIGITS = 12
 
@@ -53,8 +56,8 @@ def unfairness(ladder: Ladder) -> Distribution:
 def better_off(unfair: Distribution) -> Distribution:
     """Return the law of the chance of whoever is favoured: the larger of W and 1 - W.
 
-    Its mean less 1/2 is the mean of `|W - 1/2|`; `1 - between(0, 0.6)` is the share of matches
-    in which the favourite has more than 60 %.
+    Its mean less 1/2 is the mean of `|W - 1/2|`; `at_least(0.6)` is the share of matches
+    that have a clear favourite.
 
     Parameters
     ----------

@@ -18,6 +18,7 @@ from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.chart import Chart
 from evenbreak.handicaps.system_comparison import SystemRow
+from evenbreak.handicaps.unfairness import CLEAR_FAVOURITE
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.results import Results
@@ -31,7 +32,6 @@ __all__ = ["Reestimated", "reestimate"]
 
 _FIRST_NIGHT = np.datetime64("2001-01-01")
 _NEAR = 1.0 / 6.0
-_LOPSIDED = 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,7 +191,7 @@ def _told(plan: _Plan, courses: list[_Course]) -> Reestimated:
         settling_mean=float(means.mean()),
         settling_p90=int(Distribution.of(matches.tolist()).quantile(0.9)),
         favourite=float(favoured.mean()),
-        lopsided=float((favoured > _LOPSIDED).mean()),
+        clear_favourite=float((favoured >= CLEAR_FAVOURITE).mean()),
         games=float(np.concatenate([course.games for course in courses]).mean()),
         inflation=0.0,
     )
