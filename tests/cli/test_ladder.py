@@ -9,6 +9,7 @@ import pytest
 
 from evenbreak.cli.ladder_answer import COLUMNS
 from evenbreak.cli.ladder_compare import COMPARE_COLUMNS, STEPS
+from evenbreak.cli.ladder_options import say_if_long
 from evenbreak.cli.ladder_words import of_100
 from evenbreak.handicaps import chart, system_of
 from evenbreak.handicaps.ladder import Ladder
@@ -338,3 +339,20 @@ def test_what_a_comparison_takes_no_heed_of_is_refused(run, words):
     result = run("ladder", "--compare", *words)
     assert (result.exit_code, result.stdout) == (2, "")
     assert f"leave {words[0]} out" in " ".join(result.stderr.split())
+
+
+def test_uneven_steps_have_a_gap_and_mix(run):
+    result = run("ladder", "--json", "--system", "step 2 1")
+    told = json.loads(result.stdout)
+    assert told["gap"] == pytest.approx(0.0362, abs=5e-5)
+    assert told["mixing_matches"] == 65
+    assert result.stderr == ""
+
+
+@pytest.mark.parametrize(
+    ("system", "matches", "told"), [("elo 16", 3, True), ("elo 16", 1, False), ("npl", 3, False)]
+)
+def test_what_takes_minutes_is_said_beforehand(capsys, system, matches, told):
+    by = system_of(system)
+    say_if_long(by, by.usual_chart(), matches)
+    assert ("take minutes" in capsys.readouterr().err) == told

@@ -172,6 +172,7 @@ def _answer(chart_name: str | None, asked: dict[str, Any]) -> LadderAnswer:
         chart_of_option,
         opponents_of_options,
         refuse_conflicts,
+        say_if_long,
         system_of_options,
     )
     from evenbreak.errors import AccuracyError
@@ -183,6 +184,7 @@ def _answer(chart_name: str | None, asked: dict[str, Any]) -> LadderAnswer:
     system = system_of_options(asked)
     chart = chart_of_option(chart_name, system)
     opponents, name = opponents_of_options(asked)
+    say_if_long(system, chart, asked["matches_a_night"] or 1)
     try:
         built = Ladder(
             system,

@@ -13,10 +13,19 @@ if TYPE_CHECKING:
     from evenbreak.handicaps.opponents import Opponents
     from evenbreak.handicaps.systems import System
 
-__all__ = ["chart_of_option", "opponents_of_options", "refuse_conflicts", "system_of_options"]
+__all__ = [
+    "chart_of_option",
+    "opponents_of_options",
+    "refuse_conflicts",
+    "say_if_long",
+    "system_of_options",
+]
 
 SCALE_OFF = 0.25
 """By what share the scale that a chart fits may be off before it is told."""
+
+MANY_MOVES = 20
+"""With more moves of different size than this, nights of several matches take long."""
 
 
 def refuse_conflicts(asked: dict[str, Any]) -> None:
@@ -84,6 +93,18 @@ def chart_of_option(name: str | None, system: System) -> Chart:
             "(--scale says otherwise)"
         )
     return chart
+
+
+def say_if_long(system: System, chart: Chart, matches: int) -> None:
+    """Tell a person that nights of several matches take minutes where moves differ much."""
+    from evenbreak.handicaps.match_table import match_table
+
+    moves = len(set(match_table(system, chart).moves.ravel().tolist()))
+    if matches > 1 and moves > MANY_MOVES:
+        say(
+            f"Note: the system {system.name} has {moves} different moves; nights of several "
+            "matches then take minutes to work out"
+        )
 
 
 def opponents_of_options(asked: dict[str, Any]) -> tuple[Opponents, str]:
