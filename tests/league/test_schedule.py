@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import sys
 from collections import Counter
 
 import numpy as np
@@ -46,7 +47,7 @@ def test_round_robin_of_several_matches_a_week_goes_through_the_same_rounds() ->
     assert [pairs_of([one]) for rounds in double for one in rounds] == single
 
 
-@pytest.mark.parametrize("count", [2, 7, 64])
+@pytest.mark.parametrize("count", [2, 7, 64, 1000, 1001])
 def test_random_pairing_pairs_everybody_but_one(count: int) -> None:
     rounds = RandomPairing(3).pairs(1, np.random.default_rng(3), count)
     assert len(rounds) == 3
@@ -55,12 +56,27 @@ def test_random_pairing_pairs_everybody_but_one(count: int) -> None:
         assert len({*a.tolist(), *b.tolist()}) == 2 * (count // 2)
 
 
-def test_random_pairing_draws_every_pair_alike() -> None:
+@pytest.mark.parametrize(("few", "count"), [(1000, 4), (0, 4), (0, 3)])
+def test_random_pairing_draws_every_pair_alike(few: int, count: int, monkeypatch) -> None:
+    monkeypatch.setattr(sys.modules[RandomPairing.__module__], "_FEW", few)
     rng = np.random.default_rng(5)
-    met = Counter(pair for _ in range(3_000) for pair in pairs_of(RandomPairing().pairs(1, rng, 4)))
-    assert len(met) == 6
-    # Each of the six pairs with chance 1/3 a week; 5 standard errors of 3,000 weeks.
+    met = Counter(
+        pair for _ in range(3_000) for pair in pairs_of(RandomPairing().pairs(1, rng, count))
+    )
+    assert len(met) == count * (count - 1) // 2
+    # Each of the six pairs, or three, with chance 1/3 a week; 5 standard errors of 3,000 weeks.
     assert max(abs(times - 1_000) for times in met.values()) < 5 * (3_000 * 2 / 9) ** 0.5
+
+
+def test_random_pairing_of_many_leagues_draws_each_by_itself() -> None:
+    ((a, b),) = RandomPairing().many_pairs(np.random.default_rng(5), 5, 3_000)
+    assert a.shape == b.shape == (3_000, 2)
+    met = Counter(
+        tuple(sorted(pair)) for pair in zip(a.ravel().tolist(), b.ravel().tolist(), strict=True)
+    )
+    assert len(met) == 10
+    # Each of the ten pairs with chance 1/5.
+    assert max(abs(times - 600) for times in met.values()) < 5 * (3_000 * 4 / 25) ** 0.5
 
 
 @given(

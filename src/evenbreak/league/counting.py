@@ -26,6 +26,9 @@ ALONE = 1 << 15
 _LARGE = 1 << 20
 """Entries of a table of players that is not kept."""
 
+_SMALL = 1 << 15
+"""The first whole number that 16 bits with a sign do not hold."""
+
 _BLOCK = 1 << 15
 """Ratings that are counted at a time, so that they stay in the cache."""
 
@@ -55,7 +58,8 @@ class Counting:
         self.weeks = np.zeros((batches, season.weeks + 1, len(WEEK_COLUMNS)))
         self.powers = np.arange(-self.widest, self.widest + 1)[:, None] ** np.arange(3)
         # Where the bin of no error is, in the bins of a row's batch.
-        zeros = bins * np.arange(batches) + self.widest
+        small = np.int16 if batches * bins < _SMALL else np.intp  # few bytes are fast
+        zeros = (bins * np.arange(batches) + self.widest).astype(small)
         self.zero = np.broadcast_to(zeros[:, None], (batches, len(season.players))).reshape(-1, 1)
 
     def week(
@@ -72,7 +76,8 @@ class Counting:
         for start in range(0, len(rating), step):
             some = slice(start, start + step)
             error = rating[some] - skill[some]
-            np.clip(error, -self.widest, self.widest, out=error)
+            np.minimum(error, self.widest, out=error)  # `clip` looks up limits at each call
+            np.maximum(error, -self.widest, out=error)
             where = self.zero[some] + error
             if here is not None:
                 where = where[here[some]]

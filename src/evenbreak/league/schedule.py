@@ -24,6 +24,10 @@ Round = tuple[NDArray[np.intp], NDArray[np.intp]]
 """Who meets whom at one time: two arrays of positions, no position twice."""
 
 
+_FEW = 1000
+"""Players of whom an order of all is drawn faster than one of half of them."""
+
+
 class Schedule(Protocol):
     """What every schedule answers."""
 
@@ -197,10 +201,13 @@ class FixedSchedule:
 def _matched(rng: np.random.Generator, count: int) -> Round:
     """Return a round in which all ways to pair `count` players are equally likely.
 
-    Half of them are drawn, in an order drawn by lot; whoever is left meets them in his own
+    Of many, half are drawn, in an order drawn by lot; whoever is left meets them in his own
     order. That is half the work of an order of all.
     """
     half = count // 2
+    if count < _FEW:
+        order = rng.permutation(count)
+        return order[:half], order[half : 2 * half]
     drawn = rng.choice(count, count - half, replace=False)
     left = np.ones(count, dtype=bool)
     left[drawn] = False
