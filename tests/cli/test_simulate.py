@@ -31,6 +31,13 @@ def no_pictures(monkeypatch):
     monkeypatch.setattr("evenbreak.cli.simulate._pictures", lambda *_: {})
 
 
+@pytest.fixture
+def terminal(monkeypatch, run):
+    """Run the words of a command line as on a terminal."""
+    monkeypatch.setattr("evenbreak.cli.simulate.to_terminal", lambda: True)
+    return run
+
+
 @pytest.fixture(scope="module")
 def season(run, tmp_path_factory):
     """Return what a season of the demo league wrote and printed."""
@@ -231,3 +238,39 @@ def test_a_season_without_matches_is_told(run, tmp_path):
     found = run("simulate", "-", *FEW, "--weeks", "2", "--out", str(tmp_path / "o"), stdin=text)
     assert found.exit_code == 0
     assert "matches_a_season,0.000000" in found.stdout
+
+
+@pytest.mark.parametrize(
+    ("joins", "leaves", "gone", "words"),
+    [
+        (2, "", (0, 1), "After week 2 by 1.0 points"),
+        (1, 3, (4,), "At the start by 0.0 points"),
+    ],
+)
+def test_weeks_in_which_nobody_is_there_are_left_empty(
+    terminal, tmp_path, joins, leaves, gone, words
+):
+    text = f"player,rating,joins,leaves\nAnn,80,{joins},{leaves}\nBo,70,{joins},{leaves}\n"
+    out = tmp_path / "o"
+    found = terminal("simulate", "-", *FEW, "--weeks", "4", "--out", str(out), stdin=text)
+    assert found.exit_code == 0
+    said = " ".join(found.stdout.split())
+    assert words in said
+    assert f"In {4 - len(range(joins, int(leaves or 4) + 1))} of the 4 weeks nobody is in the" in (
+        said
+    )
+    assert "nan" not in said
+    rows = rows_of(out / "ratings_by_week.csv")
+    for week, row in enumerate(rows):
+        told = {name: value for name, value in row.items() if name not in ("week", "players")}
+        assert all(value == "" for value in told.values()) == (week in gone)
+        assert (float(row["players"]) == 0.0) == (week in gone)
+    summary = {row["quantity"]: row["value"] for row in rows_of(out / "summary.csv")}
+    assert float(summary["error_sd_end"]) > 0.0
+
+
+def test_a_league_that_nobody_ever_joins_is_told_without_numbers(run, tmp_path):
+    text = "player,rating,joins\nAnn,80,9\nBo,70,9\n"
+    found = run("simulate", "-", *FEW, "--weeks", "4", "--out", str(tmp_path / "o"), stdin=text)
+    assert found.exit_code == 0
+    assert "error_sd" not in found.stdout

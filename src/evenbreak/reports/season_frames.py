@@ -30,6 +30,7 @@ __all__ = [
     "standings_frame",
     "truth_frame",
     "weeks_frame",
+    "weeks_with_players",
 ]
 
 Floats = Any
@@ -141,7 +142,8 @@ def weeks_frame(tally: Tally) -> pd.DataFrame:
         week, 0 before the first; players in the league; of the rating error, rating less true
         skill, over players and replicas: error_mean and error_sd with their standard errors,
         p_within_5, P(the rating is at most 5 points off), and error_p05 ... error_p95, the
-        quantiles in whole points.
+        quantiles in whole points. All but week and players is missing where nobody is in the
+        league.
     """
     import pandas as pd
 
@@ -152,6 +154,8 @@ def weeks_frame(tally: Tally) -> pd.DataFrame:
     sd = np.sqrt(np.maximum(variance, 0.0))
     values, summed = tally.error_values, np.cumsum(tally.errors, axis=1)
     near = np.abs(values) <= NEAR
+    anybody = summed[:, -1] > 0
+    empty = np.full(len(mean), np.nan)
     columns: dict[str, Any] = {
         "week": np.arange(len(mean)),
         "players": players.sum(axis=0) / tally.replicas.sum(),
@@ -159,12 +163,23 @@ def weeks_frame(tally: Tally) -> pd.DataFrame:
         "error_mean_se": mean_se,
         "error_sd": sd,
         # A spread of nothing is nothing in every replica.
-        "error_sd_se": np.divide(variance_se, 2.0 * sd, out=np.zeros_like(sd), where=sd > 0),
-        f"p_within_{NEAR}": tally.errors[:, near].sum(axis=1) / summed[:, -1],
+        "error_sd_se": np.divide(
+            variance_se, 2.0 * sd, out=np.where(anybody, 0.0, np.nan), where=sd > 0
+        ),
+        f"p_within_{NEAR}": np.divide(
+            tally.errors[:, near].sum(axis=1), summed[:, -1], out=empty, where=anybody
+        ),
     }
     for q in SPREAD:
-        columns[f"error_p{100 * q:02.0f}"] = values[reached(summed, q)]
+        quantile = pd.array(values[reached(summed, q)], dtype="Int64")
+        quantile[~anybody] = pd.NA
+        columns[f"error_p{100 * q:02.0f}"] = quantile
     return pd.DataFrame(columns)
+
+
+def weeks_with_players(weeks: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows of `weeks_frame` in which there is anybody in the league."""
+    return weeks[weeks["players"] > 0]
 
 
 def fairness_frame(season: Season, tally: Tally) -> pd.DataFrame:
@@ -280,8 +295,11 @@ def season_frame(season: Season, tally: Tally, settings: Mapping[str, Any]) -> p
 
 
 def _rating_rows(weeks: pd.DataFrame) -> list[tuple[str, Any, float | None]]:
+    there = weeks_with_players(weeks)
     rows: list[tuple[str, Any, float | None]] = []
-    for when, row in (("start", weeks.iloc[0]), ("end", weeks.iloc[-1])):
+    if not len(there):
+        return rows
+    for when, row in (("start", there.iloc[0]), ("end", there.iloc[-1])):
         rows += [
             (f"error_{what}_{when}", float(row[f"error_{what}"]), float(row[f"error_{what}_se"]))
             for what in ("mean", "sd")

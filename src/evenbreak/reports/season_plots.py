@@ -37,8 +37,8 @@ def errors_figure(tally: Tally) -> Figure:
     for low, high, shade, part in (("05", "95", "0.88", 90), ("25", "75", "0.72", 50)):
         axes.fill_between(
             week,
-            rows[f"error_p{low}"].to_numpy(float),
-            rows[f"error_p{high}"].to_numpy(float),
+            rows[f"error_p{low}"].to_numpy(float, na_value=np.nan),
+            rows[f"error_p{high}"].to_numpy(float, na_value=np.nan),
             color=shade,
             linewidth=0,
             label=f"{part} % of all players",

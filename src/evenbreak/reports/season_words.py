@@ -6,7 +6,13 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.reports.problems import printable
-from evenbreak.reports.season_frames import NEAR, fairness_frame, standings_frame, weeks_frame
+from evenbreak.reports.season_frames import (
+    NEAR,
+    fairness_frame,
+    standings_frame,
+    weeks_frame,
+    weeks_with_players,
+)
 from evenbreak.reports.sheet_words import count_of
 
 if TYPE_CHECKING:
@@ -50,15 +56,30 @@ def season_words(season: Season, tally: Tally) -> list[str]:
 
 
 def _ratings(weeks: pd.DataFrame) -> str:
-    first, last = weeks.iloc[0], weeks.iloc[-1]
+    there = weeks_with_players(weeks)
+    first, last = there.iloc[0], there.iloc[-1]
     near = f"p_within_{NEAR}"
     off = _with(last["error_sd"], last["error_sd_se"])
+    start = "At the start" if first["week"] == 0 else f"After week {int(first['week'])}"
     return (
-        f"How wrong are the ratings? At the start by {first['error_sd']:.1f} points (standard "
+        f"How wrong are the ratings? {start} by {first['error_sd']:.1f} points (standard "
         f"deviation; mean {first['error_mean']:+.1f}), and {_percent(first[near])} are within "
         f"{NEAR}. After week {int(last['week'])} by {off} points (mean "
         f"{last['error_mean']:+.1f}), and {_percent(last[near])} are within {NEAR}; 9 of 10 are "
-        f"between {last['error_p05']:+.0f} and {last['error_p95']:+.0f}."
+        f"between {last['error_p05']:+.0f} and {last['error_p95']:+.0f}.{_gone(weeks, there)}"
+    )
+
+
+def _gone(weeks: pd.DataFrame, there: pd.DataFrame) -> str:
+    """Return the sentence on the weeks in which nobody is in the league."""
+    many = count_of(len(weeks) - 1, "week", "weeks")
+    count = int((weeks["players"][1:] == 0).sum())
+    if not count:
+        return ""
+    first, last = int(there["week"].iloc[0]), int(there["week"].iloc[-1])
+    return (
+        f" In {count:,} of the {many} nobody is in the league: what is said of ratings is of weeks "
+        f"{max(first, 1)} to {last}."
     )
 
 
