@@ -104,6 +104,24 @@ def test_each_error_has_its_exit_code_and_a_line_for_each_problem(capsys, error,
     assert capsys.readouterr() == ("", told)
 
 
+def broken_import(cause):
+    """Return what an import makes of what happens in the midst of it."""
+    try:
+        try:
+            raise cause
+        except type(cause) as inner:
+            raise RuntimeError("Error calling __set_name__ on 'cached_property'") from inner
+    except RuntimeError as error:
+        return error
+
+
+def test_an_interrupt_is_one_whatever_an_import_makes_of_it(capsys):
+    assert report_error(broken_import(KeyboardInterrupt())) == 130
+    assert capsys.readouterr().err == "Interrupted.\n"
+    with pytest.raises(RuntimeError, match="cached_property"):  # a fault of the program
+        report_error(broken_import(ValueError()))
+
+
 def test_errors_pass_through_where_the_caller_asks_for_them():
     with pytest.raises(click.UsageError, match="what is played is missing"):
         base.program.main(["odds", "1", "2"], standalone_mode=False)

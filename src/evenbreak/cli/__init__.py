@@ -6,6 +6,7 @@ that command runs.
 """
 
 import gc
+import sys
 
 __all__ = ["main"]
 
@@ -19,5 +20,8 @@ def main() -> None:
         from evenbreak.cli.base import program
 
         program()
+    except KeyboardInterrupt:  # before the program is there to take it
+        sys.stderr.write("Interrupted.\n")
+        sys.exit(130)
     finally:
         gc.freeze()

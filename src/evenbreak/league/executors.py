@@ -9,11 +9,11 @@ given out at a time: memory does not grow with their number.
 from __future__ import annotations
 
 import os
+import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
-from concurrent.futures import BrokenExecutor, Executor, Future
-from concurrent.futures import TimeoutError as NotYet
-from contextlib import contextmanager
+from concurrent.futures import BrokenExecutor, Executor, Future, wait
+from contextlib import closing, contextmanager
 from functools import partial
 from itertools import islice
 from typing import TypeVar
@@ -21,7 +21,7 @@ from typing import TypeVar
 from evenbreak.checks import whole
 from evenbreak.errors import WorkerError
 from evenbreak.league.on_dask import DaskExecutor
-from evenbreak.league.processes import worker_processes
+from evenbreak.league.processes import interrupts_wait, worker_processes
 
 __all__ = ["in_order"]
 
@@ -34,6 +34,9 @@ _AHEAD = 2
 
 _LOOK_EVERY = 2.0
 """Seconds between two looks whether a cluster is still there."""
+
+_SLICE = 0.2
+"""Seconds that an interrupt waits at most."""
 
 Submit = Callable[[Piece], "Future[Result]"]
 
@@ -82,7 +85,9 @@ def in_order(
         return
     with _broken_as_error(), _workers(task, shared, executor, jobs) as (submit, workers):
         look = executor.look if isinstance(executor, DaskExecutor) else _no_look
-        yield from _results(submit, pieces, _AHEAD * workers, look)
+        given = _results(submit, pieces, _AHEAD * workers, look, withdraw=executor is not None)
+        with closing(given):
+            yield from given
 
 
 @contextmanager
@@ -121,8 +126,14 @@ def _results(
     pieces: Iterable[Piece],
     window: int,
     look: Callable[[], None],
-) -> Iterator[Result]:
-    """Yield the results in the order of the pieces, at most `window` of them under way."""
+    *,
+    withdraw: bool,
+) -> Generator[Result]:
+    """Yield the results in the order of the pieces, at most `window` of them under way.
+
+    At the end those that are under way are withdrawn, unless the workers end too: a pool that is
+    broken stumbles over what was withdrawn before.
+    """
     rest = iter(pieces)
     under_way: deque[Future[Result]] = deque()
     try:
@@ -134,17 +145,18 @@ def _results(
             under_way.popleft()  # not before: an interrupt must find it here
             yield result
     finally:
-        for future in under_way:
+        for future in under_way if withdraw else ():
             future.cancel()
 
 
 def _wait(future: Future[Result], look: Callable[[], None]) -> Result:
+    looked = time.monotonic()
     while True:
-        try:
-            return future.result(timeout=_LOOK_EVERY)
-        except NotYet:
-            if future.done():  # the task's own timeout
-                raise
+        with interrupts_wait():
+            if wait([future], _SLICE).done:
+                return future.result()
+        if time.monotonic() - looked > _LOOK_EVERY:
+            looked = time.monotonic()
             look()
 
 

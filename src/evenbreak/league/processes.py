@@ -3,10 +3,13 @@
 They are spawned, not forked: a fork copies locks that other threads hold (numpy's, dask's), and
 is not to be had everywhere. So each worker is sent what is shared once, as it starts.
 
-Ctrl-C on a terminal reaches the workers too. They leave it to the parent, which closes its end of
-a pipe; a worker whose pipe is closed ends, in the middle of a piece if need be, but not in the
-middle of a result: the parent would wait for the rest of it. The pipe closes also where the parent
-is killed, so that no worker outlives it.
+Ctrl-C on a terminal reaches the workers too. They leave it to the parent, which kills them: even
+one that is still starting, which would complain at length that its parent has gone. A parent that
+is killed itself closes its end of a pipe, and workers whose pipe is closed end, so that none
+outlives it.
+
+In the parent an interrupt waits while it is inside the pool: in the midst of `concurrent.futures`
+it might leave a lock held, and then who waits for that lock would wait for ever.
 """
 
 from __future__ import annotations
@@ -19,10 +22,10 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
-from threading import Lock, Thread
+from threading import Lock, Thread, current_thread, main_thread
 from typing import Any
 
-__all__ = ["worker_processes"]
+__all__ = ["interrupts_wait", "worker_processes"]
 
 _kept: tuple[Callable[[Any, Any], Any], Any]
 """What a worker works with."""
@@ -53,21 +56,46 @@ def worker_processes(
         )
 
         def submit(piece: Any) -> Future[Any]:
-            with _interrupts_held():  # a process starts as there is work for it
+            with interrupts_wait(), _interrupts_blocked():  # a process starts as there is work
                 return pool.submit(_do, piece)
 
         try:
             yield submit
         except BaseException:
-            hold.close()
+            with interrupts_wait():
+                _kill(pool)
             raise
         finally:
-            pool.shutdown(cancel_futures=True)
+            with interrupts_wait():
+                pool.shutdown(cancel_futures=True)
 
 
 @contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """Let an interrupt wait: a process that starts meanwhile never takes one."""
+def interrupts_wait() -> Iterator[None]:
+    """Let an interrupt (Ctrl-C) wait until the block is done; other threads never get one."""
+    before = signal.getsignal(signal.SIGINT)
+    if current_thread() is not main_thread() or not callable(before):
+        yield
+        return
+    came = False
+
+    def note(*_: object) -> None:
+        nonlocal came
+        came = True
+
+    # A mask would not do: the signal may be delivered to any thread, such as those of a BLAS.
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if came:
+            signal.raise_signal(signal.SIGINT)
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Block interrupts for the processes that start meanwhile: they never take one."""
     if not hasattr(signal, "pthread_sigmask"):  # not on Windows
         yield
         return
@@ -79,6 +107,18 @@ def _interrupts_held() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _kill(pool: ProcessPoolExecutor) -> None:
+    """End the workers in the middle of whatever they do, so that the pool finds itself broken."""
+    results = getattr(pool, "_result_queue", None)
+    if results is not None:
+        # Of a result that is cut off the pool would wait for the rest, as long as anybody might
+        # still write it.
+        results._writer.close()  # noqa: SLF001
+    # A public way to do so comes with Python 3.14.
+    for process in [*(getattr(pool, "_processes", None) or {}).values()]:
+        process.kill()
 
 
 def _begin(listen: Connection, task: Callable[[Any, Any], Any], shared: Any) -> None:
