@@ -274,3 +274,11 @@ def test_a_league_that_nobody_ever_joins_is_told_without_numbers(run, tmp_path):
     found = run("simulate", "-", *FEW, "--weeks", "4", "--out", str(tmp_path / "o"), stdin=text)
     assert found.exit_code == 0
     assert "error_sd" not in found.stdout
+
+
+def test_one_season_has_no_standard_errors(run, terminal, tmp_path, no_pictures):
+    asked = ("simulate", ROSTER, "--replicas", "1", "--out", str(tmp_path / "out"))
+    result = run(*asked, "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["standard_errors"] == {}
+    assert "±" not in terminal(*asked).stdout

@@ -178,8 +178,11 @@ def weeks_frame(tally: Tally) -> pd.DataFrame:
 
 
 def weeks_with_players(weeks: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of `weeks_frame` in which there is anybody in the league."""
-    return weeks[weeks["players"] > 0]
+    """Return the rows of `weeks_frame` in which there is anybody in the league, as plain floats.
+
+    A row with whole numbers that may be missing would hold `NA` for an error that is not known.
+    """
+    return weeks[weeks["players"] > 0].astype(float)
 
 
 def fairness_frame(season: Season, tally: Tally) -> pd.DataFrame:
