@@ -157,3 +157,13 @@ def test_matches_are_counts_or_not_stated(tmp_path):
     with pytest.raises(DataError) as caught:
         read_roster(path)
     assert len(caught.value.problems) == 2
+
+
+def test_the_columns_of_a_season_are_no_surprise_but_a_misspelt_one_is(tmp_path):
+    path = tmp_path / "roster.csv"
+    path.write_text(
+        "player,rating,skill,strength,day_sd,drift,joins,leaves,absence,absense\n"
+        "Ann,92,90,91,4,0,1,9,0.1,0.1\n",
+        encoding="utf-8",
+    )
+    assert read_roster(path).warnings == (f"{path}: columns not used: 'absense'",)

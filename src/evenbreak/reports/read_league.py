@@ -13,24 +13,21 @@ from evenbreak.league.players import ESTABLISHED, LeaguePlayers
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.reports.cells import numbers, whole_numbers
 from evenbreak.reports.problems import Problems
-from evenbreak.reports.read_roster import LARGEST, OPTIONAL, REQUIRED, WRITTEN, roster_of
+from evenbreak.reports.read_roster import (
+    LARGEST,
+    LEAGUE,
+    OPTIONAL,
+    REQUIRED,
+    WRITTEN,
+    roster_of,
+)
 from evenbreak.reports.read_schedule import LAST_WEEK
 from evenbreak.reports.read_table import Table, read_table
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["LEAGUE", "LeagueFile", "read_league"]
-
-LEAGUE = {
-    "skill": ("true skill", "true rating", "strength"),
-    "day_sd": ("day", "day fluctuation", "form"),
-    "drift": ("points a week", "improves by"),
-    "joins": ("first week", "joins in week"),
-    "leaves": ("last week", "leaves after week"),
-    "absence": ("absent", "p absent"),
-}
-"""The columns that a league's roster may have beside those of a roster, with their other names."""
+__all__ = ["LeagueFile", "read_league"]
 
 FARTHEST = 10_000
 """The largest rating or skill that is simulated, in points."""

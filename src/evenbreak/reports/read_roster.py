@@ -19,7 +19,7 @@ from evenbreak.reports.similar_names import similar_names
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["OPTIONAL", "REQUIRED", "WRITTEN", "RosterFile", "read_roster", "roster_of"]
+__all__ = ["LEAGUE", "OPTIONAL", "REQUIRED", "WRITTEN", "RosterFile", "read_roster", "roster_of"]
 
 REQUIRED = {
     "player": ("name", "player name", "full name"),
@@ -44,6 +44,16 @@ WRITTEN = dict.fromkeys(
     (),
 )
 """What the lists that `evenbreak rate` and `evenbreak report` write say besides."""
+
+LEAGUE = {
+    "skill": ("true skill", "true rating", "strength"),
+    "day_sd": ("day", "day fluctuation", "form"),
+    "drift": ("points a week", "improves by"),
+    "joins": ("first week", "joins in week"),
+    "leaves": ("last week", "leaves after week"),
+    "absence": ("absent", "p absent"),
+}
+"""The columns that a season is simulated by, with their other names; else they are passed over."""
 
 LARGEST = 1e6
 """The largest rating or error that is taken for one, in points."""
@@ -101,7 +111,9 @@ def read_roster(path: str | Path) -> RosterFile:
     >>> club.players, club.rating, club.games
     (('Ann', 'Bo'), array([92.5,  nan]), array([140,   0]))
     """
-    return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN}))
+    # Each name by itself: two columns of a season that mean the same matter only to it.
+    seasons = {name: () for known, others in LEAGUE.items() for name in (known, *others)}
+    return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **seasons}))
 
 
 def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
