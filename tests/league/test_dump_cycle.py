@@ -51,3 +51,13 @@ def test_best_of_several_lengths_and_no_length():
     assert best_cycle(ladder, [3], dumped_stake=100.0).dumped == 0
     with pytest.raises(InputError, match="lengths"):
         best_cycle(ladder, [])
+
+
+def test_the_honest_do_not_win_half_by_steps_that_give_more_than_they_take():
+    # Up 2, down 1: a rating stands still for who wins a third of all matches.
+    ladder = Ladder("step 2 1", widest=120)
+    assert dump_cycle(ladder, 0, 5).profit == pytest.approx(0.0, abs=1e-9)
+    cycle = dump_cycle(ladder, 3, 7, stake=4.0, dumped_stake=1.0)
+    assert 7 * cycle.p_win == pytest.approx(10 / 3, abs=1e-6)
+    # Of ten matches he wins as many as the honest player, all of them in earnest.
+    assert cycle.profit == pytest.approx((4.0 - 1.0) * 3 / 3 / 10, abs=1e-6)

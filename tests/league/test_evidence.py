@@ -6,7 +6,14 @@ from math import comb
 import numpy as np
 import pytest
 
-from evenbreak.league.evidence import DEPTHS, SHARES, SHARES_MARKED, WIDEST, Likelihood, Result
+from evenbreak.league.evidence import (
+    DEPTHS,
+    FARTHEST,
+    SHARES,
+    SHARES_MARKED,
+    Likelihood,
+    Result,
+)
 from evenbreak.league.watch import watch_player
 from evenbreak.ratings.scale import SCALES
 from evenbreak.stats.summary import Distribution
@@ -68,7 +75,7 @@ def seasons():
         yield results, first[1] * second[1]
 
 
-@pytest.mark.parametrize("skill", [-60, -25, 0, 8, 40])
+@pytest.mark.parametrize("skill", [-180, -60, -25, 0, 8, 40])
 @pytest.mark.parametrize("shares", [SHARES, SHARES_MARKED])
 def test_its_mean_is_at_most_1_whatever_the_honest_skill(skill, shares):
     mean = 0.0
@@ -77,7 +84,7 @@ def test_its_mean_is_at_most_1_whatever_the_honest_skill(skill, shares):
             [chance(one.games, 80 + skill - one.opponent) for one in results]
         )
         mean += probability * np.exp(watch_player(80, results, ERRS, shares=shares)[0][-1])
-    assert 0.05 < mean <= 1.0 + 1e-12
+    assert 0.001 < mean <= 1.0 + 1e-12
 
 
 def test_its_mean_is_1_over_established_players():
@@ -122,7 +129,7 @@ def test_e_against_plain_loops():
                 for t, one in enumerate(results)
             ]
         )
-        for x in range(-WIDEST, WIDEST + 1)
+        for x in range(-FARTHEST, FARTHEST + 1)
         for g in (-0.25, 0.0, 0.25, 0.5)
     )
     assert np.exp(watch_player(start, results, ERRS)[0][-1]) == pytest.approx(total / best)
@@ -134,3 +141,43 @@ def test_a_thousand_matches_stay_finite():
     assert np.isfinite(log_e).all()
     assert np.isfinite(established).all()
     assert log_e[-1] > 100.0
+
+
+def test_a_hopeless_beginner_is_no_sandbagger():
+    # 140 points below his rating and beaten to nothing in all matches, all of which are marked.
+    results = [Result(80, (0, 5), (5, 5), won=False)] * 60
+    assert watch_player(80, results, ERRS, shares=SHARES_MARKED)[0].max() < 0.0
+
+
+def test_scores_too_unlikely_for_a_float_weigh_nothing():
+    _, feigned = ERRS.of((119, 120), (120, 120), won=False, first=-400, last=900)
+    assert np.isfinite(feigned).all()
+    assert feigned[-1] == 0.0 < feigned[400]
+
+
+def test_the_form_of_the_day_is_averaged_over():
+    form = 5.0
+    known = Likelihood(NPL, LAW, form)
+    rng = np.random.default_rng(4)
+    # His own form and the opponent's, each rounded to whole points.
+    mine, theirs = (np.rint(rng.normal(0.0, form, 20_000)).astype(int) for _ in range(2))
+    each = np.array([chance((5, 2), 7 + apart) for apart in range(-60, 61)])[mine - theirs + 60]
+    expected = known.of((5, 2), (5, 5), won=True, first=7, last=7)[0][0]
+    assert abs(each.mean() - expected) < 4.5 * each.std() / 20_000**0.5
+    assert expected != pytest.approx(chance((5, 2), 7), rel=1e-4)
+    assert known.error.tolist() == ERRS.error.tolist()
+
+
+def test_its_mean_is_1_over_established_players_of_varying_form():
+    varying = Likelihood(NPL, LAW, 20.0)
+    mean = 0.0
+    for results, ways in seasons():
+        probability = 0.0
+        for e, w in zip(LAW.values, LAW.probability, strict=True):
+            term = float(w)
+            for one in results:
+                at = 80 - int(e) - one.opponent
+                term *= varying.of(one.games, one.race, won=one.won, first=at, last=at)[0][0]
+            probability += term
+        mean += ways * probability * np.exp(watch_player(80, results, varying)[1][-1])
+    assert mean == pytest.approx(1.0, abs=1e-12)

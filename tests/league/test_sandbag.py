@@ -10,7 +10,13 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import CHARTS, Ladder, chart, system_of
-from evenbreak.league.sandbag import dumped_matrix, earnest_matrix, entering_low, sandbagging
+from evenbreak.league.sandbag import (
+    dumped_matrix,
+    earnest_matrix,
+    entering_low,
+    most_dumped,
+    sandbagging,
+)
 from evenbreak.matches import race_win_probability
 
 NPL = [name for name in CHARTS if name.startswith("npl")]
@@ -148,3 +154,21 @@ def test_a_player_who_drifts_is_refused():
     with pytest.raises(InputError, match="drift"):
         sandbagging(Ladder("npl", drift=0.1, widest=120))
     assert replace(system_of("npl")).newcomer_steps
+
+
+@pytest.mark.parametrize(("system", "start"), [("npl", 0), ("step 3", -30), ("margin", 5)])
+def test_most_dumped_is_as_far_as_the_ladder_goes(system, start):
+    wide = Ladder(system, widest=120)
+    most = most_dumped(wide, start)
+    assert sandbagging(wide, dumped=most, earnest=1, start=start).rows[-1].dumped == most
+    with pytest.raises(InputError, match="wider ladder"):
+        sandbagging(wide, dumped=most + 1, earnest=1, start=start)
+
+
+def test_the_cheapest_row_is_that_of_the_smallest_stakes():
+    found = sandbagging(ladder(), dumped=14, earnest=20)
+    assert found.cheapest.dumped == 9
+    assert all(row.break_even >= found.cheapest.break_even for row in found.rows)
+    # So far down that more changes nothing: no extra win, and no stakes from which it pays.
+    low = sandbagging(ladder(), dumped=10, earnest=5, start=-100).rows[10]
+    assert (low.extra_wins, low.break_even) == (0.0, float("inf"))

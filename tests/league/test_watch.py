@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from evenbreak.errors import InputError
+from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps import Ladder, chart, system_of
 from evenbreak.league.nights import played_nights
 from evenbreak.league.watch import Watched, watch
@@ -88,3 +88,17 @@ def test_e_is_held_where_a_float_ends():
     one = Watched("Ann", rows, rows > 0, e, e, "any", 0.01)
     assert math.isfinite(one.e_value)
     assert one.p_value > 0.0
+
+
+def test_the_form_of_the_day_is_no_sandbagging():
+    told = watched(day_sd=60.0)["Bo"]
+    assert told.log_e.max() < watched()["Bo"].log_e.max()
+    with pytest.raises(InputError, match="day_sd is 500"):
+        watched(day_sd=500.0)
+
+
+def test_ratings_on_another_scale_are_refused():
+    club = Roster(["Ann", "Bo"], [80, 20_000])
+    results = Results.from_names(["Ann"], ["Bo"], [50], [0], race_a=[50], race_b=[50])
+    with pytest.raises(AccuracyError, match=r"'Ann': .* on the scale of the system"):
+        watch(played_nights(NPL, club, results), NPL, LAW)

@@ -14,7 +14,17 @@ if TYPE_CHECKING:
     from evenbreak.handicaps.ladder import Ladder
     from evenbreak.handicaps.systems import System
 
-__all__ = ["between", "found_chart", "found_system", "wants_chart", "wants_system", "wide_ladder"]
+__all__ = [
+    "DOUBLINGS",
+    "between",
+    "found_chart",
+    "found_system",
+    "wants_chart",
+    "wants_day_sd",
+    "wants_system",
+    "watched_ladder",
+    "wide_ladder",
+]
 
 DOUBLINGS = 4
 """How far a rating may be off: to where the odds of a game are 16 to 1."""
@@ -50,6 +60,17 @@ def between(low: float, high: float) -> Callable[..., float | None]:
     return read
 
 
+wants_day_sd: Callable[[Command], Command] = click.option(
+    "--day-sd",
+    default="0",
+    show_default=True,
+    metavar="POINTS",
+    callback=between(0.0, 10_000.0),
+    help="How much the form of honest players varies from day to day.",
+)
+"""The option --day-sd."""
+
+
 def found_system(name: str) -> System:
     """Return the system of this name, or refuse it."""
     from evenbreak.errors import InputError
@@ -70,6 +91,17 @@ def found_chart(name: str) -> Chart:
     if not isinstance(found, Chart):
         refuse(f"--chart {name!r} is a chart of skill levels; give one of rating differences")
     return found
+
+
+def watched_ladder(system: System, chart: Chart | None, day_sd: float) -> Ladder:
+    """Return the ladder whose law of rating errors the watch goes by, or refuse such a form."""
+    from evenbreak.errors import InputError
+    from evenbreak.handicaps.ladder import Ladder
+
+    try:
+        return Ladder(system, chart, day_sd=day_sd)
+    except InputError as error:
+        refuse(f"--{str(error).replace('_', '-', 1)}")
 
 
 def wide_ladder(system: System, chart: Chart | None) -> Ladder:

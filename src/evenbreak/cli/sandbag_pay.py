@@ -8,9 +8,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from evenbreak.cli.options import Whole, refuse, wants_json
-from evenbreak.cli.output import SCHEMA_VERSION, paragraphs, print_json, print_table, to_terminal
+from evenbreak.cli.output import (
+    SCHEMA_VERSION,
+    paragraphs,
+    print_json,
+    print_table,
+    say,
+    to_terminal,
+)
 from evenbreak.cli.plot import plot_option, write_plot
 from evenbreak.cli.sandbag_options import (
+    DOUBLINGS,
     between,
     found_chart,
     found_system,
@@ -60,11 +68,14 @@ class _Question(NamedTuple):
 
 
 class _Answer(NamedTuple):
-    """What was found for one chart: by matches dumped, for ever, and for who enters low."""
+    """What was found for one chart: by matches dumped, for ever, and for who enters low.
+
+    `pays` is what is shown; `all_pays` goes as far as the ladder does.
+    """
 
     ladder: Ladder
     pays: Sandbagging
-    best: DumpRow
+    all_pays: Sandbagging
     cycle: DumpCycle | None
     enters: dict[str, float]
 
@@ -171,21 +182,31 @@ def sandbag_pay(
 
 def _answer(ladder: Ladder, question: _Question, *, for_ever: bool = True) -> _Answer:
     from evenbreak.league.dump_cycle import best_cycle
-    from evenbreak.league.sandbag import entering_low, sandbagging
+    from evenbreak.league.sandbag import entering_low, most_dumped, sandbagging
 
     stakes = {"stake": question.stake, "dumped_stake": question.dumped_stake}
     asked = question._asdict()
-    pays = sandbagging(ladder, **asked)
     # The best may lie beyond the table; as far as the ladder goes.
-    room = (ladder.widest + question.start) // max(-int(ladder.steps.min()), 1) - 1
-    best = sandbagging(ladder, **{**asked, "dumped": max(room, question.dumped)}).best
+    most = most_dumped(ladder, question.start)
+    if not most:
+        refuse(
+            f"--system {ladder.system.name}: a match lost takes the rating to where the odds of "
+            f"a game are {2**DOUBLINGS} to 1 or more; give smaller steps, or --from a higher rating"
+        )
+    if question.dumped > most:
+        say(
+            f"{ladder.chart.name}: so far off that the odds of a game are {2**DOUBLINGS} to 1, "
+            f"nobody falls further; dumped is {most} at most"
+        )
+    pays = sandbagging(ladder, **{**asked, "dumped": min(question.dumped, most)})
+    all_pays = sandbagging(ladder, **{**asked, "dumped": most})
     doubling = round(ladder.system.scale.points_per_doubling)
     low = {"established": entering_low(ladder, doubling, question.earnest)[-1]}
     if ladder.system.newcomer_steps:
         low["newcomer"] = entering_low(ladder, doubling, question.earnest, newcomer=True)[-1]
     # It takes a while, and a comparison does not tell it.
     cycle = best_cycle(ladder, [10], lowest=-float(doubling), **stakes) if for_ever else None
-    return _Answer(ladder, pays, best, cycle, {name: float(wins) for name, wins in low.items()})
+    return _Answer(ladder, pays, all_pays, cycle, {name: float(wins) for name, wins in low.items()})
 
 
 def _print(found: _Answer, question: _Question) -> None:
@@ -222,26 +243,27 @@ def _heading(found: _Answer, question: _Question) -> str:
 
 
 def _sentences(found: _Answer, question: _Question) -> list[str]:
-    best, cycle = found.best, found.cycle
+    best, cycle = found.all_pays.best, found.cycle
     doubling = round(found.ladder.system.scale.points_per_doubling)
     told = [
         f"Most profit: {best.dumped} dumped, for {best.profit:.2f}."
         if best.dumped
         else "At these stakes none pays.",
     ]
-    least = min(found.pays.rows, key=lambda row: row.break_even)
+    least = found.all_pays.cheapest
     if math.isfinite(least.break_even):
         told.append(
             f"The {question.earnest} matches bring a profit only if one is worth at least "
             f"{least.break_even:.2f} times as much in earnest as where it is dumped; that is with "
             f"{least.dumped} dumped."
         )
-    if cycle is not None and cycle.dumped:
+    if cycle is not None and cycle.dumped and cycle.profit > 0.0:
         told.append(
             f"For ever, dumping {cycle.dumped} of each {cycle.dumped + cycle.earnest}: rated "
             f"{-cycle.rating_error:.1f} points too low as he begins in earnest, he wins "
-            f"{cycle.p_win:.4f} of those matches, a profit of {cycle.profit:.2f} a match. It is "
-            f"the best for who dares to be {doubling} points off."
+            f"{cycle.p_win:.4f} of those matches, a profit of {cycle.profit:.2f} a match. Of "
+            f"cycles of {cycle.dumped + cycle.earnest} it is the best for who dares to be "
+            f"{doubling} points off."
         )
     steps = (
         f", {found.enters['newcomer']:.2f} with newcomer steps"
@@ -259,12 +281,12 @@ def _print_comparison(found: list[_Answer], question: _Question, *, as_json: boo
     rows = [
         {
             "chart": one.ladder.chart.name,
-            "dumped": one.best.dumped,
-            "p_first": one.best.p_first,
-            "p_in_a_row": one.best.p_in_a_row,
-            "extra_wins": one.best.extra_wins,
-            "break_even": _finite(min(row.break_even for row in one.pays.rows)),
-            "profit": one.best.profit,
+            "dumped": one.all_pays.best.dumped,
+            "p_first": one.all_pays.best.p_first,
+            "p_in_a_row": one.all_pays.best.p_in_a_row,
+            "extra_wins": one.all_pays.best.extra_wins,
+            "break_even": _finite(one.all_pays.cheapest.break_even),
+            "profit": one.all_pays.best.profit,
             "enters_low": one.enters["established"],
         }
         for one in found
@@ -294,7 +316,7 @@ def _print_comparison(found: list[_Answer], question: _Question, *, as_json: boo
         left=1,
     )
     if to_terminal():
-        least = min(found, key=lambda one: one.best.profit)
+        least = min(found, key=lambda one: one.all_pays.best.profit)
         click.echo(f"\nLeast worth gaming at these stakes: {least.ladder.chart.name}.")
 
 
@@ -321,11 +343,12 @@ def _text(name: str, value: Any) -> str:
 
 
 def _as_json(found: _Answer) -> dict[str, Any]:
+    best = found.all_pays.best
     return {
         "chart": found.ladder.chart.name,
         "system": found.ladder.system.name,
         "rows": [dict(zip(row._fields, _plain(row), strict=True)) for row in found.pays.rows],
-        "best": dict(zip(found.best._fields, _plain(found.best), strict=True)),
+        "best": dict(zip(best._fields, _plain(best), strict=True)),
         "p_win": found.pays.p_win.tolist(),
         "p_honest": found.pays.p_honest.tolist(),
         "cycle": None if found.cycle is None else found.cycle._asdict(),

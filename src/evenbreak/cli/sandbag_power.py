@@ -14,7 +14,9 @@ from evenbreak.cli.sandbag_options import (
     found_chart,
     found_system,
     wants_chart,
+    wants_day_sd,
     wants_system,
+    watched_ladder,
 )
 
 if TYPE_CHECKING:
@@ -90,6 +92,7 @@ Examples:
     show_default=True,
     help="Who counts as honest: players of any skill, or those rated as rightly as ratings are.",
 )
+@wants_day_sd
 @click.option(
     "--replicas",
     type=Whole(2, 100_000),
@@ -109,20 +112,21 @@ def sandbag_power(
     share: float | None,
     points: int | None,
     matches: int,
+    day_sd: float,
     as_json: bool,
     **asked: Any,
 ) -> None:
     """Tell how soon the watch sees a sandbagger.
 
-    Players who sandbag more or less are simulated, each rated rightly at first, and watched.
+    Players who sandbag more or less are simulated, each rated at first as rightly as the
+    ladder rates, and watched.
     """
-    from evenbreak.handicaps.ladder import Ladder
     from evenbreak.league.watch_power import watch_power
 
     if points is not None and share is None:
         refuse("--points is of the matches that he dumps; give their --share")
     chart = None if chart_name is None else found_chart(chart_name)
-    ladder = Ladder(found_system(system_name), chart)
+    ladder = watched_ladder(found_system(system_name), chart, day_sd)
     size = ladder.system.scale.points_per_doubling / 30.0
     several = [(part, None if low is None else round(low * size)) for part, low in KINDS]
     kinds = several if share is None else [(0.0, None), (share, points)]

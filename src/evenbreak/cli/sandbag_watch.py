@@ -23,7 +23,9 @@ from evenbreak.cli.sandbag_options import (
     found_chart,
     found_system,
     wants_chart,
+    wants_day_sd,
     wants_system,
+    watched_ladder,
 )
 
 if TYPE_CHECKING:
@@ -91,6 +93,7 @@ Examples:
     metavar="EVENT",
     help="An event that counts for little: only its matches may be dumped. May be repeated.",
 )
+@wants_day_sd
 @click.option("--player", metavar="NAME", help="Show what each match of one player weighs.")
 @wants_aliases
 @plot_option
@@ -104,6 +107,7 @@ def sandbag_watch(
     alpha: float,
     honest: str,
     events: tuple[str, ...],
+    day_sd: float,
     player: str | None,
     aliases: str | None,
     plot: str | None,
@@ -115,7 +119,6 @@ def sandbag_watch(
     ROSTER.csv on, night by night. The evidence e of a player grows with results that a sandbagger
     has more often than an honest player; at 1 / alpha he is flagged. It is evidence, no verdict.
     """
-    from evenbreak.handicaps.ladder import Ladder
     from evenbreak.league.watch import watch
     from evenbreak.reports.read_results import read_results
     from evenbreak.reports.read_roster import read_roster
@@ -125,13 +128,13 @@ def sandbag_watch(
         refuse("- stands for standard input, which only one file can be; name the others")
     system = found_system(system_name)
     chart = None if chart_name is None else found_chart(chart_name)
+    law = watched_ladder(system, chart, day_sd).law()
     first, season = read_roster(roster), read_results(results, aliases=aliases)
     for warning in (*first.warnings, *season.warnings):
         say(f"Warning: {warning}")
     marked = events_marked(season.results, events) if events else None
     nights = nights_of_files(system, first, season, chart=chart)
-    law = Ladder(system, chart).law()
-    found = watch(nights, system, law, alpha=alpha, honest=honest, marked=marked)
+    found = watch(nights, system, law, alpha=alpha, honest=honest, marked=marked, day_sd=day_sd)
     if player is not None:
         found = [one for one in found if one.player == player]
         if not found:

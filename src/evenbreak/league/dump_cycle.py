@@ -15,6 +15,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
@@ -22,6 +23,8 @@ from evenbreak.handicaps.ladder import Ladder
 from evenbreak.league.sandbag import dumped_matrix, earnest_matrix, start_law
 
 __all__ = ["DumpCycle", "best_cycle", "dump_cycle"]
+
+Floats = NDArray[np.float64]
 
 _HELD = 1e-6
 """A chance to be held at the ladder's lower end from which on a cycle has no limit above it."""
@@ -39,7 +42,8 @@ class DumpCycle(NamedTuple):
     p_win
         P(he wins a match in earnest), on average over those of a cycle.
     profit
-        a match, dumped ones counted, beyond a player who wins half of his matches.
+        a match, dumped ones counted, beyond a player who plays all of them in earnest, for ever:
+        he wins half of them, by rules that take as much as they give.
     held
         P(his rating lies at the lower end of the ladder as a match in earnest begins); above a
         millionth his rating would go further down, and the end, not the chart, decides.
@@ -78,26 +82,42 @@ def dump_cycle(
     (0.666667, -15.2, 1.125)
     """
     down, many = whole(dumped, "dumped"), whole(earnest, "earnest", at_least=1)
-    step, dump = earnest_matrix(ladder), dumped_matrix(ladder)
-    played = np.linalg.matrix_power(step, many)
-    cycle = played @ np.linalg.matrix_power(dump, down)
-    # The cycle may have a period; that of cycle and standstill by turns has none, and the
+    return _cycle(ladder, down, many, stake, dumped_stake, _honest_wins(ladder))
+
+
+def _honest_wins(ladder: Ladder) -> float:
+    """Return P(a player who never dumps wins) in the long run."""
+    return float(ladder.wins @ _limit(earnest_matrix(ladder), start_law(ladder, 0)))
+
+
+def _limit(chain: Floats, start: Floats) -> Floats:
+    """Return the stochastic limit of a column-stochastic chain from a start."""
+    # The chain may have a period; that of chain and standstill by turns has none, and the
     # same limit. Squared, it forgets its start with the 2^k-th power of its second eigenvalue.
-    lazy = (cycle + np.eye(cycle.shape[0])) / 2.0
+    lazy = (chain + np.eye(chain.shape[0])) / 2.0
     for _ in range(40):
         squared = lazy @ lazy
         squared /= squared.sum(axis=0)
         if np.abs(squared - lazy).max() < 1e-12:
             break
         lazy = squared
-    law = np.linalg.matrix_power(dump, down) @ (lazy @ start_law(ladder, 0))
+    return np.asarray(lazy @ start)
+
+
+def _cycle(
+    ladder: Ladder, down: int, many: int, stake: float, dumped_stake: float, honest: float
+) -> DumpCycle:
+    """Return a cycle's long run, against an honest player who wins so often."""
+    step = earnest_matrix(ladder)
+    dump = np.linalg.matrix_power(dumped_matrix(ladder), down)
+    law = dump @ _limit(np.linalg.matrix_power(step, many) @ dump, start_law(ladder, 0))
     errors, wins = np.asarray(ladder.errors, dtype=float), np.asarray(ladder.wins)
     first, won, held = float(law @ errors), 0.0, 0.0
     for _ in range(many):
         won += float(wins @ law) / many
         held += float(law[0]) / many
         law = step @ law
-    gain = stake * many * (won - 0.5) - dumped_stake * down / 2.0
+    gain = stake * many * (won - honest) - dumped_stake * down * honest
     return DumpCycle(down, many, first, won, gain / (down + many), held)
 
 
@@ -136,8 +156,9 @@ def best_cycle(
     listed = [whole(length, "lengths", at_least=1) for length in lengths]
     if not listed:
         raise InputError("lengths is empty; give the matches of a cycle, such as 10")
+    honest = _honest_wins(ladder)
     found = [
-        dump_cycle(ladder, down, length - down, stake=stake, dumped_stake=dumped_stake)
+        _cycle(ladder, down, length - down, stake, dumped_stake, honest)
         for length in sorted(set(listed))
         for down in range(length)
     ]

@@ -2,7 +2,8 @@
 
 Sandbagging: in a share s of his matches, nobody knows which, the player plays d points below a
 constant skill, or loses on purpose with the score of an honest defeat; s, d and the skill are
-mixed over. Opponents' skills differ from their ratings by independent errors of a known law.
+mixed over. Opponents' skills differ from their ratings by independent errors of a known law, and
+on the day all are better or worse than their skills by a normal deviation of a known size.
 With L_t(x) the chance of the t-th result at skill x, and w a law of the skill,
 
     e_t = mean over s, d of [sum over x of w(x) prod (1 - s) L_t(x) + s L_t(x - d)] / honest
@@ -29,12 +30,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.errors import AccuracyError
+from evenbreak.handicaps.fluctuation import difference_law
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.stats.summary import Distribution
 
 __all__ = [
     "DEPTHS",
+    "FARTHEST",
     "GAINS",
     "HONEST",
     "SHARES",
@@ -60,7 +64,10 @@ AHEAD = (0, 15, 30)
 HONEST = ("any", "established")
 """Which players count as honest: of any skill, or rated as rightly as the ladder rates."""
 WIDEST = 60
-"""The largest rating error at the start, in points, that an honest player may have."""
+"""The largest rating error at the start, in points, of a sandbagger or an established player."""
+FARTHEST = WIDEST + max(DEPTHS)
+"""The same of an honest player of any skill: as far as a sandbagger sinks, or a hopeless beginner
+would look like one who dumps most of his matches."""
 
 
 _UNITS = SCALES["npl"]
@@ -112,7 +119,10 @@ class Likelihood:
     scale
         what a difference of skill means for a game.
     error
-        the law of an opponent's rating less his skill, in points of the scale.
+        the law of a player's rating less his skill, in points of the scale.
+    day_sd
+        how far each player's form of the day is from his skill: one standard deviation, in points
+        of the scale, drawn for each match.
 
     >>> from evenbreak.ratings.scale import SCALES
     >>> even = Likelihood(SCALES["npl"], Distribution((0,), (1.0,)))
@@ -121,13 +131,13 @@ class Likelihood:
     (True, 0.0)
     """
 
-    def __init__(self, scale: Scale, error: Distribution) -> None:
+    def __init__(self, scale: Scale, error: Distribution, day_sd: float = 0.0) -> None:
         self.scale = scale
-        values = [units(float(value), scale) for value in error.values]
-        self.least = min(values)
-        self.weights = np.zeros(max(values) - self.least + 1)
-        for value, chance in zip(values, error.probability, strict=True):
-            self.weights[value - self.least] += float(chance)
+        self.error, lowest = _law_in_units(error, scale)
+        size = _UNITS.points_per_doubling / scale.points_per_doubling
+        form = difference_law(day_sd * size)
+        self.lowest, self.least = lowest, lowest - len(form) // 2
+        self.weights = np.convolve(self.error, form)
 
     def of(
         self,
@@ -158,8 +168,11 @@ class Likelihood:
         p, q = _UNITS.win_probability(points), _UNITS.win_probability(-points)
         beaten = np.ones_like(p) if race is None else race_win_probability(q, *race[::-1])
         chance = self._chance(p, q, games, race, won=won)
-        # A defeat of which nobody knows how likely it was weighs no more than honest play.
-        feigned = np.zeros_like(p) if won else chance / beaten
+        # A defeat of which nobody knows how likely it was weighs no more than honest play, and
+        # one too unlikely for a float nothing: so e is never too large.
+        feigned = np.zeros_like(p)
+        if not won:
+            np.divide(chance, beaten, out=feigned, where=beaten > 0.0)
         return self._mixed(chance), self._mixed(feigned)
 
     def _chance(
@@ -184,6 +197,14 @@ class Likelihood:
         return np.correlate(chance, self.weights, "valid")
 
 
+def _law_in_units(error: Distribution, scale: Scale) -> tuple[Floats, int]:
+    """Return a law of points in the points told here, and the least of them."""
+    values = np.array([units(float(value), scale) for value in error.values])
+    chances = np.array([float(chance) for chance in error.probability])
+    lowest = int(values.min())
+    return np.bincount(values - lowest, weights=chances), lowest
+
+
 class Evidence:
     """The evidence against several players at once, match by match.
 
@@ -191,7 +212,7 @@ class Evidence:
     ----------
     prior
         the law of a rightly watched player's skill at the start, shape (players, skills):
-        the skills are whole points from -WIDEST to WIDEST about any rating.
+        the skills are whole points from -WIDEST to WIDEST about his rating.
     shares
         shares of the matches that are not played in earnest, those to be mixed over.
     kinds
@@ -199,16 +220,16 @@ class Evidence:
 
     Notes
     -----
-    The arrays `drifting` (players, gains, skills), `steady` (players, skills) and `other`
-    (players, shares, kinds, skills) are what the results say of honest players of any skill, of
-    established ones and of sandbaggers. Each is scaled, with the logarithm of its scale kept
-    apart, so that nothing leaves the range of a float.
+    The arrays `drifting` (players, gains, skills from -FARTHEST to FARTHEST), `steady` (players,
+    skills) and `other` (players, shares, kinds, skills) are what the results say of honest players
+    of any skill, of established ones and of sandbaggers. Each is scaled, with the logarithm of its
+    scale kept apart, so that nothing leaves the range of a float.
     """
 
     def __init__(self, prior: Floats, shares: Sequence[float], kinds: int) -> None:
         players, skills = prior.shape
         self.shares = np.asarray(shares, dtype=float)[:, None, None]
-        self.drifting = np.ones((players, len(GAINS), skills))
+        self.drifting = np.ones((players, len(GAINS), 2 * FARTHEST + 1))
         self.steady = prior.copy()
         ahead = np.mean([_ahead(prior, points) for points in AHEAD], axis=0)
         shape = (players, len(shares), kinds, skills)
@@ -221,13 +242,19 @@ class Evidence:
         Parameters
         ----------
         drifting
-            the chance of the result, shape (players, gains, skills).
+            the chance of the result, shape (players, gains, 2 * FARTHEST + 1).
         kinds
             the chance of it in each way of dumping, shape (players, kinds, skills).
         marked
             whether it may have been dumped.
+
+        Raises
+        ------
+        AccuracyError
+            if the result is all but impossible at every skill.
         """
-        steady = drifting[:, GAINS.index(0.0)]
+        near = slice(FARTHEST - WIDEST, FARTHEST + WIDEST + 1)
+        steady = drifting[:, GAINS.index(0.0), near]
         earnest = steady[:, None, None, :]
         self.drifting = self.drifting * drifting
         self.steady = self.steady * steady
@@ -237,6 +264,11 @@ class Evidence:
         for name in _HELD:
             held = getattr(self, name)
             top = held.reshape(held.shape[0], -1).max(axis=1)
+            if not top.all():
+                raise AccuracyError(
+                    "a result is all but impossible by the ratings; check them, and whether "
+                    "they are on the scale of the system"
+                )
             setattr(self, name, held / top.reshape(-1, *[1] * (held.ndim - 1)))
             self._log[name] += np.log(top)
 

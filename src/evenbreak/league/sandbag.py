@@ -31,12 +31,14 @@ from evenbreak.handicaps.ladder_chain import move_matrix
 from evenbreak.handicaps.match_table import match_table
 from evenbreak.stats.summary import Distribution
 
-__all__ = ["DumpRow", "Sandbagging", "entering_low", "sandbagging"]
+__all__ = ["DumpRow", "Sandbagging", "entering_low", "most_dumped", "sandbagging"]
 
 Floats = NDArray[np.float64]
 
 _HELD = 1e-6
 """A chance to be held at the ladder's lower end from which on the end would decide."""
+_NOTHING = 1e-9
+"""Extra wins that are but roundings."""
 _MOST = 1000
 """Matches dumped, or played in earnest, that are looked at."""
 
@@ -102,6 +104,11 @@ class Sandbagging:
         """The row of the largest profit; of equal ones the one with the fewest dumped."""
         return max(self.rows, key=lambda row: (row.profit, -row.dumped))
 
+    @property
+    def cheapest(self) -> DumpRow:
+        """The row that pays from the smallest stakes in earnest; of equal ones the first."""
+        return min(self.rows, key=lambda row: row.break_even)
+
 
 def sandbagging(
     ladder: Ladder,
@@ -135,7 +142,7 @@ def sandbagging(
     in_a_row, prize
         a tournament that is won by so many matches in a row, all by the ratings with which
         the players came, and what it pays. It comes first of what is played in earnest and
-        moves no ratings.
+        moves no ratings. Each match is played in a form of its own.
 
     Raises
     ------
@@ -167,7 +174,7 @@ def sandbagging(
     step, down = earnest_matrix(ladder), dumped_matrix(ladder)
     honest = _laws(step, law, most + many)
     after = _laws(down, law, most + 1)
-    if after[-1, 0] > _HELD:
+    if after[-1] @ _at_the_end(ladder) > _HELD:
         raise InputError(
             f"dumped is {most}, which takes the rating to the ladder's end at {-ladder.widest}; "
             "give fewer, or a wider ladder"
@@ -180,6 +187,7 @@ def sandbagging(
     profit = stake * extra + prize * (row - honest[: most + 1] @ wins**streak) - dumped_stake * away
     # No match dumped is no difference; rounding may say otherwise.
     extra[0] = profit[0] = 0.0
+    extra[np.abs(extra) < _NOTHING] = 0.0
     return Sandbagging(
         tuple(
             DumpRow(
@@ -246,6 +254,22 @@ def entering_low(
     return np.cumsum(extra)
 
 
+def most_dumped(ladder: Ladder, start: int | Distribution = 0) -> int:
+    """Return how many matches can be dumped before the end of the ladder holds the rating.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> most_dumped(Ladder("npl", widest=120)), most_dumped(Ladder("step 3", widest=120), -30)
+    (119, 29)
+    """
+    law, down, last = start_law(ladder, start), dumped_matrix(ladder), _at_the_end(ladder)
+    # By one point or more a match the end is reached in so many; by none it never is.
+    for many in range(ladder.errors.size):
+        law = down @ law
+        if law @ last > _HELD:
+            return many
+    return int(ladder.errors.size)
+
+
 def start_law(ladder: Ladder, start: int | Distribution) -> Floats:
     """Return the probability of each of the ladder's errors.
 
@@ -285,7 +309,7 @@ def earnest_matrix(ladder: Ladder, factor: int = 1) -> Floats:
     InputError
         if the ladder's player drifts.
     """
-    _refuse_drift(ladder)
+    refuse_drift(ladder)
     return move_matrix(ladder, factor).T
 
 
@@ -298,18 +322,29 @@ def dumped_matrix(ladder: Ladder) -> Floats:
            [0., 0., 1.],
            [0., 0., 0.]])
     """
-    _refuse_drift(ladder)
-    table = match_table(ladder.system, ladder.chart, widest=int(ladder.errors[-1]))
-    lost = ~table.won & (table.games[..., 1] >= 0)
-    move = np.where(lost, table.moves[..., 0], np.iinfo(np.int64).max).min(axis=1)
+    refuse_drift(ladder)
     here = np.arange(ladder.errors.size)
-    there = here + move
+    there = here + _dumped_moves(ladder)
     matrix = np.zeros((here.size, here.size))
     matrix[np.where((there < 0) | (there >= here.size), here, there), here] = 1.0
     return matrix
 
 
-def _refuse_drift(ladder: Ladder) -> None:
+def _dumped_moves(ladder: Ladder) -> NDArray[np.int64]:
+    """Return by how much the most costly defeat moves each error."""
+    table = match_table(ladder.system, ladder.chart, widest=int(ladder.errors[-1]))
+    lost = ~table.won & (table.games[..., 1] >= 0)
+    return np.asarray(np.where(lost, table.moves[..., 0], np.iinfo(np.int64).max).min(axis=1))
+
+
+def _at_the_end(ladder: Ladder) -> NDArray[np.bool_]:
+    """Return which errors are the lowest, or are kept from falling by the ladder's end."""
+    here = np.arange(ladder.errors.size)
+    return np.asarray((here == 0) | (here + _dumped_moves(ladder) < 0))
+
+
+def refuse_drift(ladder: Ladder) -> None:
+    """Refuse a ladder on which the player's skill drifts."""
     if ladder.drift:
         raise InputError(f"the ladder's player drifts by {ladder.drift!r}; give one of drift 0")
 

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.checks import one_of
-from evenbreak.errors import InputError
+from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.systems import System
 from evenbreak.league.evidence import (
     DEPTHS,
+    FARTHEST,
     GAINS,
     HONEST,
     SHARES,
@@ -96,6 +97,7 @@ def watch(
     alpha: float = 0.01,
     honest: str = "any",
     marked: NDArray[np.bool_] | None = None,
+    day_sd: float = 0.0,
 ) -> list[Watched]:
     """Return what the results of a season weigh against each player, by name.
 
@@ -110,23 +112,30 @@ def watch(
     alpha
         for each honest player the chance that he is ever flagged, at most.
     honest
-        'any': the bound holds for every constant skill, and for those that change steadily
-        by -1/4 to 1/2 point a match. 'established': it holds on average over the errors that
+        'any': the bound holds for every constant skill within 180 points of the rating at the
+        start, and for those that change all the time by -1/4, 1/4 or 1/2 point a match (where 30
+        double the odds). 'established': it holds on average over the errors that
         the ladder gives a rating at the start, and sandbaggers are seen sooner; but honest
         players who are rated far wrongly or improve are flagged too.
     marked
         for each match whether it is one that may have been dumped; None: any may.
+    day_sd
+        how far the form of the day is from the skill, of all players: one standard deviation, in
+        points. Honest players whose form varies more than is said here are flagged too often.
 
     Raises
     ------
     InputError
-        if alpha is not above 0 and below 1, or honest is neither.
+        if alpha is not above 0 and below 1, honest is neither, or `day_sd` is out of range.
+    AccuracyError
+        if a result is all but impossible by the ratings.
 
     Notes
     -----
     The bound holds for each player by himself, and on average over the errors of his opponents'
-    ratings. Among N honest players at most N · alpha are flagged on average; at alpha / N the
-    chance that any is stays below alpha.
+    ratings, which are taken to be independent from match to match, of the law `error`; as is the
+    form of the day. Among N honest players at most N · alpha are flagged on average; at alpha / N
+    the chance that any is stays below alpha.
 
     >>> from evenbreak.handicaps import Ladder, chart, system_of
     >>> from evenbreak.league import played_nights
@@ -143,6 +152,9 @@ def watch(
     if not 0.0 < alpha < 1.0:
         raise InputError(f"alpha is {alpha!r}; give a number above 0 and below 1")
     one_of(honest, "honest", HONEST)
+    most = 4.0 * system.scale.points_per_doubling
+    if not 0.0 <= day_sd <= most:
+        raise InputError(f"day_sd is {day_sd!r}; give a number of points from 0 to {most:.0f}")
     shares = SHARES if marked is None else SHARES_MARKED
     results: dict[int, list[Result]] = {}
     rows: dict[int, list[int]] = {}
@@ -167,10 +179,13 @@ def watch(
                         may,
                     )
                 )
-    likelihood = Likelihood(system.scale, error)
+    likelihood = Likelihood(system.scale, error, day_sd)
     found = []
     for player in sorted(results, key=lambda place: names[place]):
-        both = watch_player(start[player], results[player], likelihood, shares=shares)
+        try:
+            both = watch_player(start[player], results[player], likelihood, shares=shares)
+        except AccuracyError as error:
+            raise AccuracyError(f"{names[player]!r}: {error}") from error
         won = np.array([result.won for result in results[player]])
         place = np.array(rows[player])
         found.append(Watched(names[player], place, won, *both, honest, alpha))
@@ -217,9 +232,12 @@ def watch_player(
     log_e = np.empty((2, len(results)))
     for place, result in enumerate(results):
         shift, (up, down) = rating - result.opponent, drift_room(place)
-        first = shift - WIDEST - max(DEPTHS) - down
         chances = likelihood.of(
-            result.games, result.race, won=result.won, first=first, last=shift + WIDEST + up
+            result.games,
+            result.race,
+            won=result.won,
+            first=shift - FARTHEST - down,
+            last=shift + FARTHEST + up,
         )
         drifting, kinds = at_skills(*chances, place)
         evidence.add(drifting[None], kinds[None], marked=result.marked)
@@ -230,8 +248,8 @@ def watch_player(
 def skill_prior(likelihood: Likelihood) -> Floats:
     """Return the law of skill less rating, shape (1, skills)."""
     prior = np.zeros((1, 2 * WIDEST + 1))
-    for place, weight in enumerate(likelihood.weights):
-        skill = -(place + likelihood.least)
+    for place, weight in enumerate(likelihood.error):
+        skill = -(place + likelihood.lowest)
         prior[0, min(max(skill, -WIDEST), WIDEST) + WIDEST] += weight
     return prior
 
@@ -248,21 +266,21 @@ def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floa
     Parameters
     ----------
     chance, feigned
-        at the differences from the lowest that is needed on, the last axis.
+        at the differences from -FARTHEST less the room to fall on, the last axis.
     place
         how many matches came before.
 
     Returns
     -------
-    arrays of shape (..., gains, skills) and (..., ways, skills)
+    arrays of shape (..., gains, 2 * FARTHEST + 1) and (..., ways, 2 * WIDEST + 1)
     """
-    base, many = max(DEPTHS) + drift_room(place)[1], 2 * WIDEST + 1
+    middle = FARTHEST + drift_room(place)[1]
 
-    def part(values: Floats, offset: int) -> Floats:
-        return values[..., base + offset : base + offset + many]
+    def part(values: Floats, offset: int, widest: int) -> Floats:
+        return values[..., middle + offset - widest : middle + offset + widest + 1]
 
-    drifting = [part(chance, round(gain * place)) for gain in GAINS]
-    kinds = [*(part(chance, -depth) for depth in DEPTHS), part(feigned, 0)]
+    drifting = [part(chance, round(gain * place), FARTHEST) for gain in GAINS]
+    kinds = [*(part(chance, -depth, WIDEST) for depth in DEPTHS), part(feigned, 0, WIDEST)]
     return np.stack(drifting, axis=-2), np.stack(kinds, axis=-2)
 
 

@@ -10,19 +10,20 @@ from numpy.typing import NDArray
 
 from evenbreak.checks import number_probability, one_of, whole
 from evenbreak.errors import InputError
+from evenbreak.handicaps.fluctuation import deviation_grid, difference_law
 from evenbreak.handicaps.ladder import Ladder
 from evenbreak.handicaps.match_table import match_table
 from evenbreak.league.evidence import (
     DEPTHS,
+    FARTHEST,
     HONEST,
     SHARES,
     SHARES_MARKED,
-    WIDEST,
     Evidence,
     Likelihood,
     units,
 )
-from evenbreak.league.sandbag import start_law
+from evenbreak.league.sandbag import refuse_drift, start_law
 from evenbreak.league.watch import at_skills, drift_room, skill_prior
 
 __all__ = ["WatchPower", "watch_power"]
@@ -90,7 +91,8 @@ def watch_power(
     Parameters
     ----------
     ladder
-        by which ratings move; its chart gives the races.
+        by which ratings move; its chart gives the races. The form of all players varies from
+        match to match by its `day_sd` and `match_sd`, and the watch knows by how much.
     share
         P(he dumps a match that he may dump); 0 for honest players, whose part flagged is at
         most alpha.
@@ -116,7 +118,7 @@ def watch_power(
     Raises
     ------
     InputError
-        if a number is out of range.
+        if a number is out of range, or the ladder's player drifts.
 
     >>> from evenbreak.handicaps import Ladder
     >>> found = watch_power(Ladder("npl"), share=0.5, matches=40, replicas=100)
@@ -128,6 +130,7 @@ def watch_power(
     if not 0.0 < alpha < 1.0:
         raise InputError(f"alpha is {alpha!r}; give a number above 0 and below 1")
     one_of(honest, "honest", HONEST)
+    refuse_drift(ladder)
     part = None if marked is None else number_probability(marked, "marked")
     may = np.ones(many, dtype=bool)
     if part is not None:
@@ -163,18 +166,31 @@ def _start(ladder: Ladder, start: int | None) -> Floats:
     return np.asarray(law / law.sum())
 
 
+def _advantages(ladder: Ladder, form: float) -> tuple[NDArray[np.int64], Floats]:
+    """Return the points of an opponent's error with the forms of both, and their chances."""
+    law = ladder.law()
+    points = np.array(law.values, dtype=np.int64)
+    chances = np.array([float(chance) for chance in law.probability])
+    if form:
+        widest = int(np.abs(points).max())
+        errors = np.bincount(points + widest, weights=chances, minlength=2 * widest + 1)
+        points, chances = deviation_grid(
+            np.convolve(errors, difference_law(form)), ladder.system.scale.points_per_doubling
+        )
+    return points, chances / chances.sum()
+
+
 class _Simulated:
     """The tables of a simulation: how matches end, and what each end says of a skill."""
 
     def __init__(self, ladder: Ladder, points: int | None) -> None:
         self.points, self.widest = points, int(ladder.errors[-1])
         self.table = match_table(ladder.system, ladder.chart, widest=self.widest)
-        scale, law = ladder.system.scale, ladder.law()
-        self.likelihood = Likelihood(scale, law)
-        self.errors = np.array(law.values, dtype=np.int64)
-        self.chance = np.array([float(chance) for chance in law.probability])
-        self.chance /= self.chance.sum()
-        # An opponent's error of j points, at a rating that is the player's skill.
+        scale, form = ladder.system.scale, math.hypot(ladder.day_sd, ladder.match_sd)
+        self.likelihood = Likelihood(scale, ladder.law(), form)
+        self.errors, self.chance = _advantages(ladder, form)
+        # An advantage of j points: an opponent's error, at a rating that is the player's skill,
+        # and how much better the player's form is.
         honest = self.table.chances(scale.win_probability(self.errors))
         if points is None:
             lost = np.where(self.table.won[..., None], 0.0, honest)
@@ -224,8 +240,8 @@ class _Simulated:
     ) -> tuple[Floats, Floats]:
         """Return what the ends of a match say, by skill less the rating at the start."""
         rise, fall = drift_room(place)
-        low = WIDEST + max(DEPTHS) + fall
-        length = low + WIDEST + rise + 1
+        low = FARTHEST + fall
+        length = low + FARTHEST + rise + 1
         needs = self.table.needs[x]
         games = self.table.games[x, end]
         keys = np.column_stack([rated, needs, games])
