@@ -196,6 +196,28 @@ def test_wrong_use_is_refused_and_nothing_is_written(run, tmp_path, options, wor
     assert not out.exists()
 
 
+def test_a_folder_that_cannot_be_written_is_told_before_the_work(run, tmp_path, monkeypatch):
+    def never(*_):
+        raise AssertionError
+
+    monkeypatch.setattr("evenbreak.cli.simulate._simulated", never)
+    (tmp_path / "afile").write_text("")
+    found = run("simulate", ROSTER, "--out", str(tmp_path / "afile" / "x"))
+    assert found.exit_code == 1
+    assert "afile is a file, so no folder can be in it; name another" in found.stderr
+
+
+def test_a_match_that_is_listed_twice_in_a_week_is_told(run, tmp_path):
+    fixtures = tmp_path / "fixtures.csv"
+    fixtures.write_text("week,player_a,player_b\n1,Ann,Bo\n2,Ann,Bo\n1,bo,ann\n")
+    words = ("simulate", "-", "--schedule", str(fixtures), *FEW, "--no-matches")
+    text = "player,rating\nAnn,80\nBo,70\n"
+    found = run(*words, "--out", str(tmp_path / "out"), stdin=text)
+    assert found.exit_code == 0
+    assert "fixtures.csv:4: the same two meet in week 1 as in line 2" in found.stderr
+    assert found.stderr.count("the same two") == 1
+
+
 def test_two_files_cannot_both_be_standard_input(run, tmp_path):
     found = run("simulate", "-", "--schedule", "-", "--out", str(tmp_path / "out"))
     assert found.exit_code == 2
@@ -276,7 +298,8 @@ def test_a_league_that_nobody_ever_joins_is_told_without_numbers(run, tmp_path):
     assert "error_sd" not in found.stdout
 
 
-def test_one_season_has_no_standard_errors(run, terminal, tmp_path, no_pictures):
+@pytest.mark.usefixtures("no_pictures")
+def test_one_season_has_no_standard_errors(run, terminal, tmp_path):
     asked = ("simulate", ROSTER, "--replicas", "1", "--out", str(tmp_path / "out"))
     result = run(*asked, "--json")
     assert result.exit_code == 0

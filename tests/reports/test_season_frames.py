@@ -17,12 +17,11 @@ from evenbreak.league import (
     run_chunk,
     season_matches,
 )
+from evenbreak.reports.one_season_frames import matches_frame, truth_frame
 from evenbreak.reports.season_frames import (
     fairness_frame,
-    matches_frame,
     season_frame,
     standings_frame,
-    truth_frame,
     weeks_frame,
 )
 

@@ -164,12 +164,13 @@ def simulate(
     """
     from evenbreak.reports.read_league import read_league
     from evenbreak.reports.season_frames import season_frame
-    from evenbreak.reports.write_files import write_files
+    from evenbreak.reports.write_files import check_folder, write_files
 
     refuse_contradictions(roster, out, jobs, cluster, played)
     file = read_league(roster, day_sd=played["day_sd"])
     season = season_of_options(file, played)
-    for remark in remarks(file, season):
+    check_folder(out)
+    for remark in remarks(file, season, replicas):
         say(remark)
     tally = _simulated(season, replicas, seed, jobs, cluster)
     settings = {"roster_file": PurePath(file.source).name, "seed": seed, "day_sd": played["day_sd"]}
@@ -220,7 +221,7 @@ def _tables(season: Season, tally: Tally, told: pd.DataFrame) -> dict[str, bytes
 
 def _one_season(season: Season, seed: int) -> dict[str, bytes]:
     from evenbreak.league.one_season import season_matches
-    from evenbreak.reports.season_frames import matches_frame, truth_frame
+    from evenbreak.reports.one_season_frames import matches_frame, truth_frame
     from evenbreak.reports.to_csv import to_csv
 
     if len(season.players) * season.weeks > MANY:

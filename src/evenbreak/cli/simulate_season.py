@@ -16,6 +16,9 @@ __all__ = ["WEEKS", "refuse_contradictions", "remarks", "season_of_options"]
 WEEKS = 30
 """How long a season is where neither --weeks nor a schedule says it."""
 
+LONG = 500_000_000
+"""Matches that take one process some ten seconds or more."""
+
 FAR = 3.0
 """Doublings of the odds that a league is not away from the middle of its scale."""
 
@@ -72,8 +75,8 @@ def season_of_options(file: LeagueFile, played: dict[str, Any]) -> Season:
     return Season(file.players, system, chart, schedule, weeks or WEEKS, play)
 
 
-def remarks(file: LeagueFile, season: Season) -> list[str]:
-    """Return what is assumed of the players, and what looks odd in their list."""
+def remarks(file: LeagueFile, season: Season, replicas: int) -> list[str]:
+    """Return what is assumed of the players, what looks odd in their list, and what takes long."""
     told = [f"Warning: {warning}" for warning in file.warnings]
     many = len(file.players)
     if file.guessed:
@@ -86,7 +89,21 @@ def remarks(file: LeagueFile, season: Season) -> list[str]:
             f"{file.exact:,} of {many:,} players are taken to be rated rightly at the start: "
             "neither skill nor standard_error is stated"
         )
-    return [*told, *_doubts(file, season)]
+    return [*told, *_doubts(file, season), *_much(season, replicas)]
+
+
+def _much(season: Season, replicas: int) -> list[str]:
+    """Return a word on how much there is to play, where it takes more than some seconds."""
+    from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
+
+    match season.schedule:
+        case FixedSchedule(week=week):
+            a_season = int((week <= season.weeks).sum())
+        case RandomPairing(matches_a_week=many) | RoundRobin(matches_a_week=many):
+            a_season = season.weeks * many * (len(season.players) // 2)
+    if a_season * replicas < LONG:
+        return []
+    return [f"About {a_season * replicas:,} matches are played; --jobs shares them out"]
 
 
 def _doubts(file: LeagueFile, season: Season) -> list[str]:

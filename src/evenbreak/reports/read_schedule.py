@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.league.schedule import FixedSchedule
 from evenbreak.ratings.roster import Roster
 from evenbreak.reports.cells import whole_numbers
 from evenbreak.reports.read_pairs import PAIRS, pairs_in
-from evenbreak.reports.read_table import read_table
+from evenbreak.reports.read_table import Table, read_table
 
 __all__ = ["LAST_WEEK", "WEEK", "ScheduleFile", "read_schedule"]
 
 WEEK = {"week": ("round", "night", "matchday", "week number")}
 """The column of a schedule beside those of `PAIRS`, with its other names."""
+
+MOST_TOLD = 5
+"""Matches that are there twice and told one by one."""
 
 LAST_WEEK = 10_000
 """The largest number of weeks that is taken for one."""
@@ -68,4 +75,25 @@ def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
     ).values
     pairs = pairs_in(table, roster)
     table.problems.raise_any()
-    return ScheduleFile(FixedSchedule(week, *pairs.T), table.source, table.warnings)
+    warnings = *table.warnings, *_twice(table, week, pairs)
+    return ScheduleFile(FixedSchedule(week, *pairs.T), table.source, warnings)
+
+
+def _twice(table: Table, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> Iterator[str]:
+    """Yield a line for each match that another line of the same week has too, up to a few."""
+    _, first, same = np.unique(
+        np.column_stack([week, np.sort(pairs, axis=1)]),
+        axis=0,
+        return_index=True,
+        return_inverse=True,
+    )
+    earlier = first[same.ravel()]
+    again = np.flatnonzero(earlier != np.arange(len(week)))
+    for row in again[:MOST_TOLD].tolist():
+        yield (
+            f"{table.source}:{table.lines[row]}: the same two meet in week {week[row]} as in line "
+            f"{table.lines[earlier[row]]}; both matches are played"
+        )
+    if len(again) > MOST_TOLD:
+        more = len(again) - MOST_TOLD
+        yield f"{table.source}: and {more:,} more such match{'es' if more > 1 else ''}"
