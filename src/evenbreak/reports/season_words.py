@@ -45,7 +45,7 @@ def season_words(season: Season, tally: Tally) -> list[str]:
     standings = standings_frame(season, tally)
     return [
         f"{len(season.players):,} players, {count_of(season.weeks, 'week', 'weeks')}, "
-        f"{matches:,.4g} matches a season; system {season.system.name}, chart "
+        f"{_count(matches)} matches a season; system {season.system.name}, chart "
         f"{season.chart.name}; {count_of(int(tally.replicas.sum()), 'season', 'seasons')} "
         "simulated.",
         _ratings(weeks_frame(tally)),
@@ -161,17 +161,26 @@ def standings_rows(season: Season, tally: Tally) -> list[list[str]]:
     return rows
 
 
+def _count(mean: float) -> str:
+    """Return a mean number of matches.
+
+    >>> _count(12.0), _count(14.26), _count(12_345.6)
+    ('12', '14.3', '12,346')
+    """
+    return f"{mean:,.0f}" if mean >= 1000.0 or mean == round(mean) else f"{mean:.1f}"
+
+
 def _percent(p: float, error: float = math.nan) -> str:
     """Return a probability in percent, with its standard error where there is one."""
     return f"{_with(100 * p, 100 * error)} %"
 
 
 def _with(value: float, error: float) -> str:
-    """Return a value with its standard error, which never looks like none.
+    """Return a value with its standard error, which never looks like none where there is one.
 
-    >>> _with(6.551, 0.038), _with(53.29, 0.153), _with(7.1, math.nan)
-    ('6.6 ± 0.04', '53.3 ± 0.2', '7.1')
+    >>> _with(6.551, 0.038), _with(53.29, 0.153), _with(7.1, math.nan), _with(50.0, 0.0)
+    ('6.6 ± 0.04', '53.3 ± 0.2', '7.1', '50.0')
     """
-    if math.isnan(error):
+    if math.isnan(error) or not error:
         return f"{value:.1f}"
     return f"{value:.1f} ± " + (f"{error:.1f}" if error >= 0.095 else f"{error:.1g}")
