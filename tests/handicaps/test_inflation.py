@@ -13,7 +13,7 @@ from evenbreak.handicaps import (
 from evenbreak.handicaps.systems import margin_system, step_system
 
 
-@pytest.mark.parametrize(("up", "down"), [(1, 1), (2, 2), (2, 1), (1, 3), (1, 0)])
+@pytest.mark.parametrize(("up", "down"), [(1, 1), (2, 2), (2, 1), (1, 3)])
 def test_unequal_steps_add_their_difference_with_every_match(up, down):
     ladder = Ladder(step_system(up, down), widest=200)
     assert inflation(ladder) == pytest.approx(up - down, abs=1e-12)
@@ -104,5 +104,5 @@ def test_a_lag_that_is_simulated_agrees():
 
 
 def test_a_skill_that_runs_away_has_no_lag():
-    with pytest.raises(AccuracyError, match="do not keep up"):
+    with pytest.raises(AccuracyError, match="not keep up"):
         lag(Ladder("npl", drift=0.99, widest=60))

@@ -1,4 +1,5 @@
 import pickle
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import comb, erf, sqrt
@@ -21,11 +22,12 @@ from evenbreak.handicaps import (
     chart,
     ladder_law,
     match_table,
+    opponents_of,
     system_of,
 )
 from evenbreak.handicaps.fluctuation import deviation_grid, deviations
 from evenbreak.handicaps.pairing import pairing_of
-from evenbreak.ratings import SCALES
+from evenbreak.ratings import SCALES, scale_of
 from evenbreak.stats import Distribution
 
 PUBLISHED = {  # chart: natural, model A (the text's), model B
@@ -416,3 +418,32 @@ def test_a_night_of_one_match_may_be_reckoned_by_any_grid_of_forms():
     )
     wins = pairing.moves(np.outer(ladder.errors == 0, weights))[-1] @ weights
     np.testing.assert_allclose(wins, ladder.wins, atol=1e-11)
+
+
+def test_a_law_that_lies_on_the_ends_is_refused():
+    with pytest.raises(AccuracyError, match="not keep up"):
+        Ladder("step 1 0", widest=60).law()
+    far = opponents_of([500, 550, 600], 80)
+    with pytest.raises(AccuracyError, match="opponents nearer the player's skill, or a widest"):
+        Ladder("npl", opponents=far, widest=60).law()
+    with pytest.raises(AccuracyError, match="too far from the player's skill"):
+        Ladder("npl", opponents=far)
+
+
+def test_a_spread_of_opponents_gets_the_width_that_it_needs():
+    far = opponents_of([52, 80, 118], 140)
+    ladder = Ladder("npl", opponents=far)
+    assert ladder.widest == 240
+    wider = Ladder("npl", opponents=far, widest=300).law()
+    assert ladder.law().mean == pytest.approx(wider.mean, abs=1e-6)
+
+
+def test_a_chart_that_is_even_everywhere_brings_nothing_back():
+    with pytest.raises(AccuracyError, match="the same race at every difference"):
+        Ladder("npl", Chart("even", [(0, None, 5, 5)]))
+
+
+def test_a_scale_of_less_than_a_point_is_refused():
+    tiny = replace(system_of("npl"), scale=scale_of(0.01))
+    with pytest.raises(InputError, match=r"is 0\.01 on"):
+        Ladder(tiny)

@@ -11,6 +11,7 @@ autocorrelated model and the further improvements that are named there.
 
 from __future__ import annotations
 
+import contextlib
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -24,6 +25,7 @@ from evenbreak.handicaps.chart import Chart
 from evenbreak.handicaps.error_walk import ErrorWalk
 from evenbreak.handicaps.fluctuation import deviation_grid, deviations, difference_law
 from evenbreak.handicaps.ladder_law import Night, Settled, settled
+from evenbreak.handicaps.match_table import match_table
 from evenbreak.handicaps.opponents import NATURAL, Opponents
 from evenbreak.handicaps.pairing import pairing_of
 from evenbreak.handicaps.systems import System, system_of
@@ -36,6 +38,7 @@ __all__ = ["Ladder"]
 
 _DOUBLINGS = (2.0, 4.0, 8.0)
 _AT_AN_END = 1e-9
+_MOST_HELD = 0.1
 _MOST_SD = 4.0
 _MOST_SPREAD = 20.0
 
@@ -69,15 +72,16 @@ class Ladder(ErrorWalk):
         after a match it rises by one point with this chance. His opponents' skills are steady.
     widest
         errors are cut at -widest and widest points. None: 2, 4 or 8 doublings of the odds, so
-        wide that each end has a chance below 1e-9 with a match a night against opponents who
-        are rated rightly.
+        wide that each end has a chance below 1e-9 with a match a night against these opponents,
+        or, where all are given at the player's own skill or rating, those who are rated rightly.
 
     Raises
     ------
     InputError
         if a parameter is not such a one.
     AccuracyError
-        if no width is given and none is wide enough: the rating cannot keep up with the skill.
+        if no width is given and none is wide enough: the rating cannot keep up with the skill,
+        the opponents are too far from it, or the chart has one race for all differences.
 
     Notes
     -----
@@ -128,6 +132,11 @@ class Ladder(ErrorWalk):
         if not isinstance(opponents, Opponents):
             raise InputError(f"opponents is {opponents!r}; give Opponents, such as NATURAL")
         doubling = by.scale.points_per_doubling
+        if doubling < 1.0:
+            raise InputError(
+                f"points_per_doubling is {doubling:g} on the scale of the system; ratings are "
+                "whole points, so give a scale of 1 or more"
+            )
         if opponents.farthest > _MOST_SPREAD * doubling:
             raise InputError(
                 f"spread of the opponents goes to {opponents.farthest} points; give "
@@ -143,7 +152,14 @@ class Ladder(ErrorWalk):
             "drift": _number(drift, "drift", -1.0, 1.0),
         }
         values["widest"] = (
-            _usual_width(by, chart, values["day_sd"], values["match_sd"], values["drift"])
+            _usual_width(
+                by,
+                chart,
+                opponents if opponents.farthest else NATURAL,
+                values["day_sd"],
+                values["match_sd"],
+                values["drift"],
+            )
             if widest is None
             else whole(widest, "widest", at_least=1)
         )
@@ -186,9 +202,18 @@ class Ladder(ErrorWalk):
         Raises
         ------
         AccuracyError
-            if the self-consistent law of the opponents does not settle.
+            if the self-consistent law of the opponents does not settle, or if more than a tenth
+            of the ratings are at the ends of the line: it is then the width that holds them.
         """
-        return self._distribution(self._settled.law)
+        law = self._settled.law
+        held = _at_the_ends(law)
+        if held > _MOST_HELD:
+            raise AccuracyError(
+                f"the rating error is at the ends of the line of {self.widest} points with a "
+                f"chance of {held:.2g}: the moves do not keep up with what drives it away, or the "
+                f"line is too short; give {_remedy(self)}"
+            )
+        return self._distribution(law)
 
     @cached_property
     def _settled(self) -> Settled:
@@ -236,17 +261,60 @@ def _number(value: Any, name: str, low: float, high: float) -> float:
     return number
 
 
+def _at_the_ends(law: NDArray[np.float64]) -> float:
+    """Return P(the error is at either end, or so near that moves of several points leave gaps)."""
+    near = max(1, len(law) // 40)
+    return float(law[:near].sum() + law[-near:].sum())
+
+
+def _remedy(ladder: Ladder) -> str:
+    wider = f"a widest above {ladder.widest}"
+    return (
+        f"opponents nearer the player's skill, or {wider}" if ladder.opponents.farthest else wider
+    )
+
+
+def _same_everywhere(system: System, chart: Chart) -> bool:
+    """Return whether a match is the same whatever the two ratings are."""
+    table = match_table(system, chart)
+    return all(bool((each == each[0]).all()) for each in (table.needs, table.moves))
+
+
 @lru_cache(maxsize=64)
-def _usual_width(system: System, chart: Chart, day_sd: float, match_sd: float, drift: float) -> int:
+def _usual_width(
+    system: System,
+    chart: Chart,
+    opponents: Opponents,
+    day_sd: float,
+    match_sd: float,
+    drift: float,
+) -> int:
     """Return so wide a line that next to nothing is at its ends."""
+    if _same_everywhere(system, chart):
+        raise AccuracyError(
+            f"chart {chart.name} has the same race at every difference, so nothing brings a wrong "
+            "rating back; give a chart whose races differ"
+        )
     for doublings in _DOUBLINGS:
         widest = round(doublings * system.scale.points_per_doubling)
-        ladder = Ladder(system, chart, day_sd=day_sd, match_sd=match_sd, drift=drift, widest=widest)
-        law = ladder.law().probability
-        # Moves of several points leave gaps near the ends: look at a stretch of each.
-        near = max(1, widest // 20)
-        if sum(law[:near]) + sum(law[-near:]) <= _AT_AN_END:
-            return widest
+        ladder = Ladder(
+            system,
+            chart,
+            opponents=opponents,
+            day_sd=day_sd,
+            match_sd=match_sd,
+            drift=drift,
+            widest=widest,
+        )
+        # Opponents far off may have no law on a short line, and one on a longer.
+        with contextlib.suppress(AccuracyError):
+            if _at_the_ends(np.array(ladder.law().probability)) <= _AT_AN_END:
+                return widest
+    if opponents.farthest:
+        raise AccuracyError(
+            f"the rating error goes beyond {widest} points, or its law does not settle: the "
+            "opponents are too far from the player's skill for the races; give opponents nearer it"
+        )
     raise AccuracyError(
         f"the rating error goes beyond {widest} points: the moves are too large for the scale, "
         "the form varies too much, or the skill drifts away from the rating; give widest yourself"
