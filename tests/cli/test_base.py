@@ -143,6 +143,19 @@ def test_ctrl_c_ends_with_130(tmp_path):
     assert err.strip() == "Interrupted."
 
 
+def test_an_interrupt_that_somebody_caught_in_an_import_ends_with_130(tmp_path):
+    """Python by itself would end `python -m` by a signal then."""
+    (tmp_path / "stopped.py").write_text(
+        "import sys\nfrom evenbreak import cli\nfrom evenbreak.cli import base\n"
+        "def invoke(_):\n    exec('raise KeyboardInterrupt')\n"
+        "base.program.invoke = invoke\nsys.argv[1:] = ['odds']\ncli.main()\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-m", "stopped"], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr.strip()) == (130, "", "Interrupted.")
+
+
 def test_a_reader_that_leaves_is_no_error_to_tell(tmp_path):
     arcs = tmp_path / "arcs.csv"
     rows = (f"{i},{i + 1},1\n" for i in range(20_000))
