@@ -142,3 +142,29 @@ def test_power(run):
     assert "90%" in shown
     answer = json.loads(run(*words, "--json").stdout)
     assert [len(kind["flagged"]) for kind in answer["kinds"]] == [8, 8]
+
+
+@pytest.mark.usefixtures("terminal")
+def test_what_pays_at_least_is_said_of_all_that_can_be_dumped(run):
+    shown = run("sandbag", "pay", "--system", "fixed", "--dumped", "2").stdout
+    # The table ends long before: with 2 dumped it pays from 25.68.
+    assert "2.15 times as much" in " ".join(shown.split())
+
+
+def test_steps_that_leave_the_ladder(run):
+    few = run("sandbag", "pay", "--system", "step 40", "--dumped", "5")
+    assert len(table(few.stdout)) == 3
+    assert "dumped is 2 at most" in few.stderr
+    none = run("sandbag", "pay", "--system", "step 200")
+    assert none.exit_code == 2
+    assert "smaller steps" in none.stderr
+
+
+def test_form_that_varies_is_weighed(run):
+    words = ("sandbag", "watch", *SEASON, "--dumps-in", "League night", "--day-sd", "30")
+    rows = {row["player"]: row for row in table(run(*words).stdout)}
+    plain = {row["player"]: row for row in table(run(*words[:-2]).stdout)}
+    assert float(rows["Vito Drago"]["e_any"]) < float(plain["Vito Drago"]["e_any"]) / 10.0
+    refused = run(*words[:-1], "500")
+    assert refused.exit_code == 2
+    assert "--day-sd is 500.0; give a number from 0 to 120" in refused.stderr

@@ -165,6 +165,12 @@ def test_most_dumped_is_as_far_as_the_ladder_goes(system, start):
         sandbagging(wide, dumped=most + 1, earnest=1, start=start)
 
 
+def test_a_seldom_costly_defeat_does_not_hold_the_others_back():
+    # Elo's most costly defeat comes at high ratings: from 0 the same steps lead less far.
+    wide = Ladder("elo", widest=482)
+    assert most_dumped(wide) > wide.widest // -int(wide.steps.min())
+
+
 def test_the_cheapest_row_is_that_of_the_smallest_stakes():
     found = sandbagging(ladder(), dumped=14, earnest=20)
     assert found.cheapest.dumped == 9

@@ -27,6 +27,7 @@ from evenbreak.cli.sandbag_options import (
     wants_system,
     watched_ladder,
 )
+from evenbreak.cli.scale_doubts import scale_doubts
 
 if TYPE_CHECKING:
     from evenbreak.league.nights import Night
@@ -132,6 +133,8 @@ def sandbag_watch(
     first, season = read_roster(roster), read_results(results, aliases=aliases)
     for warning in (*first.warnings, *season.warnings):
         say(f"Warning: {warning}")
+    for doubt in scale_doubts(system.scale, first.roster.rating, "--system says whose they are"):
+        say(doubt)
     marked = events_marked(season.results, events) if events else None
     nights = nights_of_files(system, first, season, chart=chart)
     found = watch(nights, system, law, alpha=alpha, honest=honest, marked=marked, day_sd=day_sd)
@@ -216,8 +219,9 @@ def _table(rows: list[WatchRow], found: list[Watched], season: ResultsFile) -> s
 
 
 _SAID = {
-    "any": "An honest player, whatever his skill,",
-    "established": "An honest player who is rated as rightly as ratings are",
+    "any": "An honest player, of whatever skill and a form as steady as --day-sd says,",
+    "established": "An honest player, rated as rightly as ratings are and of a form as steady as "
+    "--day-sd says,",
 }
 
 

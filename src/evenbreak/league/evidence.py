@@ -202,7 +202,7 @@ def _law_in_units(error: Distribution, scale: Scale) -> tuple[Floats, int]:
     values = np.array([units(float(value), scale) for value in error.values])
     chances = np.array([float(chance) for chance in error.probability])
     lowest = int(values.min())
-    return np.bincount(values - lowest, weights=chances), lowest
+    return np.asarray(np.bincount(values - lowest, weights=chances), dtype=float), lowest
 
 
 class Evidence:

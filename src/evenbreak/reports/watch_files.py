@@ -126,7 +126,7 @@ def events_marked(results: Results, events: Sequence[str]) -> NDArray[np.bool_]:
 
 
 def watch_rows(watched: Sequence[Watched], results: Results) -> list[WatchRow]:
-    """Return a line for each player, the most suspicious first.
+    """Return a line for each player, the largest evidence first.
 
     Parameters
     ----------
