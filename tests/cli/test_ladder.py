@@ -2,18 +2,20 @@ import csv
 import io
 import json
 from dataclasses import replace
+from math import log10
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from evenbreak.cli.ladder_answer import COLUMNS
+from evenbreak.cli.ladder_answer import COLUMNS, LadderAnswer, Question
 from evenbreak.cli.ladder_compare import COMPARE_COLUMNS, STEPS
 from evenbreak.cli.ladder_options import say_if_long
 from evenbreak.cli.ladder_words import of_100
+from evenbreak.errors import AccuracyError
 from evenbreak.handicaps import chart, system_of
 from evenbreak.handicaps.ladder import Ladder
-from evenbreak.handicaps.opponents import EQUAL_SKILL, opponents_of
+from evenbreak.handicaps.opponents import EQUAL_SKILL, opponents_of, stretched
 from evenbreak.handicaps.settling import settling
 from evenbreak.handicaps.systems import FAMILIES
 from evenbreak.ratings.scale import scale_of
@@ -254,9 +256,10 @@ def test_the_help_names_all_systems(run):
         (("--step", "2", "--system", "npl"), 2, "leave --system out"),
         (("--from", "61"), 2, "the ladder goes from -60 to 60 points"),
         (("--from", "half"), 2, "give a whole number"),
-        (("--day-sd", "-1"), 2, "give a number from 0 to"),
-        (("--day-sd", "1e9"), 2, "give a number from 0 to"),
-        (("--match-sd", "nan"), 2, "give a number from 0 to"),
+        (("--day-sd", "-1"), 2, "give points, 0 or more"),
+        (("--day-sd", "1e9"), 2, "give points from 0 to 120"),
+        (("--scale", "0.01"), 2, "give 1 or more to double the odds"),
+        (("--match-sd", "nan"), 2, "give points, 0 or more"),
         (("--drift", "2"), 2, "give a number from -0.9 to 0.9"),
         (("--step", "100"), 1, "a smaller --step"),
         (("--matches-a-night", "3"), 2, "give --day-sd"),
@@ -327,7 +330,9 @@ def test_the_comparison_as_one_table_and_as_a_picture(run, terminal, tmp_path):
     assert "<svg" in path.read_text(encoding="utf-8")
     text = terminal("--compare")
     assert "Sizes of the step on chart npl_10:" in text
-    assert "Another step is better in both than step 6." in " ".join(text.split())
+    assert "Step 6 is never worth it: another step is both more exact and faster." in " ".join(
+        text.split()
+    )
     assert max(map(len, text.splitlines())) <= 80
 
 
@@ -356,3 +361,84 @@ def test_what_takes_minutes_is_said_beforehand(capsys, system, matches, told):
     by = system_of(system)
     say_if_long(by, by.usual_chart(), matches)
     assert ("take minutes" in capsys.readouterr().err) == told
+
+
+@pytest.fixture
+def fargo_league(tmp_path):
+    path = tmp_path / "fargo.csv"
+    path.write_text("player,rating\nAnn,600\nBo,500\nCy,550\n", encoding="utf-8")
+    return str(path)
+
+
+def test_a_league_on_another_scale_is_told(run, fargo_league):
+    told = " ".join(run("ladder", "--json", "--league", fargo_league).stderr.split())
+    assert "ratings on the npl scale are about 80, here they are about 550" in told
+    fits = ("--chart", "fargo_r6_hot", "--scale", "fargo")
+    assert run("ladder", "--json", *fits, "--league", fargo_league).stderr == ""
+
+
+@pytest.mark.parametrize("compare", [(), ("--compare",)])
+@pytest.mark.parametrize(
+    ("skill", "code", "told"),
+    [
+        ("80", 1, "give a --skill nearer to them"),
+        ("5000", 2, "--skill is 5000, and the ratings of"),
+    ],
+)
+def test_opponents_who_are_too_far_are_refused(run, fargo_league, compare, skill, code, told):
+    result = run("ladder", "--league", fargo_league, "--skill", skill, *compare)
+    assert (result.exit_code, result.stdout) == (code, "")
+    assert told in " ".join(result.stderr.split())
+
+
+def test_a_chart_that_is_even_everywhere_is_the_reason(run, tmp_path):
+    path = tmp_path / "even.csv"
+    path.write_text(
+        "difference_from,difference_to,stronger_needs,weaker_needs\n0,,5,5\n", encoding="utf-8"
+    )
+    result = run("ladder", "--chart", str(path))
+    assert result.exit_code == 1
+    assert "nothing brings a wrong rating back" in " ".join(result.stderr.split())
+
+
+def test_what_takes_for_ever_is_no_number(run):
+    told = " ".join(run("ladder", "--json", "--drift", "0.9").stderr.split())
+    assert "hardly ever comes" in told
+    assert "e+" not in told
+
+
+def test_a_gap_too_small_is_told_without_names_of_functions():
+    answer = LadderAnswer(Ladder("npl"), Question(-30, 5, newcomer=False, opponents="natural"))
+
+    def too_small():
+        raise AccuracyError("follow the ladder with ladder_mixing")
+
+    answer._or_not_told(too_small, "old errors fade slowly")
+    assert answer.not_told == ["old errors fade slowly"]
+
+
+def test_the_comparison_takes_a_league(ladder):
+    words = ("--chart", "npl_10", "--league", str(ROSTER), "--skill", "70")
+    compared = ladder("--compare", *words)
+    rows = {(row["system"], row["chart"]): row for row in compared["systems"]}
+    assert compared["opponents"] == "league"
+    alone = ladder(*words)
+    assert rows["npl", "npl_10"]["sd"] == alone["sd"]
+    assert rows["npl", "npl_10"]["settling_mean"] == alone["settling"]["mean"]
+    new = ladder(*words, "--newcomer")["settling"]["mean"]
+    assert rows["npl new", "npl_10"]["settling_mean"] == new
+    with ROSTER.open(encoding="utf-8") as file:
+        ratings = [float(row["rating"]) for row in csv.DictReader(file) if row["rating"]]
+    elo = Ladder("elo 4", opponents=stretched(opponents_of(ratings, 70), 400 * log10(2) / 30))
+    assert rows["elo 4", "fixed_9"]["sd"] == elo.law().sd
+
+
+def test_the_comparison_says_first_what_helps_most(terminal):
+    text = " ".join(terminal("--compare").split())
+    assert "Least off: npl on npl_20 (12.2 % of a doubling)." in text
+    assert "Fastest: step 10 on npl_10 (5.8 matches)." in text
+    assert "of those that are no slower, npl on npl_20 is the most accurate" in text
+    assert "newcomers alone (npl new) bring them in after 27.6 matches" in text
+    assert "it is the most accurate itself" in " ".join(
+        terminal("--compare", "--chart", "npl_20").split()
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -13,6 +13,7 @@ from evenbreak.cli.plot import plot_option, write_plot
 
 if TYPE_CHECKING:
     from evenbreak.cli.ladder_answer import LadderAnswer
+    from evenbreak.handicaps.systems import System
 
 __all__ = ["ladder"]
 
@@ -21,14 +22,11 @@ LARGEST = 10_000
 
 MOST_A_NIGHT = 20
 
+MOST_SD = 4.0
+"""Doublings of the odds by which the form of players varies at most."""
+
 MOST_DRIFT = 0.9
 """A rating that moves a point a match cannot follow a skill that does so each time."""
-
-_RUNS_AWAY = (
-    "the rating does not stay near the skill: the moves are too large for the scale, the form "
-    "varies too much, or the skill drifts faster than they follow; give a smaller --step, another "
-    "--system, or less of --day-sd, --match-sd or --drift"
-)
 
 SHARES = (0.5, 0.75, 0.9, 0.95, 0.99)
 """The parts of the ratings whose largest error a terminal shows."""
@@ -42,16 +40,18 @@ Examples:
 """
 
 
-def _between(low: float, high: float) -> Callable[..., float | None]:
-    """Return the callback of an option that is a number from low to high."""
+def _points(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+    """Return points, 0 or more; by the scale it is said later how many are too many."""
+    if value is None:
+        return None
+    return number(value, 0.0, math.inf, "; give points, 0 or more", ctx=ctx, param=param)
 
-    def read(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
-        if value is None:
-            return None
-        wanted = f"; give a number from {low:g} to {high:g}"
-        return number(value, low, high, wanted, ctx=ctx, param=param)
 
-    return read
+def _drift(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+    if value is None:
+        return None
+    wanted = f"; give a number from {-MOST_DRIFT:g} to {MOST_DRIFT:g}"
+    return number(value, -MOST_DRIFT, MOST_DRIFT, wanted, ctx=ctx, param=param)
 
 
 @click.command(epilog=EXAMPLES)
@@ -99,7 +99,7 @@ def _between(low: float, high: float) -> Callable[..., float | None]:
 @click.option(
     "--day-sd",
     metavar="POINTS",
-    callback=_between(0.0, LARGEST),
+    callback=_points,
     help="How much the form of all players varies from night to night.",
 )
 @click.option(
@@ -111,13 +111,13 @@ def _between(low: float, high: float) -> Callable[..., float | None]:
 @click.option(
     "--match-sd",
     metavar="POINTS",
-    callback=_between(0.0, LARGEST),
+    callback=_points,
     help="How much it varies from match to match.",
 )
 @click.option(
     "--drift",
     metavar="POINTS",
-    callback=_between(-MOST_DRIFT, MOST_DRIFT),
+    callback=_drift,
     help="By how much the player's skill rises with each match.",
 )
 @click.option(
@@ -174,6 +174,7 @@ def _answer(chart_name: str | None, asked: dict[str, Any]) -> LadderAnswer:
         refuse_conflicts,
         say_if_long,
         system_of_options,
+        why_not,
     )
     from evenbreak.errors import AccuracyError
     from evenbreak.handicaps.ladder import Ladder
@@ -183,7 +184,8 @@ def _answer(chart_name: str | None, asked: dict[str, Any]) -> LadderAnswer:
         refuse("- stands for standard input, which only one file can be; name the other")
     system = system_of_options(asked)
     chart = chart_of_option(chart_name, system)
-    opponents, name = opponents_of_options(asked)
+    opponents, name = opponents_of_options(asked, system.scale)
+    _refuse_much(asked, system)
     say_if_long(system, chart, asked["matches_a_night"] or 1)
     try:
         built = Ladder(
@@ -195,8 +197,8 @@ def _answer(chart_name: str | None, asked: dict[str, Any]) -> LadderAnswer:
             matches_a_night=asked["matches_a_night"] or 1,
             drift=asked["drift"] or 0.0,
         )
-    except AccuracyError:
-        raise AccuracyError(_RUNS_AWAY) from None
+    except AccuracyError as error:
+        raise AccuracyError(why_not(error, opponents)) from None
     doubling = round(system.scale.points_per_doubling)
     start, within = asked["start"], asked["within"]
     if start is None:
@@ -214,6 +216,17 @@ def _answer(chart_name: str | None, asked: dict[str, Any]) -> LadderAnswer:
             "or take --system npl"
         )
     return LadderAnswer(built, Question(start, within, asked["newcomer"], name))
+
+
+def _refuse_much(asked: dict[str, Any], system: System) -> None:
+    """Refuse a form that varies by more than a ladder of this scale can hold."""
+    most = MOST_SD * system.scale.points_per_doubling
+    for name in ("day_sd", "match_sd"):
+        if (asked[name] or 0.0) > most:
+            refuse(
+                f"--{name.replace('_', '-')} is {asked[name]:g}; give points from 0 to "
+                f"{most:.0f}, by which the odds double {MOST_SD:g} times"
+            )
 
 
 def _print(found: LadderAnswer) -> None:

@@ -123,23 +123,28 @@ class LadderAnswer:
         """1 less the largest eigenvalue below 1; -1 is set aside."""
         from evenbreak.handicaps.ladder_mixing import ladder_gap
 
-        return self._or_not_told(lambda: ladder_gap(self.ladder))
+        slow = "old errors fade so slowly that rounding hides how slowly"
+        return self._or_not_told(lambda: ladder_gap(self.ladder), slow)
 
     @cached_property
     def mixing_matches(self) -> int | None:
         """The matches after which an error begun at `start` is within 1/4 of its limit law."""
         from evenbreak.handicaps.ladder_mixing import ladder_mixing
 
-        return self._or_not_told(lambda: ladder_mixing(self.ladder, self.question.start))
+        slow = "a rating can still be told from any other after more than 100,000 matches"
+        return self._or_not_told(lambda: ladder_mixing(self.ladder, self.question.start), slow)
 
-    def _or_not_told(self, part: Callable[[], Part]) -> Part | None:
-        """Return a part of the answer, or note why it cannot be had and let the rest be told."""
+    def _or_not_told(self, part: Callable[[], Part], why: str = "") -> Part | None:
+        """Return a part of the answer, or note why it cannot be had and let the rest be told.
+
+        `why` is said in place of the function's own words, which would name functions.
+        """
         from evenbreak.errors import AccuracyError, InputError
 
         try:
             return part()
         except (AccuracyError, InputError) as error:
-            self.not_told.append(str(error))
+            self.not_told.append(why or str(error))
         return None
 
 

@@ -6,7 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.ladder_options import chart_of_option, opponents_of_options, refuse_conflicts
+from evenbreak.cli.ladder_options import (
+    chart_of_option,
+    opponents_of_options,
+    refuse_conflicts,
+    why_not,
+)
 from evenbreak.cli.options import refuse
 from evenbreak.cli.output import (
     SCHEMA_VERSION,
@@ -42,26 +47,36 @@ OTHERS = ("margin 2", "elo 4", "elo 16", "fixed 9")
 STEPS = (1, 2, 3, 4, 5, 6, 8, 10)
 """The sizes of the step of which the best are looked for."""
 
-ALLOWED = ("autocorrelated", "equal_skill")
+ALLOWED = ("autocorrelated", "equal_skill", "league", "skill")
 """The options that --compare goes with, besides --chart, --plot and --json."""
+
+NEWCOMERS = "npl new"
+"""What the row is called of a player who moves by the league's newcomer steps."""
 
 
 def compare_ladders(
     chart_name: str | None, asked: dict[str, Any], *, plot: str | None, as_json: bool
 ) -> None:
     """Print systems and steps side by side: as JSON, CSV or, on a terminal, two tables."""
+    from evenbreak.errors import AccuracyError
     from evenbreak.handicaps.systems import system_of
 
     refuse_conflicts(asked)
+    if chart_name == asked["league"] == "-":
+        refuse("- stands for standard input, which only one file can be; name the other")
     options = {"system_name": "system", "scale_name": "scale", "start": "from"}
     for name, value in asked.items():
         if name not in ALLOWED and value not in (None, False):
             option = options.get(name, name.replace("_", "-"))
             refuse(f"--compare goes through systems by itself; leave --{option} out")
-    chart = chart_of_option(chart_name, system_of("npl"))
-    opponents, name = opponents_of_options(asked)
-    systems = _systems(chart, opponents)
-    steps = _steps(chart, opponents)
+    npl = system_of("npl")
+    chart = chart_of_option(chart_name, npl)
+    opponents, name = opponents_of_options(asked, npl.scale)
+    try:
+        systems = _systems(chart, opponents)
+        steps = _steps(chart, opponents)
+    except AccuracyError as error:
+        raise AccuracyError(why_not(error, opponents)) from None
     listed = [*((row, None) for row in systems), *steps]
     if as_json:
         told = [dict(zip(COMPARE_COLUMNS, (*row, best), strict=True)) for row, best in listed]
@@ -86,7 +101,22 @@ def _systems(chart: Chart, opponents: Opponents) -> list[SystemRow]:
     if chart not in charts:
         charts.append(chart)
     others = [(name, chart if system_of(name).charts else None) for name in OTHERS]
-    return compare_systems([*(("npl", each) for each in charts), *others], opponents=opponents)
+    rows = compare_systems([*(("npl", each) for each in charts), *others], opponents=opponents)
+    place = charts.index(chart)
+    return [*rows[: place + 1], _newcomer(rows[place], chart, opponents), *rows[place + 1 :]]
+
+
+def _newcomer(row: SystemRow, chart: Chart, opponents: Opponents) -> SystemRow:
+    """Return the league's row on this chart if the player moves by its newcomer steps at first."""
+    from evenbreak.handicaps.ladder import Ladder
+    from evenbreak.handicaps.settling import settling
+    from evenbreak.handicaps.system_comparison import NEAR
+
+    ladder = Ladder("npl", chart, opponents=opponents)
+    points = ladder.system.scale.points_per_doubling
+    sooner = settling(ladder, -round(points), round(NEAR * points), newcomer=True)
+    nine = int(sooner.matches.quantile(0.9))
+    return row._replace(system=NEWCOMERS, settling_mean=sooner.mean, settling_p90=nine)
 
 
 def _steps(chart: Chart, opponents: Opponents) -> list[tuple[SystemRow, bool]]:
@@ -112,6 +142,7 @@ def _print(
             "the errors favour: how much he wins, and how often that is 60 % or more."
         )
     )
+    click.echo("\n" + paragraphs(_what_helps(chart, systems, steps)))
     head = heading_lines(HEADINGS)
     click.echo("\n" + aligned([*head, *map(_cells, systems)], left=2))
     inflating = [f"{row.system} by {row.inflation:+.2f}" for row in systems if row.inflation]
@@ -126,14 +157,49 @@ def _print(
     click.echo(
         paragraphs(
             "A longer step settles sooner and stays less exact; which is best depends on how many "
-            "newcomers there are. "
-            + (
-                f"Another step is better in both than {_listed(beaten)}."
-                if beaten
-                else "No step is better in both than another."
-            )
+            "newcomers there are. " + _not_worth_it(beaten)
         )
     )
+
+
+def _what_helps(chart: Chart, systems: list[SystemRow], steps: list[tuple[SystemRow, bool]]) -> str:
+    """Return which change would help most, against the league's own rule on this chart."""
+    own = next(row for row in systems if (row.system, row.chart) == ("npl", chart.name))
+    new = next(row for row in systems if row.system == NEWCOMERS)
+    others = [row for row in (*systems, *(row for row, _ in steps)) if row is not new]
+    exact = min(others, key=lambda row: row.sd_doublings)
+    fastest = min(others, key=lambda row: row.settling_mean)
+    no_slower = [row for row in others if row.settling_mean <= own.settling_mean]
+    best = min(no_slower, key=lambda row: row.sd_doublings)
+    sure = (
+        "of those that are no slower, it is the most accurate itself"
+        if best.sd_doublings >= own.sd_doublings
+        else f"of those that are no slower, {_called(best)} is the most accurate"
+    )
+    return (
+        f"Least off: {_called(exact)} ({100.0 * exact.sd_doublings:.1f} % of a doubling). "
+        f"Fastest: {_called(fastest)} ({fastest.settling_mean:.1f} matches). Against "
+        f"{_called(own)} ({100.0 * own.sd_doublings:.1f} %, {own.settling_mean:.1f} matches): "
+        f"{sure}; and longer steps for newcomers alone ({new.system}) bring them in after "
+        f"{new.settling_mean:.1f} matches and leave the others as accurate as they are."
+    )
+
+
+def _called(row: SystemRow) -> str:
+    return f"{row.system} on {row.chart}"
+
+
+def _not_worth_it(steps: list[str]) -> str:
+    """Return which steps are beaten by another one.
+
+    >>> _not_worth_it(["step 6"])
+    'Step 6 is never worth it: another step is both more exact and faster.'
+    """
+    if not steps:
+        return "Each of these is worth it: none is both more exact and faster than another."
+    verb = "is" if len(steps) == 1 else "are"
+    named = _listed(steps).capitalize()
+    return f"{named} {verb} never worth it: another step is both more exact and faster."
 
 
 def _listed(words: list[str]) -> str:
@@ -170,4 +236,6 @@ def _draw(
 
 
 def _name(row: SystemRow) -> str:
+    if row.system == NEWCOMERS:
+        return "newcomers"
     return row.chart if row.system == "npl" else row.system

@@ -6,12 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 from evenbreak.cli.options import refuse
 from evenbreak.cli.output import say
+from evenbreak.cli.scale_doubts import scale_doubts
 
 if TYPE_CHECKING:
+    from evenbreak.errors import AccuracyError
     from evenbreak.handicaps.chart import Chart
     from evenbreak.handicaps.level_chart import LevelChart
     from evenbreak.handicaps.opponents import Opponents
     from evenbreak.handicaps.systems import System
+    from evenbreak.ratings.scale import Scale
 
 __all__ = [
     "chart_of_option",
@@ -19,10 +22,14 @@ __all__ = [
     "refuse_conflicts",
     "say_if_long",
     "system_of_options",
+    "why_not",
 ]
 
 SCALE_OFF = 0.25
 """By what share the scale that a chart fits may be off before it is told."""
+
+MOST_APART = 20.0
+"""Doublings of the odds that an opponent may be from the player: a game in a million."""
 
 MANY_MOVES = 20
 """With more moves of different size than this, nights of several matches take long."""
@@ -61,6 +68,11 @@ def system_of_options(asked: dict[str, Any]) -> System:
     if asked["scale_name"] is None:
         return system
     scale = scale_of(asked["scale_name"])
+    if scale.points_per_doubling < 1.0:
+        refuse(
+            f"--scale is {asked['scale_name']!r}; ratings are whole points, so give 1 or more to "
+            "double the odds"
+        )
     if system.scale.name != "npl" and scale != system.scale:
         refuse(f"the rule of the system {system.name} is one of its own scale; leave --scale out")
     return replace(system, scale=scale)
@@ -107,7 +119,7 @@ def say_if_long(system: System, chart: Chart, matches: int) -> None:
         )
 
 
-def opponents_of_options(asked: dict[str, Any]) -> tuple[Opponents, str]:
+def opponents_of_options(asked: dict[str, Any], scale: Scale) -> tuple[Opponents, str]:
     """Return the opponents that are asked for, and what they are called."""
     from evenbreak.handicaps.opponents import AUTOCORRELATED, EQUAL_SKILL, NATURAL
 
@@ -116,12 +128,12 @@ def opponents_of_options(asked: dict[str, Any]) -> tuple[Opponents, str]:
     if asked["equal_skill"]:
         return EQUAL_SKILL, "equal skill"
     if asked["league"] is not None:
-        return _of_league(asked["league"], asked["skill"]), "league"
+        return _of_league(asked["league"], asked["skill"], scale), "league"
     return NATURAL, "natural"
 
 
-def _of_league(path: str, skill: int | None) -> Opponents:
-    """Return opponents drawn from the rated players of a list."""
+def _of_league(path: str, skill: int | None, scale: Scale) -> Opponents:
+    """Return opponents drawn from the rated players of a list, or refuse a skill far from them."""
     import numpy as np
 
     from evenbreak.errors import DataError
@@ -134,5 +146,34 @@ def _of_league(path: str, skill: int | None) -> Opponents:
     ratings = file.roster.rating[~np.isnan(file.roster.rating)]
     if not len(ratings):
         raise DataError([f"{file.source}: nobody in it has a rating; write one for each player"])
+    for doubt in scale_doubts(scale, ratings, "--scale says what they mean"):
+        say(doubt)
     about = round(float(np.median(ratings))) if skill is None else skill
+    low, high = float(ratings.min()), float(ratings.max())
+    most = MOST_APART * scale.points_per_doubling
+    if max(about - low, high - about) > most:
+        refuse(
+            f"{'the median' if skill is None else '--skill'} is {about}, and the ratings of "
+            f"{file.source} are from {low:g} to {high:g}; nobody may be more than {most:.0f} "
+            "points from the player, so give a --skill nearer to all of them"
+        )
     return opponents_of(ratings, about=about)
+
+
+_RUNS_AWAY = (
+    "the rating does not stay near the skill: the moves are too large for the scale, the form "
+    "varies too much, or the skill drifts faster than they follow; give a smaller --step, another "
+    "--system, or less of --day-sd, --match-sd or --drift"
+)
+_TOO_FAR = (
+    "the rating does not stay near the skill: the league's players are too far from the player's "
+    "skill for the races of the chart, so that he wins or loses nearly always; give a --skill "
+    "nearer to them, or the --scale of their ratings"
+)
+
+
+def why_not(error: AccuracyError, opponents: Opponents) -> str:
+    """Return why a ladder has no law, and what to do about it on the command line."""
+    if "at every difference" in str(error):
+        return str(error)
+    return _TOO_FAR if opponents.farthest else _RUNS_AWAY

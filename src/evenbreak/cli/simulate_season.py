@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from evenbreak.cli.options import refuse
 from evenbreak.cli.output import say
+from evenbreak.cli.scale_doubts import scale_doubts
 
 if TYPE_CHECKING:
     from evenbreak.league.season import Season
@@ -18,9 +19,6 @@ WEEKS = 30
 
 LONG = 500_000_000
 """Matches that take one process some ten seconds or more."""
-
-FAR = 3.0
-"""Doublings of the odds that a league is not away from the middle of its scale."""
 
 
 def refuse_contradictions(
@@ -89,7 +87,8 @@ def remarks(file: LeagueFile, season: Season, replicas: int) -> list[str]:
             f"{file.exact:,} of {many:,} players are taken to be rated rightly at the start: "
             "neither skill nor standard_error is stated"
         )
-    return [*told, *_doubts(file, season), *_much(season, replicas)]
+    doubts = scale_doubts(season.system.scale, file.players.rating, "--scale says what they mean")
+    return [*told, *doubts, *_much(season, replicas)]
 
 
 def _much(season: Season, replicas: int) -> list[str]:
@@ -104,17 +103,3 @@ def _much(season: Season, replicas: int) -> list[str]:
     if a_season * replicas < LONG:
         return []
     return [f"About {a_season * replicas:,} matches are played; --jobs shares them out"]
-
-
-def _doubts(file: LeagueFile, season: Season) -> list[str]:
-    """Return a word on ratings that do not look like those of the system's scale."""
-    import numpy as np
-
-    scale = season.system.scale
-    middle = float(np.median(file.players.rating))  # one slip makes no other scale
-    if not scale.centre or abs(middle - scale.centre) <= FAR * scale.points_per_doubling:
-        return []
-    return [
-        f"Note: ratings on the {scale.name} scale are about {scale.centre:g}, here they are about "
-        f"{middle:g}; --scale says what they mean"
-    ]

@@ -18,7 +18,7 @@ from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.stats.summary import Distribution
 
-__all__ = ["AUTOCORRELATED", "EQUAL_SKILL", "NATURAL", "Opponents", "opponents_of"]
+__all__ = ["AUTOCORRELATED", "EQUAL_SKILL", "NATURAL", "Opponents", "opponents_of", "stretched"]
 
 _NOTHING = Distribution((0,), (1.0,))
 
@@ -138,6 +138,24 @@ def opponents_of(
         raise InputError("ratings is empty; give the rating of one opponent or more")
     values, counts = np.unique(points.ravel().astype(np.int64), return_counts=True)
     return Opponents(Distribution.of(values.tolist(), counts.tolist()), error, given)
+
+
+def stretched(opponents: Opponents, factor: float) -> Opponents:
+    """Return the same opponents on a scale on which so many times the points mean the same.
+
+    >>> stretched(opponents_of([60, 80, 95], 80), 4).spread.values
+    (-80, 0, 60)
+    """
+    error = opponents.error
+    return Opponents(
+        _stretched(opponents.spread, factor),
+        None if error is None else _stretched(error, factor),
+        opponents.given,
+    )
+
+
+def _stretched(law: Distribution, factor: float) -> Distribution:
+    return Distribution.of([round(value * factor) for value in law.values], law.probability)
 
 
 def _finite(values: ArrayLike, name: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:

@@ -139,8 +139,8 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
         later, tail = passage.distribution(tail=_TAIL / remaining, max_steps=_HORIZON)
         if tail * remaining > _TAIL:
             raise AccuracyError(
-                f"more than {_HORIZON} matches may be needed (on average {passage.mean:.6g}); "
-                "give a wider band or a start that is nearer"
+                f"from an error of {error} to one of {band} or less {_often(passage.mean)}; give a "
+                "wider band, a start that is nearer, or less drift"
             )
         gone = len(chances) - 1
         mean += remaining * (gone + passage.mean)
@@ -149,6 +149,13 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
     tail_left = max(0.0, 1.0 - math.fsum(chances)) if remaining > 0.0 else 0.0
     sd = math.sqrt(max(square - mean * mean, 0.0))
     return Settling(error, band, newcomer, mean, sd, tuple(chances), tail_left)
+
+
+def _often(mean: float) -> str:
+    """Return how many matches are too many, by their mean; beyond sense it is not told."""
+    if mean > _HORIZON:
+        return f"a rating hardly ever comes: in more than {_HORIZON:,} matches on average"
+    return f"more than {_HORIZON:,} matches may be needed ({mean:,.0f} on average)"
 
 
 def _schedule(ladder: Ladder) -> tuple[tuple[int, int], ...]:

@@ -15,17 +15,18 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.inflation import inflation
 from evenbreak.handicaps.ladder import Ladder
 from evenbreak.handicaps.meetings import meetings_of
-from evenbreak.handicaps.opponents import EQUAL_SKILL, Opponents
+from evenbreak.handicaps.opponents import EQUAL_SKILL, Opponents, stretched
 from evenbreak.handicaps.settling import settling
 from evenbreak.handicaps.systems import step_system
 from evenbreak.handicaps.unfairness import CLEAR_FAVOURITE, better_off, unfairness
+from evenbreak.ratings.scale import SCALES
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.chart import Chart
 
 __all__ = ["StepPoint", "SystemRow", "compare_systems", "mean_games", "step_front", "system_row"]
 
-_NEAR = 1.0 / 6.0
+NEAR = 1.0 / 6.0
 """Settled is within so much of a doubling: 5 points of the NPL's 30."""
 
 
@@ -101,7 +102,7 @@ def system_row(ladder: Ladder) -> SystemRow:
     """Return what is to be said of one ladder's system and chart, as `compare_systems` does."""
     points = ladder.system.scale.points_per_doubling
     sd = ladder.law().sd
-    settled = settling(ladder, -round(points), round(_NEAR * points))
+    settled = settling(ladder, -round(points), round(NEAR * points))
     favoured = better_off(unfairness(ladder))
     return SystemRow(
         system=ladder.system.name,
@@ -134,6 +135,8 @@ def compare_systems(
         for each row a `System` or its name, or a pair of it and a `Chart` (None: its own).
     opponents
         whom players meet; by default equally good ones whose ratings err as their own do.
+        Their points are those of the National Pool League's scale, 30 of which double the odds;
+        on other scales as many are taken as mean the same.
     day_sd, match_sd
         fluctuation of every player's form, in *doublings of the odds*, so that it is the same
         for all scales.
@@ -160,7 +163,11 @@ def compare_systems(
         named, chart = entry if isinstance(entry, tuple) else (entry, None)
         points = Ladder(named, chart).system.scale.points_per_doubling
         ladder = Ladder(
-            named, chart, opponents=opponents, day_sd=day_sd * points, match_sd=match_sd * points
+            named,
+            chart,
+            opponents=stretched(opponents, points / SCALES["npl"].points_per_doubling),
+            day_sd=day_sd * points,
+            match_sd=match_sd * points,
         )
         rows.append(system_row(ladder))
     return rows
@@ -205,7 +212,7 @@ def step_front(
     for step in steps:
         ladder = Ladder(step_system(step), chart, opponents=opponents)
         points = ladder.system.scale.points_per_doubling
-        mean = settling(ladder, -round(points), round(_NEAR * points)).mean
+        mean = settling(ladder, -round(points), round(NEAR * points)).mean
         found.append(StepPoint(int(step), ladder.law().sd, mean, on_front=True))
     if not found:
         raise InputError("steps is empty; give one step or more, such as 1")
