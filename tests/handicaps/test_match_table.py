@@ -70,7 +70,7 @@ def test_the_widest_difference_is_a_whole_number():
         match_table(NPL, widest=0)
 
 
-@pytest.mark.parametrize("points", [(0.5, -0.5), (1, -1, 0), (1,)])
+@pytest.mark.parametrize("points", [(0.5, -0.5), (1, -1, 0), (1,), 1, None, "ab"])
 def test_a_rule_that_gives_no_two_whole_points_is_refused(points):
     from dataclasses import replace
 

@@ -206,11 +206,6 @@ def _moves(
         apart = float(turn * (place - size))
         m, n = needs[place].tolist()[::turn]
         mine, other = games[place, outcome].tolist()[::turn]
-        points = system.rule(PlayedMatch((apart, 0.0), (mine, other), (m, n)))
-        if not all(isinstance(point, int) for point in points) or len(points) != 2:
-            raise InputError(
-                f"the rule of the system {system.name} moves ratings by {points!r}; let it return "
-                "whole points of the winner and of the loser"
-            )
+        points = system.moves(PlayedMatch((apart, 0.0), (mine, other), (m, n)))
         moves[place, outcome] = points[::turn]
     return moves

@@ -362,6 +362,6 @@ def _move(
     games = None if unscored else (score[sides[0]], score[sides[1]])
     race = winner_first(results.race_a, results.race_b)
     ratings = float(roster.rating[winner]), float(roster.rating[loser])
-    points = system.rule(PlayedMatch(ratings, games, race, (played[winner], played[loser])))
+    points = system.moves(PlayedMatch(ratings, games, race, (played[winner], played[loser])))
     by_chart = winner_first(night.chart_a, night.chart_b)
     return MatchMove(row, winner, loser, games, race, by_chart, points)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -20,6 +21,13 @@ __all__ = ["SettlingCurve", "SystemPoint", "ladder_figure", "systems_figure"]
 
 _SHOWN = 1e-3
 """Errors rarer than this part of the commonest are beyond the edge of the picture."""
+
+_LETTER = 8.0
+"""Size of a system's name."""
+_PANEL = (450.0, 300.0)
+"""About how wide and high the axes of the systems are, in points."""
+
+_Box = tuple[float, float, float, float]
 
 
 class SettlingCurve(NamedTuple):
@@ -202,16 +210,17 @@ def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
     >>> sorted(text.get_text() for text in figure.axes[0].texts)
     ['step 1', 'step 2']
     """
+    on_chart = f" on {chart}" if chart else ""
     figure, axes = new_axes(
         "matches until a rating has settled, mean",
         "sd of the rating error (% of the points that double the odds)",
+        title=f"Systems, and sizes of the step{on_chart}",
         size=(7.2, 5.0),
     )
     listed = sorted(points, key=lambda point: point.matches)
     black, orange = LINES[0].color, LINES[2].color
     front = [point for point in listed if point.unbeaten]
     axes.plot(*_places(front), color="0.6", linewidth=0.8, zorder=1)
-    on_chart = f" on {chart}" if chart else ""
     kinds = (
         (True, "o", black, black, f"steps{on_chart}: none is both more exact and faster"),
         (False, "o", "white", black, "another step is"),
@@ -222,23 +231,72 @@ def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
         if not drawn:
             continue
         axes.plot(*_places(drawn), mark, mfc=inside, mec=edge, ms=5, zorder=3, label=label)
-        for point in drawn:
-            axes.annotate(
-                point.name,
-                (point.matches, point.sd),
-                (0, -12) if unbeaten is None else (0, 6),
-                textcoords="offset points",
-                ha="center",
-                fontsize=8,
-                bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
-                zorder=2,
-                color=edge,
-                parse_math=False,
-            )
-    axes.set_xlim(0.0, 1.15 * listed[-1].matches)
-    axes.set_ylim(0.0, 1.1 * max(point.sd for point in listed))
+    right, top = 1.15 * listed[-1].matches, 1.1 * max(point.sd for point in listed)
+    axes.set_xlim(0.0, right)
+    axes.set_ylim(0.0, top)
+    for point, offset in zip(listed, _free_offsets(listed, right, top), strict=True):
+        axes.annotate(
+            point.name,
+            (point.matches, point.sd),
+            offset,
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=_LETTER,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
+            zorder=2,
+            color=orange if point.unbeaten is None else black,
+            parse_math=False,
+        )
     axes.legend(frameon=False, fontsize=9, loc="upper right")
     return figure
+
+
+def _free_offsets(
+    listed: Sequence[SystemPoint], right: float, top: float
+) -> list[tuple[float, float]]:
+    """Return where each name stands from its mark, in points, so that few cover another or a mark.
+
+    One name after the other takes the first place that is free, or the freest.
+    """
+    wide, high = _PANEL
+    marks = [(point.matches / right * wide, point.sd / top * high) for point in listed]
+    taken = [(x, y, 6.0, 6.0) for x, y in marks]
+    found = []
+    for (x, y), point in zip(marks, listed, strict=True):
+        width, height = 0.55 * _LETTER * len(point.name) + 4.0, _LETTER + 2.0
+        side = width / 2.0 + 5.0
+        places = [
+            (dx, dy)
+            for dy, dx in product((0.0, 9.0, -9.0, 18.0, -18.0, 27.0, -27.0), (0.0, side, -side))
+            if dx or dy
+        ]
+        # Above and below come first, then beside, then farther off.
+        places.sort(key=lambda place: (abs(place[1]) + 0.6 * abs(place[0]), -place[1]))
+        covered = [
+            sum(_overlap((x + dx, y + dy, width, height), box) for box in taken)
+            + _outside(x + dx, width, wide)
+            for dx, dy in places
+        ]
+        best = places[covered.index(min(covered))]
+        taken.append((x + best[0], y + best[1], width, height))
+        found.append(best)
+    return found
+
+
+def _overlap(one: _Box, other: _Box) -> float:
+    """Return the area that two boxes share; a box is its middle, width and height.
+
+    >>> _overlap((0, 0, 4, 2), (3, 1, 4, 2))
+    1.0
+    """
+    across = (one[2] + other[2]) / 2.0 - abs(one[0] - other[0])
+    along = (one[3] + other[3]) / 2.0 - abs(one[1] - other[1])
+    return max(0.0, across) * max(0.0, along)
+
+
+def _outside(x: float, width: float, wide: float) -> float:
+    return 10.0 * max(0.0, width / 2.0 - x, x + width / 2.0 - wide)
 
 
 def _places(points: Sequence[SystemPoint]) -> tuple[list[float], list[float]]:

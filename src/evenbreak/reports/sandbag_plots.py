@@ -34,7 +34,7 @@ def pay_figure(pays: Sandbagging) -> Figure:
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     ['honest', '2 dumped', '4 dumped', '6 dumped', '8 dumped']
     """
-    figure, axes = new_axes("match in earnest", "chance to win it")
+    figure, axes = new_axes("match in earnest", "chance to win it", title="What dumped matches buy")
     most, many = len(pays.rows) - 1, pays.p_win.shape[1]
     shown = sorted({round(most * part / 4) for part in range(5)})
     matches = range(1, many + 1)
@@ -67,7 +67,12 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     ['alarm', 'Ann']
     """
-    figure, axes = new_axes("match of the player", "evidence e")
+    figure, axes = new_axes(
+        "match of the player",
+        "evidence e",
+        title="Evidence for sandbagging",
+        size=(7.4, 4.2),
+    )
     named = sorted(watched, key=lambda one: -float(one.log_e.max()))[:MOST_NAMED]
     axes.axhline(1.0 / alpha, color="#555555", linewidth=0.8, linestyle=":", label="alarm")
     for one in watched:
@@ -78,7 +83,7 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
     axes.set_yscale("log")
     axes.set_xlim(left=0)
     axes.locator_params(axis="x", integer=True)
-    legend = axes.legend(loc="upper left", fontsize=9)
+    legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize=9)
     for text in legend.get_texts():
         text.set_parse_math(False)
     return figure

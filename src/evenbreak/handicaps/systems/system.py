@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from numbers import Integral
 from typing import Any, NamedTuple
 
 from evenbreak.checks import whole
@@ -79,6 +80,27 @@ class System:
     asks: tuple[str, ...] = ()
     conserving: bool = True
     newcomer_steps: tuple[tuple[int, int], ...] = ()
+
+    def moves(self, match: PlayedMatch) -> tuple[int, int]:
+        """Return by how many points the rule moves the winner and the loser of a match.
+
+        Raises
+        ------
+        InputError
+            if the rule returns what is no pair of whole points.
+
+        >>> from evenbreak.handicaps import system_of
+        >>> system_of("step 2 1").moves(PlayedMatch((80, 75), (5, 3), (5, 5)))
+        (2, -1)
+        """
+        points: Any = self.rule(match)
+        pair = isinstance(points, tuple | list) and len(points) == 2
+        if not pair or not all(isinstance(point, Integral) for point in points):
+            raise InputError(
+                f"the rule of the system {self.name} moves ratings by {points!r}; let it return a "
+                "pair: the whole points of the winner and of the loser, such as (1, -1)"
+            )
+        return int(points[0]), int(points[1])
 
     def usual_chart(self) -> Chart:
         """Return the chart by which the system is played where nobody names one.
