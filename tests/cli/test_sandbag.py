@@ -168,3 +168,16 @@ def test_form_that_varies_is_weighed(run):
     refused = run(*words[:-1], "500")
     assert refused.exit_code == 2
     assert "--day-sd is 500.0; give a number from 0 to 120" in refused.stderr
+
+
+def test_a_roster_of_mixed_scales_is_told(run, tmp_path):
+    roster = tmp_path / "mixed.csv"
+    header, *rows = Path(SEASON[2]).read_text(encoding="utf-8").splitlines()
+    place = header.split(",").index("rating")
+    for number, row in enumerate(rows[:3]):
+        cells = row.split(",")
+        cells[place] = "570"
+        rows[number] = ",".join(cells)
+    roster.write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
+    told = run("sandbag", "watch", SEASON[0], "--roster", str(roster), "--json").stderr
+    assert f"3 of {len(rows)} ratings are more than 180 points" in " ".join(told.split())
