@@ -42,8 +42,8 @@ def test_a_wrong_law_is_seen() -> None:
 
 def test_winners_have_their_chance() -> None:
     rng = np.random.Generator(np.random.SFC64(7))
-    cell = 2 * ((10 + LOOK.gap) * LOOK.width + 7 + LOOK.widest)
-    won = draw_winners(LOOK, np.full((2, MATCHES), cell), rng)
+    cell = 2 * (10 + LOOK.gap) * LOOK.races + LOOK.twice_race[7]
+    won = draw_winners(LOOK.wins, np.full((2, MATCHES), cell), rng)
     chance = LOOK.table.wins(LOOK.game[10 + LOOK.gap])[7 + LOOK.widest]
     error = np.sqrt(chance * (1 - chance) / won.size)
     assert abs(won.mean() - chance) < 4 * error

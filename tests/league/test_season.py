@@ -36,8 +36,9 @@ def test_every_system_can_be_sent(system: str) -> None:
     assert again.system == system_of(system)
 
 
-def test_the_longest_move_is_a_newcomers() -> None:
-    assert Season(CLUB, "npl").longest_move == 3
+def test_the_longest_move_is_a_newcomers_if_there_is_one() -> None:
+    assert Season(LeaguePlayers.of([50, 60], played=[100, 29]), "npl").longest_move == 3
+    assert Season(LeaguePlayers.of([50, 60], played=[100, 30]), "npl").longest_move == 1
     assert Season(CLUB, "step 2").longest_move == 2
 
 

@@ -76,8 +76,8 @@ class Counting:
         for start in range(0, len(rating), step):
             some = slice(start, start + step)
             error = rating[some] - skill[some]
-            np.minimum(error, self.widest, out=error)  # `clip` looks up limits at each call
-            np.maximum(error, -self.widest, out=error)
+            if max(int(error.max()), -int(error.min())) > self.widest:
+                np.clip(error, -self.widest, self.widest, out=error)
             where = self.zero[some] + error
             if here is not None:
                 where = where[here[some]]
@@ -86,24 +86,22 @@ class Counting:
         self.errors[week] = by_batch.sum(axis=0)
         self.weeks[:, week] = by_batch @ self.powers
 
-    def matches(
-        self, cell: NDArray[np.intp], won: NDArray[np.bool_], played: Any, batch: Any
-    ) -> None:
-        """Count matches by their place in the tables, which is even, and by who wins.
+    def matches(self, cell: NDArray[np.intp], won: NDArray[np.bool_], played: Any) -> None:
+        """Count matches by their place in the tables of all batches, and by who wins.
 
-        `batch` has that of each row, or is None where there is only one.
+        `cell` is even, and used up.
         """
-        where = cell
-        where += won
-        _add_up(self.cells, where, played, batch)
+        cell += won
+        _add_up(self.cells, cell, played)
 
-    def scores(
-        self, row: NDArray[Any], apart: NDArray[Any], score: Any, played: Any, batch: Any
-    ) -> None:
-        """Count matches by skill difference and what is noted of their final score."""
+    def scores(self, row: NDArray[Any], apart: NDArray[Any], score: Any, played: Any) -> None:
+        """Count matches by skill difference and what is noted of their final score.
+
+        `row` is that of the skill difference in the tables of all batches.
+        """
         look = self.look
         place = (apart.astype(np.intp) + look.widest) * look.outcomes + score
-        _add_up(self.codes, row * look.codes + look.code.take(place), played, batch)
+        _add_up(self.codes, row * look.codes + look.code.take(place), played)
 
     def tally(self, ended: Ended) -> Tally:
         """Return the tally of the chunk."""
@@ -193,10 +191,8 @@ class Counting:
         return np.column_stack(sums).reshape(self.batches, bins, -1)
 
 
-def _add_up(tables: NDArray[np.int64], where: NDArray[Any], played: Any, batch: Any) -> None:
-    """Add one at each place (moved to the table of its row's batch) where a match is played."""
-    if batch is not None:
-        where += (tables.shape[1] * batch)[:, None]
+def _add_up(tables: NDArray[np.int64], where: NDArray[Any], played: Any) -> None:
+    """Add one at each place where a match is played."""
     np.add.at(tables.reshape(-1), where.ravel() if played is None else where[played], 1)
 
 

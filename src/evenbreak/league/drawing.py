@@ -31,10 +31,12 @@ def random_bits(rng: np.random.Generator, shape: tuple[int, ...]) -> NDArray[np.
     return np.asarray(raw, dtype=np.uint64).view(np.uint32)[:many].reshape(shape)
 
 
-def draw_winners(look: Lookup, cell: NDArray[Any], rng: np.random.Generator) -> NDArray[np.bool_]:
-    """Return where player 1 wins; `cell` is the place in `look.wins`."""
+def draw_winners(
+    wins: NDArray[np.uint32], cell: NDArray[Any], rng: np.random.Generator
+) -> NDArray[np.bool_]:
+    """Return where player 1 wins; `cell` is the place in `wins`, his chances in 2^32nds."""
     limit = np.empty(cell.shape, dtype=np.uint32)
-    np.take(look.wins, cell, out=limit, mode="wrap")  # all are within; 'raise' would copy
+    np.take(wins, cell, out=limit, mode="wrap")  # all are within; 'raise' would copy
     return random_bits(rng, cell.shape) < limit
 
 

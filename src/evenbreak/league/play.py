@@ -101,6 +101,9 @@ class _Chunk:
         shape = batches * len(players), replicas
         self.season, self.rng, self.replicas, self.batches = season, rng, replicas, batches
         self.lookup: Lookup = season.lookup
+        # Each batch counts in a table of its own. With the chances once for each of them, the
+        # same place draws a match and counts it.
+        self.wins = self.lookup.wins if batches == 1 else np.tile(self.lookup.wins, batches)
         self.state = np.empty(shape, dtype=np.int32)
         self.state[:] = self._column(players.rating)
         # One column where all replicas are alike: then there is less to look up.
@@ -220,17 +223,17 @@ class _Chunk:
         if self.highest - self.lowest > look.widest:
             np.clip(apart, -look.widest, look.widest, out=apart)
         row = self._rows(a, b)
+        counted = row if self.batches == 1 else row + self._first_rows(a)
         cell = np.empty(apart.shape, dtype=np.intp)
         np.take(look.twice_race, apart, out=cell, mode="wrap")
-        cell += row * (2 * look.races)
+        cell += counted * (2 * look.races)
         won, score = self._draw(row, cell, apart)
         played = None
         if absent is not None:
             played = ~(absent.take(a, axis=0) | absent.take(b, axis=0))
-        batch = a // len(self.season.players) if self.batches > 1 else None
-        self.count.matches(cell, won, played, batch)
+        self.count.matches(cell, won, played)
         if score is not None:
-            self.count.scores(row, apart, score, played, batch)
+            self.count.scores(counted, apart, score, played)
             if self.games is not None:
                 self._count_games(a, b, apart, score, played)
         if before is not self.state:
@@ -263,6 +266,11 @@ class _Chunk:
         row += self.lookup.gap
         return row
 
+    def _first_rows(self, a: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Return where the tables of the players' batches begin."""
+        batch = a // len(self.season.players)
+        return (batch * (2 * self.lookup.gap + 1))[:, None]
+
     def _count_games(
         self, a: NDArray[np.intp], b: NDArray[np.intp], apart: Any, score: Any, played: Any
     ) -> None:
@@ -288,7 +296,7 @@ class _Chunk:
         """Return where player 1 wins and, where that is drawn, which final score it is."""
         look = self.lookup
         if self.season.play == "matches" and look.by_winner is not None:
-            return draw_winners(look, cell, self.rng), None
+            return draw_winners(self.wins, cell, self.rng), None
         place = apart.astype(np.intp) + look.widest
         draw = play_racks if self.season.play == "racks" else draw_scores
         score = draw(look, row, place, self.rng)

@@ -82,11 +82,13 @@ class RoundRobin:
 
     def _round(self, number: int) -> Round:
         seats = self.players + self.players % 2
-        places = np.arange(seats // 2)
+        circle = np.arange(seats)
         turned = number % (seats - 1)
-        a = np.where(places == 0, 0, 1 + (places - 1 + turned) % (seats - 1))
-        b = 1 + (seats - 2 - places + turned) % (seats - 1)
-        there = (a < self.players) & (b < self.players)  # the last seat may be empty: a bye
+        circle[1:] = np.roll(circle[1:], -turned)
+        a, b = circle[: seats // 2], circle[: seats // 2 - 1 : -1]
+        if seats == self.players:
+            return a, b
+        there = (a < self.players) & (b < self.players)  # the last seat is empty: a bye
         return a[there], b[there]
 
 

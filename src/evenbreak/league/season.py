@@ -115,7 +115,9 @@ class Season:
     @cached_property
     def longest_move(self) -> int:
         """The most points that a match may move a rating."""
-        factors = [factor for _, factor in self.system.newcomer_steps]
+        steps = self.system.newcomer_steps
+        anybody_new = (self.players.played < sum(matches for matches, _ in steps)).any()
+        factors = [factor for _, factor in steps] if anybody_new else []
         return int(np.abs(self.table.moves).max()) * max(factors, default=1)
 
     @cached_property
