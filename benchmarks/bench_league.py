@@ -23,10 +23,11 @@ def skills(players: int) -> Any:
     return np.clip(np.random.default_rng(1).normal(75.0, 20.0, players), 20, 130).round()
 
 
-def season_of(players: int) -> Season:
+def season_of(players: int, *, by_lot: bool = True) -> Season:
     skill = skills(players)
     club = LeaguePlayers.of(skill + np.arange(players) % 2, skill=skill)
-    return Season(club, "npl", chart("npl_10"), RandomPairing(), WEEKS)
+    schedule = RandomPairing() if by_lot else None
+    return Season(club, "npl", chart("npl_10"), schedule, WEEKS)
 
 
 def win_table() -> Any:
@@ -100,11 +101,12 @@ def test_one_league(beside: Beside, benchmark: Any, players: int) -> None:
     print(ratio, speed(players / 2 * WEEKS, benchmark.extra_info["ours"]))
 
 
-def test_replicas(beside: Beside, benchmark: Any) -> None:
-    season = season_of(64)
+@pytest.mark.parametrize("schedule", ["by lot", "round robin"])
+def test_replicas(beside: Beside, benchmark: Any, schedule: str) -> None:
+    season = season_of(64, by_lot=schedule == "by lot")
     season.lookup.expected  # noqa: B018
     ratio = beside(
-        f"2,000 replicas of 64 players, {WEEKS} weeks / bare loop, replicas down",
+        f"2,000 replicas of 64 players, {WEEKS} weeks, {schedule} / bare loop, replicas down",
         lambda: simulate(season, replicas=2000, seed=1),
         bare_replicas(2000, 64),
         rounds=31,
