@@ -40,7 +40,8 @@ def test_help_lists_every_command_with_its_line(run):
 
 def test_help_imports_no_command():
     assert {name for name in loaded_by("--help") if name.startswith("evenbreak.cli.")} == {
-        "evenbreak.cli.base"
+        "evenbreak.cli.base",
+        "evenbreak.cli.groups",
     }
 
 

@@ -15,6 +15,7 @@ beforehand.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -39,7 +40,7 @@ _FEW = 1 << 20
 """Products up to which a sum is faster than a Fourier transform."""
 
 
-class Pairing:
+class Pairing(ABC):
     """The matches of a player of skill 0 on a line of errors.
 
     Parameters
@@ -82,6 +83,7 @@ class Pairing:
             won=table.won[first],
         )
 
+    @abstractmethod
     def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return P(move | error, deviation) for each step, and P(win | error, deviation) last.
 
@@ -94,7 +96,6 @@ class Pairing:
         -------
         array of shape (steps + 1, errors, days)
         """
-        raise NotImplementedError
 
     def scores(self, low: int, high: int) -> NDArray[np.float64]:
         """Return P(final score | race, skill difference), for differences from low to high.
