@@ -3,12 +3,14 @@
 python docs/images/make_images.py
 """
 
+from itertools import accumulate
 from pathlib import Path
 
 import networkx as nx
 from matplotlib.figure import Figure
 
 from evenbreak.games import Ahead, OneBall, Race, Rack
+from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling
 from evenbreak.physics import Table, aimed_shot, pockets, strike_for_speed
 from evenbreak.physics.units import INCH
 from evenbreak.ratings import fit
@@ -23,6 +25,7 @@ from evenbreak.reports import (
     sheet_pages,
     shot_on_table,
 )
+from evenbreak.reports.ladder_plots import SettlingCurve, ladder_figure
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE.parents[1] / "data" / "demo_league.csv"
@@ -55,6 +58,17 @@ def cut_shot() -> Figure:
     return shot_on_table(aimed_shot(hit, *((x * INCH, y * INCH) for x, y in places)))
 
 
+def ladder() -> Figure:
+    """Draw what `evenbreak ladder` draws of chart 10: the law, and how newcomers settle."""
+    model = Ladder("npl", chart("npl_10"), opponents=EQUAL_SKILL)
+    settled = [*accumulate(settling(model, -30, newcomer=True).chances)]
+    natural = Ladder("npl", chart("npl_10")).law()
+    curve = SettlingCurve(-30, 5, settled)
+    return ladder_figure(
+        model.law(), natural=natural, curve=curve, title="chart npl_10, system npl"
+    )
+
+
 def main() -> None:
     """Write every picture beside this file."""
     diagrams = {
@@ -63,6 +77,7 @@ def main() -> None:
         "drill": draw(drill(4)),
         "race": draw(Race(3, 2, Rack(0.6)), title="Race 3:2"),
         "shot": cut_shot(),
+        "ladder": ladder(),
     }
     for name, figure in diagrams.items():
         (HERE / f"{name}.svg").write_bytes(image_bytes(figure, "svg"))

@@ -20,6 +20,7 @@ __getattr__, __dir__, __all__ = attach(
             "EvenbreakError",
             "GameError",
             "InputError",
+            "WorkerError",
         ],
         "game": ["Game", "graph_of"],
         "games.rack": ["Rack"],
@@ -69,6 +70,6 @@ __getattr__, __dir__, __all__ = attach(
         "handicaps.chart": ["Chart", "chart"],
         "handicaps.audit": ["audit"],
         "handicaps.design": ["design"],
-        "handicaps.ladder": ["autocorrelated_ladder", "natural_ladder"],
+        "handicaps.ladder": ["Ladder"],
     },
 )

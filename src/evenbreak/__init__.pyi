@@ -19,6 +19,7 @@ from evenbreak.errors import DataError as DataError
 from evenbreak.errors import EvenbreakError as EvenbreakError
 from evenbreak.errors import GameError as GameError
 from evenbreak.errors import InputError as InputError
+from evenbreak.errors import WorkerError as WorkerError
 from evenbreak.game import Game as Game
 from evenbreak.game import graph_of as graph_of
 from evenbreak.games.ahead import Ahead as Ahead
@@ -38,8 +39,7 @@ from evenbreak.handicaps.chart import Chart as Chart
 from evenbreak.handicaps.chart import chart as chart
 from evenbreak.handicaps.design import design as design
 from evenbreak.handicaps.fair import fair_races as fair_races
-from evenbreak.handicaps.ladder import autocorrelated_ladder as autocorrelated_ladder
-from evenbreak.handicaps.ladder import natural_ladder as natural_ladder
+from evenbreak.handicaps.ladder import Ladder as Ladder
 from evenbreak.matches.crossings import crossings as crossings
 from evenbreak.matches.crossings import even_probability as even_probability
 from evenbreak.matches.formats import match_format as match_format

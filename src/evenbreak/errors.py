@@ -9,7 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-__all__ = ["AccuracyError", "ChainError", "DataError", "EvenbreakError", "GameError", "InputError"]
+__all__ = [
+    "AccuracyError",
+    "ChainError",
+    "DataError",
+    "EvenbreakError",
+    "GameError",
+    "InputError",
+    "WorkerError",
+]
 
 
 class EvenbreakError(Exception):
@@ -30,6 +38,10 @@ class ChainError(EvenbreakError, ValueError):
 
 class AccuracyError(EvenbreakError, ArithmeticError):
     """The answer cannot be vouched for by the method asked for."""
+
+
+class WorkerError(EvenbreakError, RuntimeError):
+    """Those who were to do the work, processes or a cluster, cannot be reached or are gone."""
 
 
 class DataError(EvenbreakError, ValueError):

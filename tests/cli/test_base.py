@@ -40,7 +40,8 @@ def test_help_lists_every_command_with_its_line(run):
 
 def test_help_imports_no_command():
     assert {name for name in loaded_by("--help") if name.startswith("evenbreak.cli.")} == {
-        "evenbreak.cli.base"
+        "evenbreak.cli.base",
+        "evenbreak.cli.groups",
     }
 
 
@@ -104,6 +105,24 @@ def test_each_error_has_its_exit_code_and_a_line_for_each_problem(capsys, error,
     assert capsys.readouterr() == ("", told)
 
 
+def broken_import(cause):
+    """Return what an import makes of what happens in the midst of it."""
+    try:
+        try:
+            raise cause
+        except type(cause) as inner:
+            raise RuntimeError("Error calling __set_name__ on 'cached_property'") from inner
+    except RuntimeError as error:
+        return error
+
+
+def test_an_interrupt_is_one_whatever_an_import_makes_of_it(capsys):
+    assert report_error(broken_import(KeyboardInterrupt())) == 130
+    assert capsys.readouterr().err == "Interrupted.\n"
+    with pytest.raises(RuntimeError, match="cached_property"):  # a fault of the program
+        report_error(broken_import(ValueError()))
+
+
 def test_errors_pass_through_where_the_caller_asks_for_them():
     with pytest.raises(click.UsageError, match="what is played is missing"):
         base.program.main(["odds", "1", "2"], standalone_mode=False)
@@ -123,6 +142,19 @@ def test_ctrl_c_ends_with_130(tmp_path):
         out, err = running.communicate(timeout=30)
     assert (running.returncode, out) == (130, "")
     assert err.strip() == "Interrupted."
+
+
+def test_an_interrupt_that_somebody_caught_in_an_import_ends_with_130(tmp_path):
+    """Python by itself would end `python -m` by a signal then."""
+    (tmp_path / "stopped.py").write_text(
+        "import sys\nfrom evenbreak import cli\nfrom evenbreak.cli import base\n"
+        "def invoke(_):\n    exec('raise KeyboardInterrupt')\n"
+        "base.program.invoke = invoke\nsys.argv[1:] = ['odds']\ncli.main()\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-m", "stopped"], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr.strip()) == (130, "", "Interrupted.")
 
 
 def test_a_reader_that_leaves_is_no_error_to_tell(tmp_path):

@@ -18,3 +18,15 @@ def test_flush_right_too():
 def test_what_is_said_stays_on_its_line(capsys):
     say("No such file: a\nb\x1b.csv")
     assert capsys.readouterr() == ("", "No such file: a\\nb\\x1b.csv\n")
+
+
+def test_what_is_said_is_broken_between_words_on_a_terminal(capsys, monkeypatch):
+    said = "Wrote " + ", ".join(f"table_{k}.csv" for k in range(20)) + " to /" + "x" * 100
+    say(said)
+    assert capsys.readouterr().err == f"{said}\n"
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
+    say(said)
+    told = capsys.readouterr().err
+    assert told.split() == said.split()
+    assert all(len(line) <= 80 for line in told.splitlines()[:-1])
+    assert len(told.splitlines()) > 2

@@ -28,6 +28,23 @@ def test_a_long_answer_is_counted_and_the_line_wiped_out(monkeypatch):
     assert told[5:] == [""]
 
 
+def test_of_a_known_total_the_time_left_is_told(monkeypatch):
+    screen, clock = Screen(), iter([100.0, 101.0, 110.0, 220.0, 1300.0])
+    monkeypatch.setattr(sys, "stderr", screen)
+    monkeypatch.setattr(module.time, "monotonic", lambda: next(clock))
+    with Progress("seasons") as progress:
+        for count in (0, 250, 500, 2000):
+            progress(count, 10_000)
+    told = [line.rstrip() for line in screen.getvalue().split("\r")]
+    assert told[1:5] == [
+        "0 of 10,000 seasons (0%), time left not known yet ...",
+        "250 of 10,000 seasons (2%), about 6 min left ...",
+        "500 of 10,000 seasons (5%), about 38 min left ...",
+        "2,000 of 10,000 seasons (20%), about 1 h 20 min left ...",
+    ]
+    assert max(map(len, told)) <= 80
+
+
 def test_a_short_answer_and_a_file_are_told_nothing(monkeypatch):
     assert counted(monkeypatch, Screen(), 60.0) == ""
     assert counted(monkeypatch, io.StringIO(), 0.0) == ""

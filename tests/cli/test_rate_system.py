@@ -10,12 +10,12 @@ NIGHT = (
     '2026-11-20,Ann,"Diaz, Bo",5,3,\n2026-11-20,Cy,Annie,2,6,\n2026-11-20,Cy,=cmd(),,,yes\n'
 )
 LIST = (
-    "player,rating,standard_error,games,component,rating_before,change,matches_won,matches_lost,"
-    "why\n"
-    'Ann,94,,156,,92,2,2,0,"beat Diaz, Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)"\n'
-    '"Diaz, Bo",79,,128,,80,-1,0,1,lost to Ann 3-5 (race 4:5)\n'
-    "Cy,70,,,,71,-1,0,1,lost to Ann 2-6 (race 4:6)\n"
-    "'=cmd(),60,,0,,60,0,0,0,\n"
+    "player,rating,standard_error,games,component,matches,rating_before,change,matches_won,"
+    "matches_lost,why\n"
+    'Ann,94,,156,,,92,2,2,0,"beat Diaz, Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)"\n'
+    '"Diaz, Bo",79,,128,,,80,-1,0,1,lost to Ann 3-5 (race 4:5)\n'
+    "Cy,70,,,,,71,-1,0,1,lost to Ann 2-6 (race 4:6)\n"
+    "'=cmd(),60,,0,,,60,0,0,0,\n"
 )
 
 
@@ -91,6 +91,96 @@ def test_json(rate):
 
 def test_the_night_may_come_through_a_pipe(rate):
     assert rate("-", "--chart", "npl_10", stdin=NIGHT).stdout == LIST
+
+
+def test_newcomers_go_farther_and_their_matches_are_counted_on(rate, tmp_path):
+    (tmp_path / "last.csv").write_text("player,rating,matches\nAnn,92,9\nDiaz,80,29\nCy,71,\n")
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,winner\nAnn,Diaz,5,3,Ann\nDiaz,Ann,5,3,Diaz\n"
+        "Diaz,Cy,5,1,Diaz\n"
+    )
+    result = rate("night.csv")
+    assert result.exit_code == 0
+    assert [line.split(",")[:8] for line in result.stdout.splitlines()[1:]] == [
+        ["Ann", "93", "", "", "", "11", "92", "1"],  # 3 up, then 2 down
+        ["Diaz", "80", "", "", "", "32", "80", "0"],  # 2 down, then up 1 and 1
+        ["Cy", "70", "", "", "", "", "71", "-1"],
+    ]
+    assert (
+        "Newcomers go 3 times as far in their first 10 matches, 2 times in the next 20."
+        in result.stderr.splitlines()
+    )
+
+
+def test_a_league_without_newcomers_is_told_nothing_of_them(rate, tmp_path):
+    (tmp_path / "last.csv").write_text("player,rating,matches\nAnn,92,30\n'Diaz, Bo',80,\nCy,71,\n")
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,winner\nAnn,Cy,5,3,Ann\n"
+    )
+    assert "Newcomers" not in rate("night.csv").stderr
+
+
+@pytest.mark.parametrize(
+    ("system", "change"),
+    [("step 3", (3, -3)), ("step-2-1", (2, -1)), ("margin", (2, -2)), ("elo 16", (11, -11))],
+)
+def test_other_systems_move_by_their_own_rules(rate, tmp_path, system, change):
+    (tmp_path / "last.csv").write_text("player,rating\nAnn,120\nCy,0\n")
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,race_a,race_b\nAnn,Cy,4,1,4,3\n"
+    )
+    result = rate("night.csv", "--system", system)
+    rows = [line.split(",") for line in result.stdout.splitlines()[1:]]
+    assert [int(row[7]) for row in rows] == list(change)
+
+
+def test_a_system_that_moves_by_the_score_asks_for_it(rate, tmp_path):
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,race_a,race_b,winner\nAnn,Cy,6,4,Ann\nCy,Ann,4,6,Cy\n"
+    )
+    result = rate("night.csv", "--system", "elo 16")
+    assert result.exit_code == 3
+    assert "night.csv:2: the score is not stated, and the system elo 16 moves" in result.stderr
+    assert "night.csv:3: the score is not stated" in result.stderr
+
+
+def test_a_system_that_moves_by_the_race_asks_for_it(rate, tmp_path):
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,winner\nAnn,Cy,6,2,Ann\n"
+    )
+    result = rate("night.csv", "--system", "margin", "--chart", "npl_10")
+    assert result.exit_code == 0
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,winner\nAnn,Cy,9,2,Ann\n"
+    )
+    result = rate("night.csv", "--system", "margin")
+    assert result.exit_code == 3
+    assert (
+        "night.csv:2: the race is not stated, and the system margin 2 moves ratings by it; give "
+        "the chart by which they played (npl_8, npl_10, npl_12 or npl_20), or the columns race_a "
+        "and race_b"
+    ) in result.stderr
+
+
+def test_the_chart_of_a_fixed_length_system_is_taken_by_itself(rate):
+    result = rate("night.csv", "--system", "fixed 9")
+    assert result.exit_code == 3  # 5-3 and 6-2 are the ends of no races of nine games at once
+    assert "give the chart by which they played, or the columns race_a and race_b" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("system", "message"),
+    [
+        ("fide", "--system is 'fide'; give npl, step UP [DOWN], margin [MOST]"),
+        ("step", "--system is 'step'; write it as step UP [DOWN], in whole numbers"),
+        ("elo 0", "--system is 'elo 0': k is 0; give a whole number, 1 or more"),
+        ("fixed 8", "--system is 'fixed 8': games is 8"),
+    ],
+)
+def test_a_system_that_there_is_not_is_refused(rate, system, message):
+    result = rate("night.csv", "--system", system)
+    assert result.exit_code == 2
+    assert message in result.stderr
 
 
 def test_a_race_beside_the_chart_is_warned_of(rate, tmp_path):

@@ -1,28 +1,43 @@
 import pickle
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from math import comb
+from math import comb, erf, sqrt
 
-import networkx as nx
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.game import Game, graph_of
-from evenbreak.handicaps import Chart, RatingLadder, autocorrelated_ladder, chart, natural_ladder
-from evenbreak.handicaps import ladder as module
-from evenbreak.ratings import SCALES, Scale
+from evenbreak.handicaps import (
+    AUTOCORRELATED,
+    EQUAL_SKILL,
+    NATURAL,
+    Chart,
+    Ladder,
+    Opponents,
+    chart,
+    ladder_law,
+    match_table,
+    opponents_of,
+    system_of,
+)
+from evenbreak.handicaps.fluctuation import deviation_grid, deviations
+from evenbreak.handicaps.pairing import pairing_of
+from evenbreak.ratings import SCALES, scale_of
+from evenbreak.stats import Distribution
 
-PRINTED = {  # chart: natural, autocorrelated
-    "npl_8": (4.963, 4.978),
-    "npl_10": (4.634, 4.654),
-    "npl_12": (4.269, 4.291),
-    "npl_20": (3.668, 3.697),
+PUBLISHED = {  # chart: natural, model A (the text's), model B
+    "npl_8": (4.963, 4.978, 4.583),
+    "npl_10": (4.634, 4.654, 4.417),
+    "npl_12": (4.269, 4.291, 4.144),
+    "npl_20": (3.668, 3.697, 3.688),
 }
-SHORT = Chart("short", [(0, 0, 2, 2), (1, 2, 3, 2), (3, None, 2, 1)])
+MODELS = (NATURAL, AUTOCORRELATED, EQUAL_SKILL)
+THREE = Distribution((-12, 0, 7), (0.25, 0.5, 0.25))
 
 
 def exact_win(p, m, n):
@@ -32,198 +47,403 @@ def exact_win(p, m, n):
 
 
 def exact_law(wins):
-    """Return the stationary law of a ladder by detailed balance, without rounding."""
+    """Return the stationary law of a +-1 ladder by detailed balance, without rounding."""
     weights = [Fraction(1)]
     for up, down in pairwise(wins):
         weights.append(weights[-1] * up / (1 - down))
     return [weight / sum(weights) for weight in weights]
 
 
-def exact_sd(law):
-    middle = len(law) // 2
-    return float(sum((k - middle) ** 2 * chance for k, chance in enumerate(law))) ** 0.5
+def chances(law):
+    return np.array(law.probability, dtype=float)
 
 
-def probabilities(found):
-    return np.array(found.distribution.probability, dtype=float)
+def dense_law(ladder):
+    """Return the law by an eigenvector of the whole matrix: the second route."""
+    many = len(ladder.errors)
+    M = np.zeros((many, many))
+    for place in range(many):
+        for step, chance in zip(ladder.steps, ladder.kernel[place], strict=True):
+            after = place + step
+            M[after if 0 <= after < many else place, place] += chance
+    values, vectors = np.linalg.eig(M)
+    law = np.abs(vectors[:, np.argmin(np.abs(values - 1.0))].real)
+    return law / law.sum()
 
 
-@pytest.mark.parametrize("name", PRINTED)
-def test_standard_deviations_are_those_of_the_text(name):
-    natural, autocorrelated = PRINTED[name]
-    assert natural_ladder(chart(name)).distribution.sd == pytest.approx(natural, abs=5e-4)
-    found = autocorrelated_ladder(chart(name))
-    assert found.distribution.sd == pytest.approx(autocorrelated, abs=5e-4)
+def rounded_normal(days, sd):
+    """Return the law of a normal deviation rounded to whole points."""
+    below = [0.5 * (1 + erf((day - 0.5) / (sd * sqrt(2)))) for day in days]
+    above = [0.5 * (1 + erf((day + 0.5) / (sd * sqrt(2)))) for day in days]
+    return np.array(above) - np.array(below)
 
 
-@pytest.mark.parametrize("name", PRINTED)
+def brute_moves(ladder, error, step):
+    """Return P(step | error) by sums over whatever the opponent and the two deviations may be.
+
+    For one match a night.
+    """
+    sd = np.hypot(ladder.day_sd, ladder.match_sd)
+    far = int(9 * sd) + 1 if sd else 0
+    days = np.arange(-far, far + 1)
+    weights = rounded_normal(days, sd) if sd else np.ones(1)
+    of_error = ladder.opponent_law
+    spread = ladder.opponents.spread
+    table = match_table(ladder.system, ladder.chart, widest=4 * ladder.widest)
+    total = 0.0
+    for a, chance_a in zip(spread.values, chances(spread), strict=True):
+        for j, chance_j in zip(of_error.values, chances(of_error), strict=True):
+            if chance_j < 1e-18:
+                continue
+            skill = a if ladder.opponents.given == "skill" else a - j
+            x = error - (skill + j) + table.widest
+            for f, chance_f in zip(days, weights, strict=True):
+                p = ladder.system.scale.win_probability((f - skill - days).astype(float))
+                m, n = table.needs[x].tolist()
+                won = exact_win(p, m, n)
+                by = table.moves[x, table.won[x], 0][0], table.moves[x, ~table.won[x], 0][0]
+                here = won * (by[0] == step) + (1 - won) * (by[1] == step)
+                total += chance_a * chance_j * chance_f * float(weights @ here)
+    return total
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_standard_deviations_are_the_published_ones(name):
+    found = [Ladder(chart(name), opponents=model).law().sd for model in MODELS]
+    assert found == pytest.approx(PUBLISHED[name], abs=5.1e-4)
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
 def test_natural_law_is_the_exact_one(name):
     wins = [exact_win(Fraction(1, 2), *chart(name).race(i)) for i in range(-60, 61)]
     expected = exact_law(wins)
-    found = natural_ladder(chart(name))
-    np.testing.assert_allclose(probabilities(found), [float(x) for x in expected], rtol=1e-12)
-    assert found.distribution.sd == pytest.approx(exact_sd(expected), rel=1e-13)
-    assert found.distribution.values == tuple(range(-60, 61))
-    assert found.changes == ()
+    ladder = Ladder(chart(name))
+    np.testing.assert_allclose(chances(ladder.law()), [float(x) for x in expected], rtol=1e-12)
+    np.testing.assert_allclose(ladder.wins, [float(win) for win in wins], rtol=1e-12)
+    assert ladder.law().values == tuple(range(-60, 61))
+    assert ladder.changes == ()
 
 
-def test_autocorrelated_law_of_a_short_chart_is_the_one_of_exact_rounds():
-    # On the scale of one point a doubling, all game chances are fractions.
-    games = {j: 1 / (1 + Fraction(2) ** j) for j in range(-4, 5)}
-    races = {i: SHORT.race(i) for i in range(-4, 5)}
-    law = exact_law([exact_win(Fraction(1, 2), *races[i]) for i in races])
-    for _ in range(60):
-        wins = [
-            sum(v * exact_win(games[j], *races[i]) for j, v in zip(games, law, strict=True))
-            for i in races
-        ]
-        # Exact rounds would double the digits each time.
-        law = [Fraction(round(x * 10**40), 10**40) for x in exact_law(wins)]
-    found = autocorrelated_ladder(SHORT, widest=4, scale=Scale("one point", 1.0))
-    np.testing.assert_allclose(probabilities(found), [float(x) for x in law], rtol=1e-12)
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_law_is_the_eigenvector_of_the_matrix(model, name):
+    ladder = Ladder(chart(name), opponents=model)
+    np.testing.assert_allclose(chances(ladder.law()), dense_law(ladder), atol=1e-12)
 
 
-@pytest.mark.parametrize("name", PRINTED)
-def test_the_law_is_the_same_for_opponents_and_player(name):
-    found = autocorrelated_ladder(chart(name), widest=40)
-    errors = np.arange(-40, 41)
-    opponents = probabilities(found)
-    games = SCALES["npl"].win_probability(-errors)
-    wins = [
-        sum(v * exact_win(p, *chart(name).race(i)) for v, p in zip(opponents, games, strict=True))
-        for i in errors.tolist()
-    ]
-    np.testing.assert_allclose(found.ladder.wins, wins, rtol=1e-12)
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_autocorrelated_law_is_that_of_opponents_who_err_by_it(name):
+    ladder = Ladder(chart(name), opponents=AUTOCORRELATED, widest=40)
+    errors = range(-40, 41)
+    games = SCALES["npl"].win_probability(np.arange(-40.0, 41.0))
+    law = chances(ladder.opponent_law)
+    wins = [float(law @ exact_win(games, *chart(name).race(i))) for i in errors]
+    np.testing.assert_allclose(ladder.wins, wins, rtol=1e-12)
     player = [float(x) for x in exact_law([Fraction(win) for win in wins])]
-    np.testing.assert_allclose(opponents, player, rtol=1e-9)
+    np.testing.assert_allclose(law, player, rtol=1e-9)
 
 
-@pytest.mark.parametrize("name", PRINTED)
-def test_each_round_brings_the_change_down_to_two_hundredths(name):
-    changes = autocorrelated_ladder(chart(name)).changes
-    assert 5 <= len(changes) <= 8
-    assert changes[-1] <= 1e-14
+def test_model_b_law_of_a_short_chart_is_the_one_of_exact_rounds():
+    # All games are even, so that every chance is a fraction.
+    short = Chart("short", [(0, 0, 2, 2), (1, 2, 3, 2), (3, None, 2, 1)])
+    races = {x: exact_win(Fraction(1, 2), *short.race(x)) for x in range(-8, 9)}
+    errors = range(-4, 5)
+    law = exact_law([races[i] for i in errors])
+    for _ in range(120):
+        wins = [sum(v * races[i - j] for j, v in zip(errors, law, strict=True)) for i in errors]
+        law = [Fraction(round(x * 10**30), 10**30) for x in exact_law(wins)]
+    found = Ladder(short, opponents=EQUAL_SKILL, widest=4)
+    np.testing.assert_allclose(chances(found.law()), [float(x) for x in law], rtol=1e-11)
+
+
+@pytest.mark.parametrize("sd", [0.0, 1.5])
+@pytest.mark.parametrize(
+    "opponents",
+    [
+        EQUAL_SKILL,
+        Opponents(THREE, given="skill"),
+        Opponents(THREE, given="rating"),
+        Opponents(THREE, Distribution((-3, 0, 1), (0.25, 0.5, 0.25)), "skill"),
+        Opponents(THREE, Distribution((-3, 0, 1), (0.25, 0.5, 0.25)), "rating"),
+    ],
+)
+def test_kernel_is_the_sum_over_all_that_may_be(opponents, sd):
+    ladder = Ladder("step 2 2", chart("npl_8"), opponents=opponents, match_sd=sd, widest=16)
+    for error in (-16, 0, 9):
+        for place, step in enumerate(ladder.steps.tolist()):
+            expected = brute_moves(ladder, error, step)
+            assert ladder.kernel[error + 16, place] == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_day_and_match_deviations_are_one_where_a_night_has_one_match(model):
+    day = Ladder(chart("npl_10"), opponents=model, day_sd=6.0)
+    match = Ladder(chart("npl_10"), opponents=model, match_sd=6.0, matches_a_night=3)
+    np.testing.assert_allclose(chances(day.law()), chances(match.law()), rtol=1e-12)
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_fluctuation_widens_the_law(model, name):
+    sds = [Ladder(chart(name), opponents=model, match_sd=sd).law().sd for sd in (0, 2, 4, 8)]
+    assert all(before < after for before, after in pairwise(sds))
+    assert sds[-1] < 1.1 * sds[0]
+
+
+def test_a_deviation_that_lasts_for_the_night_widens_it_more():
+    sds = [
+        Ladder(chart("npl_10"), opponents=EQUAL_SKILL, day_sd=8.0, matches_a_night=matches).law().sd
+        for matches in (1, 2, 3)
+    ]
+    assert sds[0] < sds[1] < sds[2]
+
+
+def test_the_law_of_a_night_is_that_of_the_chain_of_error_match_and_deviation():
+    ladder = Ladder(chart("npl_8"), day_sd=1.5, matches_a_night=2, widest=40)
+    days = np.arange(-13, 14)
+    weights = rounded_normal(days, 1.5)
+    games = SCALES["npl"].win_probability((days[:, None] - days).astype(float))  # own, other's
+    races = [chart("npl_8").race(i) for i in range(-40, 41)]
+    wins = np.array([exact_win(games, m, n) @ weights for m, n in races])  # error, own
+    night, first = np.zeros((2, 81, 81))
+    place = np.arange(81)
+    for day, weight in enumerate(weights):
+        M = np.zeros((81, 81))
+        M[np.minimum(place + 1, 80), place] += wins[:, day]
+        M[np.maximum(place - 1, 0), place] += 1.0 - wins[:, day]
+        first += weight * M
+        night += weight * M @ M
+    begun = np.zeros(81)
+    begun[39:42] = 0.25, 0.5, 0.25  # as often odd as even, and far from the ends
+    law = np.linalg.matrix_power(night, 4096) @ begun
+    np.testing.assert_allclose(chances(ladder.law()), (law + first @ law) / 2, atol=1e-11)
+
+
+@pytest.mark.parametrize("system", ["npl", "step 2", "step 3 2", "margin 1", "elo 8"])
+def test_every_rule_has_the_law_of_its_matrix(system):
+    ladder = Ladder(system, opponents=EQUAL_SKILL, widest=72)
+    law = chances(ladder.law())
+    assert law.sum() == pytest.approx(1.0)
+    M = np.zeros((145, 145))
+    for before in range(145):
+        for step, chance in zip(ladder.steps.tolist(), ladder.kernel[before].tolist(), strict=True):
+            after = before + step
+            M[after if 0 <= after < 145 else before, before] += chance
+    np.testing.assert_allclose(M @ law, law, atol=1e-13)
+
+
+def test_steps_of_two_make_each_parity_equally_likely():
+    law = Ladder("step 2", chart("npl_10")).law()
+    even = sum(
+        chance for error, chance in zip(law.values, law.probability, strict=True) if error % 2 == 0
+    )
+    assert even == pytest.approx(0.5)
+
+
+def test_a_skill_that_rises_leaves_its_rating_behind():
+    means = [
+        Ladder(chart("npl_10"), opponents=EQUAL_SKILL, drift=drift).law().mean
+        for drift in (-0.1, 0.0, 0.05, 0.1)
+    ]
+    assert means[0] == pytest.approx(-means[3], rel=1e-9)
+    assert means[1] == pytest.approx(0.0, abs=1e-12)
+    assert means[3] < means[2] < 0.0
+
+
+def test_a_rising_skill_is_met_by_steady_opponents():
+    ladder = Ladder(chart("npl_10"), opponents=EQUAL_SKILL, drift=0.1)
+    steady = Ladder(chart("npl_10"), opponents=EQUAL_SKILL)
+    assert chances(ladder.opponent_law) == pytest.approx(chances(steady.law()), abs=1e-13)
+    # In the long run the matches bring what the skill gains.
+    assert (2 * ladder.wins - 1) @ chances(ladder.law()) == pytest.approx(0.1, rel=1e-9)
+
+
+def test_where_all_ratings_rise_errors_are_those_beyond_the_mean():
+    law = Ladder("step 2 1", chart("npl_10"), opponents=EQUAL_SKILL).law()
+    assert law.mean == pytest.approx(0.0, abs=0.02)
+    assert Ladder("step 2 1", chart("npl_10")).law().mean > 10.0
+
+
+@pytest.mark.parametrize("model", [AUTOCORRELATED, EQUAL_SKILL])
+def test_each_round_brings_the_change_down(model):
+    changes = Ladder(chart("npl_10"), opponents=model).changes
+    assert changes[-1] <= 1e-13
     for before, after in pairwise(changes[:5]):
-        assert after < 0.02 * before
+        assert after < (0.02 if model is AUTOCORRELATED else 0.25) * before
 
 
-@pytest.mark.parametrize("name", PRINTED)
-def test_without_symmetry_a_tilt_grows_and_changes_sides(name):
-    errors = np.arange(-60, 61)
-    found = autocorrelated_ladder(chart(name))
-    m, n = np.array([chart(name).race(i) for i in errors.tolist()]).T
-    games = SCALES["npl"].win_probability(-errors)
-
-    def player_against(opponents):
-        wins = module.race_win_probability(games[None, :], m[:, None], n[:, None]) @ opponents
-        return np.array(RatingLadder(wins.tolist()).law().probability)
-
+def test_without_symmetry_a_tilt_grows():
+    found = Ladder(chart("npl_10"), opponents=AUTOCORRELATED)
     # Opponents who are better than rated by .01 points on average.
-    law = 0.99 * probabilities(found) + 0.01 * np.roll(probabilities(found), 1)
-    means = [law @ errors]
+    law = 0.99 * chances(found.law()) + 0.01 * np.roll(chances(found.law()), -1)
+    means = []
     for _ in range(3):
-        law = player_against(law)
-        means.append(law @ errors)
-    assert means[0] == pytest.approx(0.01)
+        means.append(law @ found.errors)
+        given = Distribution(tuple(found.errors.tolist()), tuple(law / law.sum()))
+        law = chances(
+            Ladder(chart("npl_10"), opponents=Opponents(error=given, given="rating")).law()
+        )
     for before, after in pairwise(means):
-        assert 1.05 < -after / before < 1.4
+        assert 1.05 < after / before < 1.4
 
 
 def test_narrow_ladders_fall_short_and_wide_ones_agree():
-    natural = {w: natural_ladder(chart("npl_8"), widest=w).distribution.sd for w in (15, 30, 60)}
+    natural = {w: Ladder(chart("npl_8"), widest=w).law().sd for w in (15, 30, 60)}
     assert natural[15] == pytest.approx(4.949, abs=5e-4)
     assert natural[30] == pytest.approx(natural[60], abs=1e-8)
 
 
-def test_the_top_is_flat_where_the_chart_is_even_and_falls_beyond():
-    law = dict(zip(range(-60, 61), probabilities(natural_ladder(chart("npl_10"))), strict=True))
-    # Errors up to 5 are played as 5:5, and the arcs between them are all one half.
-    assert [law[i] for i in range(-5, 6)] == pytest.approx([law[0]] * 11, rel=1e-13)
-    assert law[6] == pytest.approx(law[5] * 0.5 / 0.63671875, rel=1e-13)
-    beyond = [law[i] for i in range(5, 61)]
-    assert all(after < before for before, after in pairwise(beyond))
+@pytest.mark.parametrize("model", MODELS)
+@given(
+    day_sd=st.floats(0, 12),
+    match_sd=st.floats(0, 12),
+    matches=st.integers(1, 3),
+    name=st.sampled_from(sorted(PUBLISHED)),
+)
+@settings(max_examples=6, deadline=None)
+def test_laws_are_symmetric(model, day_sd, match_sd, matches, name):
+    ladder = Ladder(
+        chart(name),
+        opponents=model,
+        day_sd=day_sd,
+        match_sd=match_sd,
+        matches_a_night=matches,
+        widest=40,
+    )
+    law = chances(ladder.law())
+    np.testing.assert_allclose(law, law[::-1], atol=1e-12)
+    np.testing.assert_allclose(ladder.kernel.sum(axis=1), 1.0, rtol=1e-12)
 
 
-@pytest.mark.parametrize("model", [natural_ladder, autocorrelated_ladder])
-@pytest.mark.parametrize("name", PRINTED)
-def test_laws_are_symmetric(model, name):
-    law = probabilities(model(chart(name), widest=30))
-    np.testing.assert_allclose(law, law[::-1], rtol=1e-12)
+def test_fourier_transforms_give_what_sums_give(monkeypatch):
+    from evenbreak.handicaps import fluctuation, pairing
+
+    around = Opponents(THREE, given="rating")
+    settings_of = [
+        {"opponents": EQUAL_SKILL, "day_sd": 4.5, "matches_a_night": 2},
+        {"opponents": EQUAL_SKILL, "match_sd": 5.0},
+        {"opponents": around, "match_sd": 5.0},
+    ]
+    summed, transformed = [], []
+    for few, found in ((1 << 40, summed), (0, transformed)):
+        monkeypatch.setattr(fluctuation, "_FEW", few)
+        monkeypatch.setattr(pairing, "_FEW", few)
+        found += [chances(Ladder(chart("npl_8"), widest=14, **each).law()) for each in settings_of]
+    for one, other in zip(summed, transformed, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-12)
 
 
-@given(st.integers(1, 12), st.data())
-def test_any_ladder_has_the_law_of_detailed_balance(widest, data):
-    count = 2 * widest + 1
-    wins = data.draw(st.lists(st.integers(1, 99), min_size=count, max_size=count))
-    ladder = RatingLadder([win / 100 for win in wins])
-    expected = [float(x) for x in exact_law([Fraction(win, 100) for win in wins])]
-    np.testing.assert_allclose(ladder.law().probability, expected, rtol=1e-11)
-
-
-def test_it_is_a_game_whose_two_routes_agree():
-    ladder = natural_ladder(chart("npl_8"), widest=9).ladder
+@pytest.mark.parametrize("system", ["npl", "step 3"])
+def test_it_is_a_game_whose_two_routes_agree(system):
+    ladder = Ladder(system, chart("npl_8"), widest=9)
     assert isinstance(ladder, Game)
-    assert pickle.loads(pickle.dumps(ladder)) == ladder  # noqa: S301
     assert ladder.start == 0
     assert ladder.winner(3) is None
-    by_moves = nx.DiGraph()
-    for state in range(-9, 10):
-        for target, chance in ladder.moves(state).items():
-            by_moves.add_edge(state, target, probability=chance)
-    graph = graph_of(ladder)
-    assert {(a, b): d["probability"] for a, b, d in graph.edges(data=True)} == {
-        (a, b): d["probability"] for a, b, d in by_moves.edges(data=True)
-    }
-    limit = stochastic_limit(chain_of(by_moves), 0)
-    for error, chance in zip(range(-9, 10), ladder.law().probability, strict=True):
-        assert limit[error] == pytest.approx(chance, rel=1e-12)
+    limit = stochastic_limit(chain_of(ladder))
+    law = dict(zip(range(-9, 10), ladder.law().probability, strict=True))
+    unit = 3 if system == "step 3" else 1
+    reached = {error: law[error] * unit for error in law if error % unit == 0}
+    assert dict(limit.to_dict()) == pytest.approx(reached, rel=1e-12)
+    assert sorted(graph_of(ladder)) == sorted(reached)
 
 
-def test_holding_at_the_ends_makes_powers_settle():
-    ladder = natural_ladder(chart("npl_8"), widest=9).ladder
-    assert stochastic_limit(chain_of(ladder)).period == 1
-    endless = graph_of(ladder)
-    endless.remove_edges_from([(-9, -9), (9, 9)])
-    endless.edges[-9, -8]["probability"] = endless.edges[9, 8]["probability"] = 1.0
-    limit = stochastic_limit(chain_of(endless))
-    assert limit.period == 2
-    assert limit.is_cesaro
+def test_drift_makes_a_game_too():
+    ladder = Ladder(chart("npl_8"), drift=0.25, widest=20)
+    limit = stochastic_limit(chain_of(ladder))
+    for error, chance in zip(range(-20, 21), ladder.law().probability, strict=True):
+        assert limit.get(error, 0.0) == pytest.approx(chance, rel=1e-9, abs=1e-15)
 
 
-def test_a_certain_loss_is_a_wall():
-    # From 1 on every match is lost: 2 is never reached, and below 0 every match is won.
-    law = RatingLadder([1.0, 1.0, 0.5, 0.0, 0.0]).law()
-    assert law.probability == pytest.approx([0.0, 0.25, 0.5, 0.25, 0.0], rel=1e-15)
+def test_equal_ladders_are_equal_and_copies_too():
+    ladder = Ladder("npl", chart("npl_8"), opponents=EQUAL_SKILL, widest=20)
+    assert ladder == Ladder(chart("npl_8"), opponents=EQUAL_SKILL, widest=20)
+    assert ladder != Ladder(chart("npl_8"), widest=20)
+    assert ladder.system is system_of("npl")
+    assert Ladder("npl").chart == chart("npl_10")
+    copy = pickle.loads(pickle.dumps(ladder))  # noqa: S301
+    assert copy == ladder
+    assert copy.law() == ladder.law()
 
 
 @pytest.mark.parametrize(
-    ("wins", "message"),
+    ("change", "message"),
     [
-        ([0.5], "wins has 1 chances"),
-        ([0.5, 0.5], "an odd number, three or more"),
-        ([0.5, 1.5, 0.5], "win chance 2 is 1.5"),
-        (0.5, "wins is 0.5; give a list"),
+        ({"widest": 0}, "widest is 0; give a whole number, 1 or more"),
+        ({"widest": 2.5}, "widest is 2.5; give a whole number"),
+        ({"day_sd": -1}, "day_sd is -1; give a number from 0 to 120"),
+        ({"match_sd": "x"}, "match_sd is 'x'; give a number"),
+        ({"day_sd": float("nan")}, "day_sd is nan"),
+        ({"matches_a_night": 0}, "matches_a_night is 0; give a whole number, 1 or more"),
+        ({"drift": 2}, "drift is 2; give a number from -1 to 1"),
+        ({"opponents": "natural"}, "opponents is 'natural'; give Opponents, such as NATURAL"),
+        ({"opponents": Opponents(Distribution((0, 900), (0.5, 0.5)))}, "goes to 900 points"),
+        ({"chart": "npl_8"}, "chart is 'npl_8'; give a Chart, such as chart"),
+        ({"system": "chess"}, "system is 'chess'; give"),
     ],
 )
-def test_wins_that_make_no_ladder_are_refused(wins, message):
+def test_what_makes_no_ladder_is_refused(change, message):
     with pytest.raises(InputError, match=message):
-        RatingLadder(wins)
+        Ladder(**{"system": "npl"} | change)
 
 
-@pytest.mark.parametrize("model", [natural_ladder, autocorrelated_ladder])
-@pytest.mark.parametrize("widest", [0, -3, 2.5, "60"])
-def test_a_width_that_is_none_is_refused(model, widest):
-    with pytest.raises(InputError, match=r"widest is .*; give a whole number, 1 or more"):
-        model(chart("npl_8"), widest=widest)
+def test_two_charts_are_one_too_many():
+    with pytest.raises(InputError, match="a Chart was given as the system already"):
+        Ladder(chart("npl_8"), chart("npl_10"))
 
 
-@pytest.mark.parametrize("model", [natural_ladder, autocorrelated_ladder])
-def test_the_name_of_a_chart_is_no_chart(model):
-    with pytest.raises(InputError, match="chart is 'npl_8'; give a Chart, such as chart"):
-        model("npl_8")
+def test_a_skill_that_outruns_its_rating_has_no_width():
+    with pytest.raises(AccuracyError, match="give widest yourself"):
+        Ladder(chart("npl_10"), drift=1.0)
 
 
 def test_a_law_that_does_not_settle_is_not_given(monkeypatch):
-    monkeypatch.setattr(module, "_ROUNDS", 3)
+    monkeypatch.setattr(ladder_law, "_ROUNDS", 3)
     with pytest.raises(AccuracyError, match="after 3 rounds"):
-        autocorrelated_ladder(chart("npl_8"))
+        Ladder(chart("npl_8"), opponents=AUTOCORRELATED).law()
+
+
+@pytest.mark.parametrize(("system", "day_sd"), [("step 2", 110.0), ("step 3", 100.0)])
+def test_the_line_is_wide_enough_for_forms_that_vary_much(system, day_sd):
+    ladder = Ladder(system, day_sd=day_sd)
+    wider = Ladder(system, day_sd=day_sd, widest=2 * ladder.widest)
+    assert ladder.law().sd == pytest.approx(wider.law().sd, rel=1e-6)
+
+
+def test_a_night_of_one_match_may_be_reckoned_by_any_grid_of_forms():
+    # A form that lasts for the night is held at few points; one for a match has every point.
+    ladder = Ladder("npl", chart("npl_20"), day_sd=70.0)
+    days, weights = deviation_grid(deviations(70.0), 30.0)
+    pairing = pairing_of(
+        ladder.system, ladder.chart, ladder.widest, ladder.opponents, np.ones(1), days
+    )
+    wins = pairing.moves(np.outer(ladder.errors == 0, weights))[-1] @ weights
+    np.testing.assert_allclose(wins, ladder.wins, atol=1e-11)
+
+
+def test_a_law_that_lies_on_the_ends_is_refused():
+    with pytest.raises(AccuracyError, match="not keep up"):
+        Ladder("step 1 0", widest=60).law()
+    far = opponents_of([500, 550, 600], 80)
+    with pytest.raises(AccuracyError, match="opponents nearer the player's skill, or a widest"):
+        Ladder("npl", opponents=far, widest=60).law()
+    with pytest.raises(AccuracyError, match="too far from the player's skill"):
+        Ladder("npl", opponents=far)
+
+
+def test_a_spread_of_opponents_gets_the_width_that_it_needs():
+    far = opponents_of([52, 80, 118], 140)
+    ladder = Ladder("npl", opponents=far)
+    assert ladder.widest == 240
+    wider = Ladder("npl", opponents=far, widest=300).law()
+    assert ladder.law().mean == pytest.approx(wider.mean, abs=1e-6)
+
+
+def test_a_chart_that_is_even_everywhere_brings_nothing_back():
+    with pytest.raises(AccuracyError, match="the same race at every difference"):
+        Ladder("npl", Chart("even", [(0, None, 5, 5)]))
+
+
+def test_a_scale_of_less_than_a_point_is_refused():
+    tiny = replace(system_of("npl"), scale=scale_of(0.01))
+    with pytest.raises(InputError, match=r"is 0\.01 on"):
+        Ladder(tiny)

@@ -225,3 +225,30 @@ def test_a_night_by_hand(drawn):
         assert sorted(match.games) == sorted((i, j))
         assert match.games[0] == match.race[0]
         assert match.games[1] < match.race[1]
+
+
+def test_a_newcomer_takes_his_steps_match_by_match_of_a_night():
+    club = Roster(["Ann", "New"], [92, 60], matches=[NOT_STATED, 9])
+    results = night(
+        ("Ann", "New", 5, 3), ("New", "Ann", 5, 3), ("Ann", "New", 5, 1), winner=[1, 1, 1]
+    )
+    moves = apply_results(NPL, club, results)
+    assert [match.points for match in moves.matches] == [(1, -3), (2, -1), (1, -2)]
+    assert list(moves.after.rating) == [93, 57]
+    assert list(moves.after.matches) == [NOT_STATED, 12]
+
+
+def test_forfeits_are_no_matches_of_a_newcomer():
+    club = Roster(["Ann", "New"], [92, 60], matches=[40, 0])
+    results = night(("Ann", "New", 5, 0), forfeit=[True])
+    assert list(apply_results(NPL, club, results).after.matches) == [40, 0]
+
+
+def test_a_rule_that_asks_for_the_score_or_the_race_is_given_it_or_says_so():
+    unscored = night(("Ann", "Bo", 0, 0), race_a=[5], race_b=[4], winner=[1], unscored=[True])
+    (problem,) = night_problems(system_of("elo"), CLUB, unscored)
+    assert (problem.row, problem.column) == (0, "score_a")
+    open_race = night(("Ann", "Bo", 9, 2), winner=[1])
+    (problem,) = night_problems(system_of("margin"), CLUB, open_race)
+    assert (problem.row, problem.column) == (0, "race_a")
+    assert not night_problems(NPL, CLUB, open_race)

@@ -65,3 +65,14 @@ def test_starters_are_numbers():
         roster.with_starters(np.nan, 30.0)
     with pytest.raises(InputError, match="0 or more points"):
         roster.with_starters(80.0, -1.0)
+
+
+def test_matches_are_kept_and_not_stated_where_nobody_says_them():
+    assert list(Roster(["Ann", "Bo"], [92, 80]).matches) == [NOT_STATED, NOT_STATED]
+    started = Roster(["Ann", "Bo"], [92, np.nan], matches=[64, 0]).with_starters(80.0, 30.0)
+    assert list(started.matches) == [64, 0]
+
+
+def test_matches_are_counts():
+    with pytest.raises(InputError, match="matches is negative somewhere"):
+        Roster(["Ann"], [92], matches=[-2])

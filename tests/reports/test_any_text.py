@@ -12,9 +12,11 @@ from evenbreak.reports.read_aliases import read_aliases
 from evenbreak.reports.read_arcs import read_arcs
 from evenbreak.reports.read_chart import read_chart, read_chart_file
 from evenbreak.reports.read_drill_log import read_drill_log
+from evenbreak.reports.read_league import read_league
 from evenbreak.reports.read_pairs import read_pairs
 from evenbreak.reports.read_results import read_results
 from evenbreak.reports.read_roster import read_roster
+from evenbreak.reports.read_schedule import read_schedule
 from evenbreak.reports.read_scores import read_scores
 from evenbreak.reports.results_columns import clean_name
 from evenbreak.reports.to_csv import text_cell
@@ -22,6 +24,10 @@ from evenbreak.reports.to_csv import text_cell
 
 def pairs(path):
     return read_pairs(path, Roster(["Ann", "Bo"], [90, 80]))
+
+
+def schedule(path):
+    return read_schedule(path, Roster(["Ann", "Bo"], [90, 80]))
 
 
 RESULTS = (
@@ -36,6 +42,12 @@ READERS = {
         read_roster,
         "player,rating,standard_error,games,component\nAnn,90.5,4,120,1\nBo,,,0,\n",
     ),
+    "league": (
+        read_league,
+        "player,rating,standard_error,matches,skill,day_sd,drift,joins,leaves,absence\n"
+        "Ann,90.5,4,12,92,5,0.1,1,20,0.2\nBo,80,,,,,,,,\n",
+    ),
+    "schedule": (schedule, "week,player_a,player_b\n1,Ann,Bo\n2,Bo,Ann\n"),
     "pairs": (pairs, "player_a,player_b\nAnn,Bo\nBo,Ann\n"),
     "aliases": (read_aliases, "name,means\nAnnie,Ann\nBobby,Bo\n"),
     "chart": (

@@ -147,3 +147,23 @@ def test_every_column_is_described_with_its_other_names():
     text = page.read_text(encoding="utf-8")
     for column, others in {**REQUIRED, **OPTIONAL}.items():
         assert f"| `{column}` | {', '.join(others)} |" in text
+
+
+def test_matches_are_counts_or_not_stated(tmp_path):
+    path = tmp_path / "roster.csv"
+    path.write_text("player,rating,Matches Played\nAnn,92,64\nBo,80,\n", encoding="utf-8")
+    assert read_roster(path).roster.matches.tolist() == [64, NOT_STATED]
+    path.write_text("player,rating,matches\nAnn,92,six\nBo,80,-1\n", encoding="utf-8")
+    with pytest.raises(DataError) as caught:
+        read_roster(path)
+    assert len(caught.value.problems) == 2
+
+
+def test_the_columns_of_a_season_are_no_surprise_but_a_misspelt_one_is(tmp_path):
+    path = tmp_path / "roster.csv"
+    path.write_text(
+        "player,rating,skill,strength,day_sd,drift,joins,leaves,absence,absense\n"
+        "Ann,92,90,91,4,0,1,9,0.1,0.1\n",
+        encoding="utf-8",
+    )
+    assert read_roster(path).warnings == (f"{path}: columns not used: 'absense'",)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.reports.write_files import LITTER_AGE, write_files
+from evenbreak.reports.write_files import LITTER_AGE, check_folder, write_files
 
 NAMES = ("a.csv", "b.csv", "c.csv")
 OLD = {name: f"old {name}".encode() for name in NAMES}
@@ -181,3 +181,12 @@ def test_an_end_at_any_moment_leaves_whole_files(tmp_path, ending, after):
     numbers = [int(words.pop()) for words in rounds]
     # A kill that cannot wait may hit the moment in which the files take their places.
     assert max(numbers) - min(numbers) <= (ending == "SIGKILL")
+
+
+def test_a_folder_is_checked_without_a_trace(tmp_path):
+    check_folder(tmp_path)
+    check_folder(tmp_path / "new" / "newer")
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "file").write_text("")
+    with pytest.raises(NotADirectoryError, match="is a file, so no folder can be in it"):
+        check_folder(tmp_path / "file" / "x" / "y")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 import click
 
 from evenbreak import __version__
+from evenbreak.cli.groups import LazyGroup
 
 __all__ = ["COMMANDS", "Program", "program"]
 
@@ -22,6 +22,9 @@ COMMANDS = {
     "fair": "Find the race that is nearest to an even chance.",
     "matchups": "Tell tonight's races for a list of rated players.",
     "chart": "List and show handicap charts, audit one, or design one.",
+    "ladder": "Tell how wrong a league's ratings are, how fair its nights.",
+    "sandbag": "Tell what losing on purpose pays, and watch for it.",
+    "simulate": "Simulate a league's season: ratings, nights, who profits.",
     "validate": "Tell how far the ratings of a league can be trusted.",
     "oneball": "Answer who wins the one-ball game, and which shot is best.",
     "breaks": "Weigh break formats and stakes for two players, in the long run.",
@@ -36,37 +39,8 @@ COMMANDS = {
 """Each command with its line of help; module and function bear the command's name."""
 
 
-class Program(click.Group):
-    """A click group that imports a command only to run it, and ends with its exit code."""
-
-    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
-        """Return the names of the commands, in the order of the help text."""
-        return list(COMMANDS)
-
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
-        """Import and return a command, or None if there is none of that name."""
-        if cmd_name not in COMMANDS:
-            return None
-        module = importlib.import_module(f"evenbreak.cli.{cmd_name}")
-        command: click.Command = getattr(module, cmd_name)
-        return command
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command that the first word names, or say which it is nearest to."""
-        name = args[0]
-        if name not in COMMANDS and not name.startswith("-"):
-            from difflib import get_close_matches
-
-            near = get_close_matches(name, COMMANDS, n=1)
-            ctx.fail(f"No such command {name!r}." + (f" Did you mean {near[0]!r}?" if near else ""))
-        return super().resolve_command(ctx, args)
-
-    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
-        """Write the list of commands from the table, without importing any."""
-        with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+class Program(LazyGroup):
+    """The group of all commands, which ends with the exit code of what it ran."""
 
     def main(
         self,
@@ -90,7 +64,12 @@ class Program(click.Group):
         sys.exit(code or 0)
 
 
-@click.command("evenbreak", cls=Program, context_settings={"help_option_names": ["-h", "--help"]})
+@click.command(
+    "evenbreak",
+    cls=Program,
+    table=COMMANDS,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 @click.version_option(__version__, prog_name="evenbreak", message="%(prog)s %(version)s")
 def program() -> None:
     """Fair races, odds and ratings for pool, from Markov chains."""

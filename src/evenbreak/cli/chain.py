@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.options import NUMBER, wants_json
-from evenbreak.cli.output import SCHEMA_VERSION, print_json
+from evenbreak.cli.output import SCHEMA_VERSION, print_json, say
 from evenbreak.errors import AccuracyError, DataError
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def chain(arcs: str, start: str | None, steps: int | None, as_json: bool) -> Non
 
     file = read_arcs(arcs)
     for warning in file.warnings:
-        click.echo(f"Warning: {warning}", err=True)
+        say(f"Warning: {warning}")
     if start is None:
         start = file.states[file.sources[0]]
     elif start not in file.states:
@@ -64,7 +64,7 @@ def chain(arcs: str, start: str | None, steps: int | None, as_json: bool) -> Non
         print_json(_answer(built, limit, steps))
         return
     for note in _notes(limit):
-        click.echo(f"Note: {note}", err=True)
+        say(f"Note: {note}")
     _print_csv(file.states, limit.probability.tolist())
 
 

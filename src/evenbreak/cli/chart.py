@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import importlib
-
 import click
+
+from evenbreak.cli.groups import LazyGroup
 
 __all__ = ["CHART_COMMANDS", "chart"]
 
@@ -17,28 +17,7 @@ CHART_COMMANDS = {
 """Each command with its line of help; `chart_list` of the module `chart_list`, and so on."""
 
 
-class ChartCommands(click.Group):
-    """A click group that imports a command only to run it."""
-
-    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
-        """Return the names of the commands, in the order of the help text."""
-        return list(CHART_COMMANDS)
-
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
-        """Import and return a command, or None if there is none of that name."""
-        if cmd_name not in CHART_COMMANDS:
-            return None
-        name = f"chart_{cmd_name}"
-        command: click.Command = getattr(importlib.import_module(f"evenbreak.cli.{name}"), name)
-        return command
-
-    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
-        """Write the list of commands from the table, without importing any."""
-        with formatter.section("Commands"):
-            formatter.write_dl(list(CHART_COMMANDS.items()))
-
-
-@click.command(cls=ChartCommands)
+@click.command(cls=LazyGroup, table=CHART_COMMANDS, prefix="chart_")
 def chart() -> None:
     """List and show handicap charts, audit one, or design one.
 

@@ -13,6 +13,7 @@ from evenbreak.cli.output import (
     aligned,
     print_json,
     print_table,
+    say,
     to_terminal,
 )
 
@@ -45,7 +46,7 @@ def chart_show(chart: str, as_json: bool) -> None:
     file = find_chart_file(chart)
     found = file.chart
     for warning in file.warnings:
-        click.echo(f"Warning: {warning}", err=True)
+        say(f"Warning: {warning}")
     columns, rows = chart_table(found)
     if as_json:
         listed = [dict(zip(columns, row, strict=True)) for row in rows]

@@ -14,6 +14,7 @@ from evenbreak.cli.output import (
     chance_text,
     print_json,
     print_table,
+    say,
     to_terminal,
 )
 from evenbreak.cli.plot import plot_option, write_plot
@@ -206,7 +207,7 @@ def _print_log(
 
     file = read_drill_log(path, levels=levels)
     for warning in file.warnings:
-        click.echo(f"Warning: {warning}", err=True)
+        say(f"Warning: {warning}")
     replicas = min(1999, max(199, MOST_DRAWS // len(file.log)))
     analysis = analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
     if plot is not None:

@@ -30,7 +30,8 @@ def report_error(error: BaseException) -> int:
         case click.ClickException():
             error.show()
             return error.exit_code
-        case click.Abort() | KeyboardInterrupt():
+        case _ if any(isinstance(one, click.Abort | KeyboardInterrupt) for one in _chain(error)):
+            # An interrupt inside an import comes out as whatever the import makes of it.
             click.echo("Interrupted.", err=True)
             return INTERRUPTED
         case OSError(errno=errno.EPIPE):
@@ -49,6 +50,15 @@ def report_error(error: BaseException) -> int:
         case InputError():
             return USAGE
     return FAILED
+
+
+def _chain(error: BaseException | None) -> Iterator[BaseException]:
+    """Yield an error, what it arose from, what that arose from, ..."""
+    seen: set[int] = set()
+    while error is not None and id(error) not in seen:
+        seen.add(id(error))
+        yield error
+        error = error.__cause__ or error.__context__
 
 
 def _lines(error: BaseException) -> Iterator[str]:

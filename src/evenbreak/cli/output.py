@@ -38,10 +38,19 @@ def to_terminal() -> bool:
 
 
 def say(message: str) -> None:
-    """Say something beside the answer: a line on stderr, in letters that print."""
+    """Say something beside the answer: a line on stderr, in letters that print.
+
+    On a terminal the line is broken between words.
+    """
     from evenbreak.reports.problems import printable
 
-    click.echo(printable(message), err=True)
+    text = printable(message)
+    if sys.stderr is not None and sys.stderr.isatty():
+        import textwrap
+
+        # Names of files stay whole, so that they can be copied.
+        text = textwrap.fill(text, WIDTH, break_long_words=False, break_on_hyphens=False)
+    click.echo(text, err=True)
 
 
 def print_json(value: Any) -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import importlib
-
 import click
+
+from evenbreak.cli.groups import LazyGroup
 
 __all__ = ["PHYSICS_COMMANDS", "physics"]
 
@@ -20,28 +20,7 @@ PHYSICS_COMMANDS = {
 """Each command with its line of help; `physics_speed` of the module `physics_speed`, and so on."""
 
 
-class PhysicsCommands(click.Group):
-    """A click group that imports a command only to run it."""
-
-    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
-        """Return the names of the commands, in the order of the help text."""
-        return list(PHYSICS_COMMANDS)
-
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
-        """Import and return a command, or None if there is none of that name."""
-        if cmd_name not in PHYSICS_COMMANDS:
-            return None
-        name = f"physics_{cmd_name}"
-        command: click.Command = getattr(importlib.import_module(f"evenbreak.cli.{name}"), name)
-        return command
-
-    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
-        """Write the list of commands from the table, without importing any."""
-        with formatter.section("Commands"):
-            formatter.write_dl(list(PHYSICS_COMMANDS.items()))
-
-
-@click.command(cls=PhysicsCommands)
+@click.command(cls=LazyGroup, table=PHYSICS_COMMANDS, prefix="physics_")
 def physics() -> None:
     """Answer what ball, cloth and cue do: throw, aim, deflection, spin.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
 import click
@@ -19,10 +19,20 @@ KINDS = (".png", ".svg")
 
 
 def _picture(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    if value is not None and PurePath(value).suffix.lower() not in KINDS:
-        raise click.BadParameter(
-            f"{value!r}; name a file that ends in .png or .svg", ctx=ctx, param=param
-        )
+    if value is None:
+        return None
+    folder = Path(value).parent
+    wrong = ""
+    if PurePath(value).suffix.lower() not in KINDS:
+        wrong = "name a file that ends in .png or .svg"
+    elif not folder.exists():
+        wrong = f"there is no folder {str(folder)!r}; make it first, or name another"
+    elif not folder.is_dir():
+        wrong = f"{str(folder)!r} is a file, so no picture can be in it; name a folder"
+    elif Path(value).is_dir():
+        wrong = "that is a folder; name a file in it"
+    if wrong:
+        raise click.BadParameter(f"{value!r}; {wrong}", ctx=ctx, param=param)
     return value
 
 

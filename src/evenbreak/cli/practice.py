@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.options import chance, number, refuse, wants_json
+from evenbreak.cli.output import say
 from evenbreak.cli.plot import plot_option, write_plot
 from evenbreak.cli.practice_words import (
     NEW_WORDS,
@@ -100,7 +101,7 @@ def _read(path: str) -> ScoresFile:
 
     file = read_scores(path)
     for warning in file.warnings:
-        click.echo(f"Warning: {warning}", err=True)
+        say(f"Warning: {warning}")
     return file
 
 

@@ -6,9 +6,7 @@ import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from evenbreak.cli.output import chance_text, print_quantities, to_terminal
+from evenbreak.cli.output import chance_text, print_quantities, say, to_terminal
 
 if TYPE_CHECKING:
     from evenbreak.stats.confidence import Luck
@@ -99,7 +97,7 @@ def print_answer(
         answer = {**answer, "sentence": sentence, "notes": list(notes)}
     elif not to_terminal():
         for note in notes:
-            click.echo(f"Note: {note}", err=True)
+            say(f"Note: {note}")
     shown = {
         "share": f"{100 * answer['confidence']:g} %",
         "score": f"{answer.get('score', 0.0):g}",

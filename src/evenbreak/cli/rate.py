@@ -81,7 +81,7 @@ Examples:
 @click.option(
     "--system",
     metavar="NAME",
-    help="Apply a league's own update rule instead, such as npl, to --roster.",
+    help="Apply a league's own update rule instead, such as npl or 'step 2', to --roster.",
 )
 @click.option(
     "--roster",

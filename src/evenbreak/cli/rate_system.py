@@ -9,6 +9,7 @@ import click
 
 from evenbreak.cli.options import refuse
 from evenbreak.cli.output import SCHEMA_VERSION, aligned, print_json, say, to_terminal
+from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,16 +45,17 @@ def rate_by_system(
         whether JSON was asked for.
     """
     from evenbreak.handicaps.moves import chart_of_night
-    from evenbreak.handicaps.systems import SYSTEMS, system_of
+    from evenbreak.handicaps.systems import system_of
     from evenbreak.reports.moves_frame import moves_frame, moves_of_files, night_warnings
     from evenbreak.reports.read_results import read_results
     from evenbreak.reports.read_roster import read_roster
 
     if [path, roster, chart, aliases].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
-    if system.strip().lower() not in SYSTEMS:
-        refuse(f"--system is {system!r}; give {' or '.join(SYSTEMS)}")
-    rule = system_of(system)
+    try:
+        rule = system_of(system)
+    except InputError as error:
+        refuse(f"--{error}")
     by_chart = None if chart is None else _chart(chart)
     last = read_roster(roster)
     tonight = read_results(path, aliases=aliases)
@@ -107,10 +109,27 @@ def _heading(moves: Moves, last: str, tonight: str) -> str:
     ]
     matches = len(moves.matches)
     return (
-        f"System {moves.system.name}: {moves.system.in_words}.\n"
+        f"System {moves.system.name}: {moves.system.in_words}.\n{_newcomers(moves)}"
         f"{len(moves.before):,} players of {last}; {matches:,} match{'es' * (matches != 1)} of "
         f"{tonight}" + (f"; left out: {', '.join(left_out)}" if left_out else "") + ".\n"
     )
+
+
+def _newcomers(moves: Moves) -> str:
+    """Return how newcomers move, where the list has such and the system a rule for them."""
+    from evenbreak.ratings.roster import NOT_STATED
+
+    steps, before = moves.system.newcomer_steps, moves.before.matches
+    first = sum(matches for matches, _ in steps)
+    if not ((before != NOT_STATED) & (before < first)).any():
+        return ""
+    stages = [
+        f"{factor} times in the next {matches}"
+        if stage
+        else f"{factor} times as far in their first {matches} matches"
+        for stage, (matches, factor) in enumerate(steps)
+    ]
+    return f"Newcomers go {', '.join(stages)}.\n"
 
 
 def _tables(moves: Moves, frame: pd.DataFrame) -> str:

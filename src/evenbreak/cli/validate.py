@@ -93,7 +93,6 @@ def validate(
     from evenbreak.errors import DataError, InputError
     from evenbreak.ratings.scale import scale_of
     from evenbreak.ratings.validate import validate as validated
-    from evenbreak.reports.problems import printable
     from evenbreak.reports.read_results import read_results
 
     scale = scale_of(scale_name)
@@ -103,7 +102,7 @@ def validate(
         refuse(f"--prior is {prior:g} points; on this scale give {least:.2g} to {most:.4g}")
     file = read_results(results, aliases=aliases)
     for warning in file.warnings:
-        click.echo(printable(f"Warning: {warning}"), err=True)
+        say(f"Warning: {warning}")
     try:
         found = validated(
             file.results, prior_sd=prior_sd, half_life=half_life, seed=seed, progress=say

@@ -1,248 +1,321 @@
-"""The ladder: a rating goes up a point with each match won and down a point with each lost.
+"""The ladder: how far a rating strays from the skill that it should tell, match by match.
 
-A player's rating error i is his rating less his skill, in points. The chart gives the race at
-the error, the race gives the chance W[i] to win the match, and the error moves to i + 1 or to
-i - 1: a chain whose stochastic limit says how far ratings wander however long it is played.
+A player's rating error is his rating less his skill, in points. The chart gives the race at the
+difference of two ratings, the race and the two skills give the chances of each final score, the
+system's rule moves the rating: a chain on the rating errors, whose stochastic limit says how far
+ratings wander however long it is played.
 
-Two models of the opponents, whose ratings all equal the player's skill:
-
-- natural: their skill is what their rating says, so each game is even and
-  W[i] = W(1/2; m[i], n[i]);
-- autocorrelated: their skill is off by j points with the chance v[j] that the player himself is,
-  so W[i] = sum over j of v[j] W(p(-j); m[i], n[i]), and v is the limit that these W[i] give.
-
-Source: the National Pool League's ladder, between Table 5.6 and P5.27.
+Source: the National Pool League's ladder, between Table 5.6 and P5.27, with the natural and the
+autocorrelated model and the further improvements that are named there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import contextlib
+import math
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.chains import chain_of, stochastic_limit
-from evenbreak.checks import number_probabilities, whole
+from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, InputError
-from evenbreak.game import ArcArrays
 from evenbreak.handicaps.chart import Chart
-from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.scale import SCALES, Scale
+from evenbreak.handicaps.error_walk import ErrorWalk
+from evenbreak.handicaps.fluctuation import deviation_grid, deviations, difference_law
+from evenbreak.handicaps.ladder_law import Night, Settled, settled
+from evenbreak.handicaps.match_table import match_table
+from evenbreak.handicaps.opponents import NATURAL, Opponents
+from evenbreak.handicaps.pairing import pairing_of
+from evenbreak.handicaps.systems import System, system_of
 from evenbreak.stats.summary import Distribution
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["LadderLaw", "RatingLadder", "autocorrelated_ladder", "natural_ladder"]
+__all__ = ["Ladder"]
 
-_SETTLED = 1e-14
-_ROUNDS = 1000
+_DOUBLINGS = (2.0, 4.0, 8.0)
+_AT_AN_END = 1e-9
+_MOST_HELD = 0.1
+_MOST_SD = 4.0
+_MOST_SPREAD = 20.0
 
 
 @dataclass(frozen=True)
-class RatingLadder:
-    """A rating error that moves up a point with a match won and down a point with one lost.
+class Ladder(ErrorWalk):
+    """A player's rating error under a handicap system, as a chain and its long-run law.
 
-    It is a game without an end: a state is the rating error, from -widest to widest points,
-    and it begins at 0. At the two ends an error that would go further stays where it is.
+    It is a game without an end: a state is the rating error in whole points, from -widest to
+    widest, and it begins at 0. An error that a match would take beyond the end stays.
 
     Parameters
     ----------
-    wins
-        P(the player wins the match | his rating error is i), for i = -widest ... widest: an
-        odd number of chances, three or more.
+    system
+        whose rule moves the ratings: a `System` or the name of one. A `Chart` stands for the
+        National Pool League's rule on that chart.
+    chart
+        by which the races are given; None: the system's own.
+    opponents
+        whom the player meets, all of them the same however he is rated.
+    day_sd
+        standard deviation, in points, of a player's deviation from his skill on a night: his
+        own for all matches of the night, normal, rounded to whole points. Every player has it.
+    match_sd
+        the same of the deviation that is new in each match.
+    matches_a_night
+        how many matches a player has on a night, each against another opponent; ratings move
+        after each. It matters only with a `day_sd`.
+    drift
+        points by which the player's skill rises with each match, on average, from -1 to 1:
+        after a match it rises by one point with this chance. His opponents' skills are steady.
+    widest
+        errors are cut at -widest and widest points. None: 2, 4 or 8 doublings of the odds, so
+        wide that each end has a chance below 1e-9 with a match a night against these opponents,
+        or, where all are given at the player's own skill or rating, those who are rated rightly.
 
     Raises
     ------
     InputError
-        if a value is not a probability, or their number is even or less than three.
+        if a parameter is not such a one.
+    AccuracyError
+        if no width is given and none is wide enough: the rating cannot keep up with the skill,
+        the opponents are too far from it, or the chart has one race for all differences.
 
-    >>> ladder = RatingLadder([0.75, 0.5, 0.25])
-    >>> ladder.moves(0), ladder.moves(1)
-    ({1: 0.5, -1: 0.5}, {1: 0.25, 0: 0.75})
-    >>> [round(chance, 3) for chance in ladder.law().probability]
-    [0.286, 0.429, 0.286]
+    Notes
+    -----
+    With matches_a_night above 1 and a day_sd the error alone is no chain, since matches of a
+    night have something in common. `kernel` is then what holds on the average of the matches
+    of all nights, and its law is exact for that average; how fast a rating settles follows
+    from it to good approximation only. Such nights take a fraction of a second for moves of
+    few points, and minutes for moves as different as Elo's on a line of 600 errors.
+
+    Source: the natural and the autocorrelated distributions of Fig. 5.9 and after it. The
+    limit of a +-1 ladder is that of the powers of M, since an error stays at the two ends now
+    and then. But it does so once in ages: over any season that is played, the error is odd
+    after an odd number of matches and even after an even one, as on a ladder without ends,
+    whose period is 2. The law is then the average of the two.
+
+    >>> from evenbreak.handicaps import AUTOCORRELATED, EQUAL_SKILL, chart
+    >>> regular = chart("npl_10")
+    >>> round(Ladder(regular).law().sd, 3)
+    4.634
+    >>> round(Ladder(regular, opponents=AUTOCORRELATED).law().sd, 3)
+    4.654
+    >>> round(Ladder(regular, opponents=EQUAL_SKILL).law().sd, 3)
+    4.417
     """
 
-    wins: Sequence[float]
+    system: System
+    chart: Chart
+    opponents: Opponents = NATURAL
+    day_sd: float = 0.0
+    match_sd: float = 0.0
+    matches_a_night: int = 1
+    drift: float = 0.0
+    widest: int = 0
 
-    def __post_init__(self) -> None:
-        wins = number_probabilities(self.wins, "wins", "win chance")
-        if len(wins) < 3 or len(wins) % 2 == 0:
+    def __init__(
+        self,
+        system: System | str | Chart,
+        chart: Chart | None = None,
+        *,
+        opponents: Opponents = NATURAL,
+        day_sd: float = 0.0,
+        match_sd: float = 0.0,
+        matches_a_night: int = 1,
+        drift: float = 0.0,
+        widest: int | None = None,
+    ) -> None:
+        by, chart = _system_and_chart(system, chart)
+        if not isinstance(opponents, Opponents):
+            raise InputError(f"opponents is {opponents!r}; give Opponents, such as NATURAL")
+        doubling = by.scale.points_per_doubling
+        if doubling < 1.0:
             raise InputError(
-                f"wins has {len(wins)} chances; give one for each error from -widest to widest, "
-                "an odd number, three or more"
+                f"points_per_doubling is {doubling:g} on the scale of the system; ratings are "
+                "whole points, so give a scale of 1 or more"
             )
-        object.__setattr__(self, "wins", wins)
-
-    @property
-    def widest(self) -> int:
-        """The largest rating error, in points."""
-        return len(self.wins) // 2
-
-    @property
-    def start(self) -> int:
-        """No error."""
-        return 0
-
-    def moves(self, state: int) -> Mapping[int, float]:
-        """Return the probability of each next error, given the error `state`."""
-        win = self.wins[state + self.widest]
-        up, down = min(state + 1, self.widest), max(state - 1, -self.widest)
-        return {up: win, down: 1.0 - win}
-
-    def winner(self, state: int) -> None:  # noqa: ARG002
-        """Return None: a ladder has no end."""
-        return
-
-    def arcs(self) -> ArcArrays | None:
-        """Return the arcs in the order of the errors; None where not every error is reached."""
-        win = np.array(self.wins)
-        # Beyond a certain win or loss there may be no way back to the start or out from it.
-        if not ((win > 0.0) & (win < 1.0)).all():
-            return None
-        place = np.arange(len(win))
-        lower, higher = np.maximum(place - 1, 0), np.minimum(place + 1, len(win) - 1)
-        return ArcArrays(
-            range(-self.widest, self.widest + 1),
-            place.repeat(2),
-            np.column_stack([lower, higher]).ravel(),
-            np.column_stack([1.0 - win, win]).ravel(),
+        if opponents.farthest > _MOST_SPREAD * doubling:
+            raise InputError(
+                f"spread of the opponents goes to {opponents.farthest} points; give "
+                f"{_MOST_SPREAD * doubling:.0f} or less"
+            )
+        values = {
+            "system": by,
+            "chart": chart,
+            "opponents": opponents,
+            "day_sd": _number(day_sd, "day_sd", 0.0, _MOST_SD * doubling),
+            "match_sd": _number(match_sd, "match_sd", 0.0, _MOST_SD * doubling),
+            "matches_a_night": whole(matches_a_night, "matches_a_night", at_least=1),
+            "drift": _number(drift, "drift", -1.0, 1.0),
+        }
+        values["widest"] = (
+            _usual_width(
+                by,
+                chart,
+                opponents if opponents.farthest else NATURAL,
+                values["day_sd"],
+                values["match_sd"],
+                values["drift"],
+            )
+            if widest is None
+            else whole(widest, "widest", at_least=1)
         )
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def steps(self) -> NDArray[np.int64]:
+        """The moves that a match can bring, in points, from the lowest to the highest."""
+        return self._settled.steps
+
+    @property
+    def kernel(self) -> NDArray[np.float64]:
+        """P(move | error before the match); shape (errors, steps), before the ends hold it."""
+        return self._settled.kernel
+
+    @property
+    def wins(self) -> NDArray[np.float64]:
+        """P(the player wins the match | error before it); shape (errors,)."""
+        return self._settled.wins
+
+    @property
+    def opponent_law(self) -> Distribution:
+        """The law of the opponents' rating error, on the average of the matches of a night."""
+        return self._distribution(self._settled.opponents)
+
+    @property
+    def changes(self) -> tuple[float, ...]:
+        """For each round until nothing changed, by how much a chance of the law did at most."""
+        return self._settled.changes
 
     def law(self) -> Distribution:
-        """Return the stochastic limit of the rating error, begun at 0."""
-        limit = stochastic_limit(chain_of(self))
-        errors = tuple(range(-self.widest, self.widest + 1))
-        return Distribution(errors, tuple(float(limit.get(error, 0.0)) for error in errors))
+        """Return the law of the player's rating error in the long run: the stochastic limit.
+
+        The player's skill does not change but for the drift. Where all moves are multiples of
+        a number g of points, no match takes an error from one remainder by g to another. A
+        skill knows nothing of g, so each remainder is equally likely at the beginning; the law
+        is the average over the g limits.
+
+        Raises
+        ------
+        AccuracyError
+            if the self-consistent law of the opponents does not settle, or if more than a tenth
+            of the ratings are at the ends of the line: it is then the width that holds them.
+        """
+        law = self._settled.law
+        held = _at_the_ends(law)
+        if held > _MOST_HELD:
+            raise AccuracyError(
+                f"the rating error is at the ends of the line of {self.widest} points with a "
+                f"chance of {held:.2g}: the moves do not keep up with what drives it away, or the "
+                f"line is too short; give {_remedy(self)}"
+            )
+        return self._distribution(law)
+
+    @cached_property
+    def _settled(self) -> Settled:
+        shared = self.matches_a_night > 1 and self.day_sd > 0.0
+        doubling = self.system.scale.points_per_doubling
+        days, weights = deviation_grid(deviations(self.day_sd if shared else 0.0), doubling)
+        blur = difference_law(self.match_sd, 0.0 if shared else self.day_sd)
+        pairing = pairing_of(self.system, self.chart, self.widest, self.opponents, blur, days)
+        matches = self.matches_a_night if shared else 1
+        night = Night(pairing, weights, matches)
+        return settled(night, self._given_error(), self.drift, conserving=self.system.conserving)
+
+    def _given_error(self) -> NDArray[np.float64] | None:
+        """Return the law of the opponents' error on the line, its ends holding what is beyond."""
+        given = self.opponents.error
+        if given is None:
+            return None
+        values = np.array(given.values, dtype=np.int64)
+        places = np.clip(values, -self.widest, self.widest) + self.widest
+        weights = np.array(given.probability, dtype=float)
+        return np.bincount(places, weights, 2 * self.widest + 1).astype(float)
+
+    def _distribution(self, chances: NDArray[np.float64]) -> Distribution:
+        return Distribution(tuple(self.errors.tolist()), tuple(chances.tolist()))
 
 
-@dataclass(frozen=True)
-class LadderLaw:
-    """How far a rating wanders from the skill that it should tell.
-
-    Parameters
-    ----------
-    ladder
-        the ladder, with the chance to win at each rating error.
-    distribution
-        its stochastic limit: the law of the rating error in points.
-    changes
-        for each round of the iteration the largest change of a probability; empty where
-        there was nothing to iterate.
-    """
-
-    ladder: RatingLadder
-    distribution: Distribution
-    changes: tuple[float, ...] = ()
+def _system_and_chart(system: Any, chart: Any) -> tuple[System, Chart]:
+    if isinstance(system, Chart):
+        if chart is not None:
+            raise InputError(f"chart is {chart!r}; a Chart was given as the system already")
+        return system_of("npl"), system
+    if chart is not None and not isinstance(chart, Chart):
+        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('npl_10')")
+    by = system_of(system)
+    return by, by.usual_chart() if chart is None else chart
 
 
-def natural_ladder(chart: Chart, *, widest: int = 60) -> LadderLaw:
-    """Return the law of a player's rating error against opponents who are rated rightly.
-
-    Each probability is conditional on nothing but the model: the player's skill does not
-    change, each game is even, and the race is what the chart says at the rating error.
-
-    Parameters
-    ----------
-    chart
-        the races by rating difference.
-    widest
-        errors are cut at -widest and widest points.
-
-    Raises
-    ------
-    InputError
-        if chart is none, or widest is not a whole number above 0.
-
-    Notes
-    -----
-    Source: the natural distributions of Fig. 5.9. The errors that the chart calls even give
-    the law its flat top; beyond them it falls off.
-
-    The limit is that of the powers of M, since an error stays at the two ends now and then.
-    But it does so once in ages: over any season that is played, the error is odd after an
-    odd number of matches and even after an even one, as on a ladder without ends, whose
-    period is 2. The law is then the average of the two.
-
-    >>> from evenbreak.handicaps import chart
-    >>> round(natural_ladder(chart("npl_8")).distribution.sd, 3)
-    4.963
-    """
-    wins = _win_table(chart, whole(widest, "widest", at_least=1), np.array([0.5]))
-    return _solved(wins[:, 0])
+def _number(value: Any, name: str, low: float, high: float) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not low <= number <= high:
+        raise InputError(f"{name} is {value!r}; give a number from {low:g} to {high:g}")
+    return number
 
 
-def autocorrelated_ladder(
-    chart: Chart, *, widest: int = 60, scale: Scale = SCALES["npl"]
-) -> LadderLaw:
-    """Return the law of a player's rating error against opponents who err as he does.
+def _at_the_ends(law: NDArray[np.float64]) -> float:
+    """Return P(the error is at either end, or so near that moves of several points leave gaps)."""
+    near = max(1, len(law) // 40)
+    return float(law[:near].sum() + law[-near:].sum())
 
-    Each opponent is rated at the player's skill and is in truth off by an error with the
-    same law as the player's own, worked out anew until it no longer changes.
 
-    Parameters
-    ----------
-    chart
-        the races by rating difference.
-    widest
-        errors are cut at -widest and widest points.
-    scale
-        what a difference of skill means for a game.
-
-    Raises
-    ------
-    InputError
-        if chart is none, or widest is not a whole number above 0.
-    AccuracyError
-        if the law does not settle.
-
-    Notes
-    -----
-    Source: the autocorrelated model after Fig. 5.9.
-
-    The law is the symmetric one. Among symmetric laws each round brings the change down
-    to a hundredth or so. But where opponents are a little better on average than they are
-    rated, the player falls below his own skill by a little more: without the symmetry,
-    rounding errors grow until the law swings to and fro between two skewed ones.
-
-    >>> from evenbreak.handicaps import chart
-    >>> found = autocorrelated_ladder(chart("npl_8"))
-    >>> round(found.distribution.sd, 3), len(found.changes) < 10
-    (4.978, True)
-    """
-    size = whole(widest, "widest", at_least=1)
-    errors = np.arange(-size, size + 1)
-    table = _win_table(chart, size, scale.win_probability(-errors))
-    law = _solved(table[:, size])
-    changes: list[float] = []
-    for _ in range(_ROUNDS):
-        opponents = np.asarray(law.distribution.probability, dtype=float)
-        law = _solved(table @ opponents)
-        player = np.asarray(law.distribution.probability, dtype=float)
-        changes.append(float(np.abs(player - opponents).max()))
-        if changes[-1] <= _SETTLED:
-            return LadderLaw(law.ladder, law.distribution, tuple(changes))
-    raise AccuracyError(
-        f"the law still changes by {changes[-1]:.3g} after {_ROUNDS} rounds; "
-        "natural_ladder answers for opponents who are rated rightly"
+def _remedy(ladder: Ladder) -> str:
+    wider = f"a widest above {ladder.widest}"
+    return (
+        f"opponents nearer the player's skill, or {wider}" if ladder.opponents.farthest else wider
     )
 
 
-def _win_table(chart: Chart, widest: int, games: NDArray[Any]) -> NDArray[np.float64]:
-    """Return P(the player wins | his error, an opponent of game chance games[j]); (errors, j)."""
-    if not isinstance(chart, Chart):
-        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('npl_10')")
-    needs = [chart.race(error) for error in range(-widest, widest + 1)]
-    m, n = np.array(needs).T[:, :, None]
-    table: NDArray[np.float64] = race_win_probability(games, m, n)
-    return table
+def _same_everywhere(system: System, chart: Chart) -> bool:
+    """Return whether a match is the same whatever the two ratings are."""
+    table = match_table(system, chart)
+    return all(bool((each == each[0]).all()) for each in (table.needs, table.moves))
 
 
-def _solved(wins: NDArray[np.float64]) -> LadderLaw:
-    """Return the law of a ladder that is the same when turned upside down."""
-    # Rounding would tilt it: see the notes of autocorrelated_ladder.
-    even = (wins + (1.0 - wins[::-1])) / 2.0
-    ladder = RatingLadder(even.tolist())
-    return LadderLaw(ladder, ladder.law())
+@lru_cache(maxsize=64)
+def _usual_width(
+    system: System,
+    chart: Chart,
+    opponents: Opponents,
+    day_sd: float,
+    match_sd: float,
+    drift: float,
+) -> int:
+    """Return so wide a line that next to nothing is at its ends."""
+    if _same_everywhere(system, chart):
+        raise AccuracyError(
+            f"chart {chart.name} has the same race at every difference, so nothing brings a wrong "
+            "rating back; give a chart whose races differ"
+        )
+    for doublings in _DOUBLINGS:
+        widest = round(doublings * system.scale.points_per_doubling)
+        ladder = Ladder(
+            system,
+            chart,
+            opponents=opponents,
+            day_sd=day_sd,
+            match_sd=match_sd,
+            drift=drift,
+            widest=widest,
+        )
+        # Opponents far off may have no law on a short line, and one on a longer.
+        with contextlib.suppress(AccuracyError):
+            if _at_the_ends(np.array(ladder.law().probability)) <= _AT_AN_END:
+                return widest
+    if opponents.farthest:
+        raise AccuracyError(
+            f"the rating error goes beyond {widest} points, or its law does not settle: the "
+            "opponents are too far from the player's skill for the races; give opponents nearer it"
+        )
+    raise AccuracyError(
+        f"the rating error goes beyond {widest} points: the moves are too large for the scale, "
+        "the form varies too much, or the skill drifts away from the rating; give widest yourself"
+    )

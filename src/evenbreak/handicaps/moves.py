@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.chart import Chart
-from evenbreak.handicaps.chart import chart as printed_chart
 from evenbreak.handicaps.systems import PlayedMatch, System
 from evenbreak.ratings.consistency import Problem, find_problems, who_won
 from evenbreak.ratings.results import Results
@@ -62,7 +61,8 @@ class Moves:
         by which the ratings moved.
     before, after
         the list before the night and the one after it, players in the same order. The games
-        of the night are added to the games stated; standard errors stay as they were.
+        of the night are added to the games stated, its matches to the matches; standard errors
+        stay as they were.
     matches
         what each match did, in the order of the results.
     won, lost
@@ -87,7 +87,9 @@ def apply_results(
     """Return how the ratings of a list move by a night's results.
 
     Who won a match says `winner`; or the race that is stated, or else that of the chart for
-    the two ratings, and who reached it. Forfeits and 0-0 move nobody.
+    the two ratings, and who reached it. Forfeits and 0-0 move nobody. Where the list states
+    a player's matches, those of the night are counted on in the order of the rows; who has
+    none stated is an established player.
 
     Parameters
     ----------
@@ -125,7 +127,7 @@ def apply_results(
         first = problems[0]
         raise InputError(f"row {first.row} of the results: {first.message}")
     night = _night_of(roster, results, chart)
-    matches = tuple(_move(system, roster, night, int(row)) for row in np.flatnonzero(night.counted))
+    matches = tuple(_moves(system, roster, night))
     change, games = np.zeros(len(roster)), np.zeros(len(roster), dtype=np.int64)
     won, lost = np.zeros_like(games), np.zeros_like(games)
     for match in matches:
@@ -140,6 +142,7 @@ def apply_results(
         roster.standard_error,
         np.where(roster.games == NOT_STATED, NOT_STATED, roster.games + games),
         component=roster.component,
+        matches=np.where(roster.matches == NOT_STATED, NOT_STATED, roster.matches + won + lost),
     )
     _, forfeits, empty = results.played()
     return Moves(system, roster, after, matches, won, lost, forfeits, empty)
@@ -175,6 +178,8 @@ def night_problems(
         for row in np.flatnonzero(night.counted & night.rated & (night.winner == 0))
         if int(row) not in refused
     ]
+    refused = {problem.row for problem in problems}
+    problems += [problem for problem in _untold(system, night) if problem.row not in refused]
     return sorted(problems, key=lambda problem: problem.row)
 
 
@@ -195,7 +200,7 @@ def chart_of_night(system: System, roster: Roster, results: Results) -> Chart | 
     night = _night_of(roster, results, None)
     if not (night.counted & night.rated & (night.winner == 0)).any():
         return None
-    charts = [printed_chart(name) for name in system.charts]
+    charts = system.known_charts()
     fitting = [chart for chart in charts if _ended(_night_of(roster, results, chart))]
     return fitting[0] if len(fitting) == 1 else None
 
@@ -295,16 +300,52 @@ def _no_end(roster: Roster, night: _Night, chart: Chart, row: int) -> str:
 
 def _no_winner(system: System, results: Results, row: int) -> str:
     name_a, name_b = results.players[results.player_a[row]], results.players[results.player_b[row]]
-    *charts, last = system.charts
     return (
         f"neither the race nor the winner is stated ({name_a!r} - {name_b!r}, "
-        f"{results.score_a[row]}-{results.score_b[row]}); give the chart by which they played "
-        f"({', '.join(charts)} or {last}), or the columns race_a and race_b"
+        f"{results.score_a[row]}-{results.score_b[row]}); {_give_chart(system)}"
     )
 
 
-def _move(system: System, roster: Roster, night: _Night, row: int) -> MatchMove:
-    """Return what the match in a row did."""
+def _give_chart(system: System) -> str:
+    *charts, last = system.charts or ("",)
+    names = f" ({', '.join(charts)} or {last})" if charts else ""
+    return f"give the chart by which they played{names}, or the columns race_a and race_b"
+
+
+def _untold(system: System, night: _Night) -> Iterator[Problem]:
+    """Yield the matches of which the system's rule asks what nobody has stated."""
+    results = night.results
+    for row in np.flatnonzero(night.counted & night.rated).tolist():
+        if "games" in system.asks and results.unscored is not None and results.unscored[row]:
+            yield Problem(
+                row,
+                "score_a",
+                f"the score is not stated, and the system {system.name} moves ratings by it; "
+                "write it, or mark a forfeit",
+            )
+        elif "race" in system.asks and results.race_a is not None and not results.race_a[row]:
+            yield Problem(
+                row,
+                "race_a",
+                f"the race is not stated, and the system {system.name} moves ratings by it; "
+                f"{_give_chart(system)}",
+            )
+
+
+def _moves(system: System, roster: Roster, night: _Night) -> Iterator[MatchMove]:
+    """Yield what each match of the night did."""
+    played = [None if many == NOT_STATED else many for many in roster.matches.tolist()]
+    for row in np.flatnonzero(night.counted).tolist():
+        yield _move(system, roster, night, played, row)
+        for place in (night.a[row], night.b[row]):
+            before = played[place]
+            played[place] = None if before is None else before + 1
+
+
+def _move(
+    system: System, roster: Roster, night: _Night, played: list[int | None], row: int
+) -> MatchMove:
+    """Return what the match in a row did, after so many matches of each player."""
     results = night.results
     sides = (0, 1) if night.winner[row] == 1 else (1, 0)
 
@@ -320,8 +361,7 @@ def _move(system: System, roster: Roster, night: _Night, row: int) -> MatchMove:
     score = int(results.score_a[row]), int(results.score_b[row])
     games = None if unscored else (score[sides[0]], score[sides[1]])
     race = winner_first(results.race_a, results.race_b)
-    points = system.rule(
-        PlayedMatch((float(roster.rating[winner]), float(roster.rating[loser])), games, race)
-    )
+    ratings = float(roster.rating[winner]), float(roster.rating[loser])
+    points = system.moves(PlayedMatch(ratings, games, race, (played[winner], played[loser])))
     by_chart = winner_first(night.chart_a, night.chart_b)
     return MatchMove(row, winner, loser, games, race, by_chart, points)

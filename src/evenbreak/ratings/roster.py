@@ -16,7 +16,7 @@ from evenbreak.errors import InputError
 __all__ = ["NOT_STATED", "Roster"]
 
 NOT_STATED = -1
-"""The games of a player of whom the list does not say how many he has played."""
+"""The games or matches of a player of whom the list does not say how many he has played."""
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -40,12 +40,15 @@ class Roster:
     component
         players linked by a chain of opponents share a number from 1 on, and only their
         ratings can be compared; 0 where that is not stated. None: stated for nobody.
+    matches
+        the matches that each player has played, by which some systems tell newcomers;
+        `NOT_STATED` where the list does not say. None: stated for nobody.
 
     Raises
     ------
     InputError
         if a name stands there twice, the columns differ in length or hold what is no number,
-        a rating is infinite, or an error is negative or infinite.
+        a rating is infinite, an error is negative or infinite, or matches are negative.
 
     >>> club = Roster(["Ann", "Bo"], [92.0, np.nan], games=[140, 0])
     >>> len(club), club.position("Bo"), club.standard_error
@@ -57,6 +60,7 @@ class Roster:
     standard_error: NDArray[np.float64]
     games: NDArray[np.int64]
     component: NDArray[np.int64]
+    matches: NDArray[np.int64]
 
     def __init__(
         self,
@@ -66,6 +70,7 @@ class Roster:
         games: ArrayLike | None = None,
         *,
         component: ArrayLike | None = None,
+        matches: ArrayLike | None = None,
     ) -> None:
         names = tuple(players)
         if len(set(names)) < len(names):
@@ -77,6 +82,7 @@ class Roster:
             ("standard_error", standard_error, np.float64, math.nan),
             ("games", games, np.int64, NOT_STATED),
             ("component", component, np.int64, 0),
+            ("matches", matches, np.int64, NOT_STATED),
         ):
             values = np.full(many, unstated) if given is None else given
             object.__setattr__(self, name, _column(values, name, kind, many))
@@ -84,6 +90,8 @@ class Roster:
             raise InputError("rating holds infinity; give numbers, NaN for a new player")
         if (self.standard_error < 0).any() or np.isinf(self.standard_error).any():
             raise InputError("standard_error is negative or infinite somewhere; give 0 or more")
+        if (self.matches < NOT_STATED).any():
+            raise InputError("matches is negative somewhere; give 0 or more, NOT_STATED if unknown")
 
     def __len__(self) -> int:
         return len(self.players)
@@ -140,6 +148,7 @@ class Roster:
             np.where(new, standard_error, self.standard_error),
             self.games,
             component=self.component,
+            matches=self.matches,
         )
 
 

@@ -29,10 +29,14 @@ from evenbreak.reports.read_chart import find_chart as find_chart
 from evenbreak.reports.read_chart import read_chart as read_chart
 from evenbreak.reports.read_drill_log import DrillLogFile as DrillLogFile
 from evenbreak.reports.read_drill_log import read_drill_log as read_drill_log
+from evenbreak.reports.read_league import LeagueFile as LeagueFile
+from evenbreak.reports.read_league import read_league as read_league
 from evenbreak.reports.read_results import ResultsFile as ResultsFile
 from evenbreak.reports.read_results import read_results as read_results
 from evenbreak.reports.read_roster import RosterFile as RosterFile
 from evenbreak.reports.read_roster import read_roster as read_roster
+from evenbreak.reports.read_schedule import ScheduleFile as ScheduleFile
+from evenbreak.reports.read_schedule import read_schedule as read_schedule
 from evenbreak.reports.read_table import Table as Table
 from evenbreak.reports.read_table import read_table as read_table
 from evenbreak.reports.reproduce import reproduction as reproduction

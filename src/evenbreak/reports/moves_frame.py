@@ -84,7 +84,8 @@ def moves_frame(moves: Moves) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        player, rating, standard_error, games and component, as lists of players have them;
+        player, rating, standard_error, games, component and matches, as lists of players have
+        them;
         rating_before and change in points; matches_won and matches_lost that night, without
         forfeits; why: the matches, '' for who did not play.
     """
@@ -99,6 +100,7 @@ def moves_frame(moves: Moves) -> pd.DataFrame:
             "standard_error": after.standard_error,
             "games": pd.Series(after.games, dtype="Int64").where(after.games != NOT_STATED),
             "component": pd.Series(after.component, dtype="Int64").where(after.component > 0),
+            "matches": pd.Series(after.matches, dtype="Int64").where(after.matches != NOT_STATED),
             "rating_before": before.rating,
             "change": after.rating - before.rating,
             "matches_won": moves.won,

@@ -12,14 +12,14 @@ import numpy as np
 
 from evenbreak.ratings.roster import Roster
 from evenbreak.reports.problems import quoted
-from evenbreak.reports.read_table import read_table
+from evenbreak.reports.read_table import Table, read_table
 from evenbreak.reports.results_columns import REQUIRED as RESULTS
 from evenbreak.reports.results_columns import clean_name
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["PAIRS", "PairsFile", "read_pairs"]
+__all__ = ["PAIRS", "PairsFile", "pairs_in", "read_pairs"]
 
 PAIRS = {name: RESULTS[name] for name in ("player_a", "player_b")}
 """The columns of a list of pairs, with their other names."""
@@ -63,6 +63,13 @@ def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     table = read_table(path, PAIRS)
     if not len(table) and not len(table.problems):
         table.problems.add(None, "has no pairs below its header; write one line for each match")
+    pairs = pairs_in(table, roster)
+    table.problems.raise_any()
+    return PairsFile(pairs, table.warnings)
+
+
+def pairs_in(table: Table, roster: Roster) -> NDArray[np.int64]:
+    """Return the pairs in a table as places in the roster, -1 where it notes a problem."""
     find = _Finder(roster)
     pairs = np.full((len(table), 2), -1)
     for side, column in enumerate(PAIRS):
@@ -81,8 +88,7 @@ def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
             f"{quoted(roster.players[pairs[row, 0]])} meets himself; write two different players"
         ),
     )
-    table.problems.raise_any()
-    return PairsFile(pairs, table.warnings)
+    return pairs
 
 
 class _Finder:

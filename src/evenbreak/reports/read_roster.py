@@ -19,7 +19,7 @@ from evenbreak.reports.similar_names import similar_names
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["OPTIONAL", "REQUIRED", "RosterFile", "read_roster"]
+__all__ = ["LEAGUE", "OPTIONAL", "REQUIRED", "WRITTEN", "RosterFile", "read_roster", "roster_of"]
 
 REQUIRED = {
     "player": ("name", "player name", "full name"),
@@ -32,6 +32,7 @@ OPTIONAL = {
     "quasi_error": ("quasi standard error", "qse"),
     "games": ("games played", "racks", "robustness"),
     "component": ("group",),
+    "matches": ("matches played",),
 }
 """The columns that a roster may have, with their other names."""
 
@@ -43,6 +44,16 @@ WRITTEN = dict.fromkeys(
     (),
 )
 """What the lists that `evenbreak rate` and `evenbreak report` write say besides."""
+
+LEAGUE = {
+    "skill": ("true skill", "true rating", "strength"),
+    "day_sd": ("day", "day fluctuation", "form"),
+    "drift": ("points a week", "improves by"),
+    "joins": ("first week", "joins in week"),
+    "leaves": ("last week", "leaves after week"),
+    "absence": ("absent", "p absent"),
+}
+"""The columns that a season is simulated by, with their other names; else they are passed over."""
 
 LARGEST = 1e6
 """The largest rating or error that is taken for one, in points."""
@@ -83,8 +94,8 @@ def read_roster(path: str | Path) -> RosterFile:
     r"""Read a list of rated players from a CSV file; '-' is standard input.
 
     A player without a rating is new; he may have played no games. An empty standard_error
-    is not stated, and so are empty games. Where a quasi_error is stated it is taken in place
-    of the standard_error, for a roster's errors are used for differences of ratings.
+    is not stated, and so are empty games and matches. Where a quasi_error is stated it is taken in
+    place of the standard_error, for a roster's errors are used for differences of ratings.
 
     Raises
     ------
@@ -100,7 +111,26 @@ def read_roster(path: str | Path) -> RosterFile:
     >>> club.players, club.rating, club.games
     (('Ann', 'Bo'), array([92.5,  nan]), array([140,   0]))
     """
-    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN})
+    # Each name by itself: two columns of a season that mean the same matter only to it.
+    seasons = {name: () for known, others in LEAGUE.items() for name in (known, *others)}
+    return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **seasons}))
+
+
+def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
+    """Return the roster in a table, told with what else is wrong in it already.
+
+    Parameters
+    ----------
+    table
+        with the columns of `REQUIRED` and any of `OPTIONAL`.
+    all_rated
+        whether a player without a rating is a problem.
+
+    Raises
+    ------
+    DataError
+        as `read_roster` does, with the problems that the table had before.
+    """
     if not len(table) and not len(table.problems):
         table.problems.add(None, "has no players below its header; write one line for each")
     names = _names(table)
@@ -110,9 +140,7 @@ def read_roster(path: str | Path) -> RosterFile:
     error = _points(table, "standard_error", remedy, least=0.0)
     quasi = _points(table, "quasi_error", remedy, least=0.0)
     error = np.where(np.isnan(quasi), error, quasi)
-    games, good_games = whole_numbers(table, "games", may_be_empty=True)
-    stated = np.array([bool(text) for text in table.cells("games")], dtype=bool)
-    games = np.where(stated & good_games, games, NOT_STATED)
+    games, matches = _counts(table, "games"), _counts(table, "matches")
     component = whole_numbers(table, "component", at_least=1, may_be_empty=True).values
     unrated = np.array([not text for text in table.cells("rating")], dtype=bool)
     table.problems.add_rows(
@@ -120,8 +148,14 @@ def read_roster(path: str | Path) -> RosterFile:
         np.flatnonzero(unrated & (games > 0)) if "rating" in table else np.zeros(0, np.int64),
         lambda row: f"rating is empty after {games[row]} games; write it, or 0 games if new",
     )
+    if all_rated and "rating" in table:
+        table.problems.add_rows(
+            table.lines,
+            np.flatnonzero(unrated & (games <= 0)),
+            lambda _: "rating is empty; write the rating with which the player begins",
+        )
     table.problems.raise_any()
-    roster = Roster(names, rating, error, games, component=component)
+    roster = Roster(names, rating, error, games, component=component, matches=matches)
     warnings = (*table.warnings, *_alike(names, table.source))
     sha256 = hashlib.sha256(table.content).hexdigest()
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
@@ -143,6 +177,13 @@ def _names(table: Table) -> list[str]:
                 "two, or tell two players of one name apart, such as by a number",
             )
     return names
+
+
+def _counts(table: Table, name: str) -> NDArray[np.int64]:
+    """Read a column of counts, `NOT_STATED` where a cell is empty."""
+    counts, good = whole_numbers(table, name, may_be_empty=True)
+    stated = np.array([bool(text) for text in table.cells(name)], dtype=bool)
+    return np.where(stated & good, counts, NOT_STATED)
 
 
 def _points(table: Table, name: str, remedy: str, *, least: float) -> NDArray[np.float64]:

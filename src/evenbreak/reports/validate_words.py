@@ -168,7 +168,12 @@ def _matches(found: Validation) -> Iterator[str]:
         yield f"Chances of matches {'may be right, but are few' if few else 'are right'} ({told})."
     else:
         wrong = "too sure" if row.slope.value < 1.0 else "too timid"
-        yield f"Chances of matches are {wrong} ({told})."
+        # The verdict does not go by them then.
+        text = (
+            " Where a handicap makes races nearly even, that is no fault of the model: who is told "
+            "to be the favourite is mostly the noise of the ratings."
+        )
+        yield f"Chances of matches are {wrong} ({told}).{text if found.spots else ''}"
 
 
 def _winner_breaks(found: Validation) -> bool:

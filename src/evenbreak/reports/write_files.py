@@ -23,7 +23,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from types import FrameType
 
-__all__ = ["write_files"]
+__all__ = ["check_folder", "write_files"]
 
 LITTER_AGE = 3600.0
 """Seconds after which a temporary name is taken to be left over from a run that was killed."""
@@ -31,6 +31,40 @@ LITTER_AGE = 3600.0
 ENDINGS = [
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
 ]
+
+
+def check_folder(folder: str | Path) -> None:
+    """Find out, before a long computation, whether `write_files` may write into a folder.
+
+    Leaves nothing behind, and does not make the folder.
+
+    Raises
+    ------
+    OSError
+        if no file could be written there.
+
+    >>> check_folder(".")
+    """
+    folder = Path(folder)
+    try:
+        there = folder if folder.exists() else _folder_above(folder)
+        probe = _temporary(there / "probe")
+        try:
+            _write(probe, b"")
+        finally:
+            probe.unlink(missing_ok=True)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(folder)) from error
+
+
+def _folder_above(folder: Path) -> Path:
+    """Return the nearest folder above that is there."""
+    above = next(above for above in folder.parents if above.exists())
+    if not above.is_dir():
+        raise NotADirectoryError(
+            errno.ENOTDIR, f"{above} is a file, so no folder can be in it; name another"
+        )
+    return above
 
 
 def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
@@ -69,13 +103,7 @@ def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
 
 
 def _write_new(folder: Path, files: Mapping[str, bytes]) -> None:
-    for above in folder.parents:
-        if above.exists():
-            if not above.is_dir():
-                raise NotADirectoryError(
-                    errno.ENOTDIR, f"{above} is a file, so no folder can be in it; name another"
-                )
-            break
+    _folder_above(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)
     staged = _temporary(folder)
     try:

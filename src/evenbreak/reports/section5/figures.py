@@ -160,13 +160,13 @@ def _progressive_drill() -> Figure:
 def _rating_ladders() -> Figure:
     """Fig. 5.9: how far ratings stray on the NPL ladder, for four charts."""
     from evenbreak.handicaps.chart import chart
-    from evenbreak.handicaps.ladder import natural_ladder
+    from evenbreak.handicaps.ladder import Ladder
 
     figure, axes = new_axes(
         "rating error, points", "$v$ = probability of the error", size=(7.2, 5.0)
     )
     for games, marker, line in zip((8, 10, 12, 20), "os^D", LINES, strict=False):
-        law = natural_ladder(chart(f"npl_{games}")).distribution
+        law = Ladder(chart(f"npl_{games}")).law()
         axes.plot(
             np.array(law.values, float),
             np.array(law.probability, float),

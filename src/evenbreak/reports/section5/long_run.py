@@ -11,12 +11,14 @@ from evenbreak.games.ahead import Ahead
 from evenbreak.games.drill import Drill
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.chart import chart
-from evenbreak.handicaps.ladder import LadderLaw, autocorrelated_ladder, natural_ladder
+from evenbreak.handicaps.ladder import Ladder
+from evenbreak.handicaps.opponents import AUTOCORRELATED, NATURAL
 from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.practice.drills import DrillStatistics, drill_statistics
 from evenbreak.ratings.scale import SCALES
 from evenbreak.reports.section5.matrices import matrix_rows
 from evenbreak.reports.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.stats.summary import Distribution
 
 __all__ = [
     "ANSWERS",
@@ -46,10 +48,10 @@ def drill(p: float) -> DrillStatistics:
 
 
 @cache
-def ladder(number: int, *, autocorrelated: bool = False) -> LadderLaw:
+def ladder(number: int, *, autocorrelated: bool = False) -> Distribution:
     """Return the law of the rating error under one of the charts."""
-    find = autocorrelated_ladder if autocorrelated else natural_ladder
-    return find(chart(f"npl_{number}"))
+    opponents = AUTOCORRELATED if autocorrelated else NATURAL
+    return Ladder(chart(f"npl_{number}"), opponents=opponents).law()
 
 
 def ahead_formula(m: int, n: int) -> str:
@@ -77,7 +79,7 @@ def _drill(inputs: Inputs) -> DrillStatistics:
 
 
 def _ladder_sd(inputs: Inputs, *, autocorrelated: bool) -> float:
-    return ladder(int(inputs.one("chart")), autocorrelated=autocorrelated).distribution.sd
+    return ladder(int(inputs.one("chart")), autocorrelated=autocorrelated).sd
 
 
 def _ahead(inputs: Inputs) -> float:

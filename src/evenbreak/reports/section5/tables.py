@@ -166,7 +166,7 @@ def _surfaces(functions: Mapping[str, Callable[[Any, Any], Any]]) -> pd.DataFram
 
 def _ladders() -> pd.DataFrame:
     laws = {
-        f"{kind}_{number}": ladder(number, autocorrelated=kind == "autocorrelated").distribution
+        f"{kind}_{number}": ladder(number, autocorrelated=kind == "autocorrelated")
         for kind in ("natural", "autocorrelated")
         for number in CHARTS
     }

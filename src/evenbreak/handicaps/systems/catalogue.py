@@ -1,0 +1,91 @@
+"""All systems, and how a person names them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps.systems.elo import elo_system
+from evenbreak.handicaps.systems.fixed import fixed_length_system
+from evenbreak.handicaps.systems.margin import margin_system
+from evenbreak.handicaps.systems.npl import NPL
+from evenbreak.handicaps.systems.step import step_system
+from evenbreak.handicaps.systems.system import System
+
+__all__ = ["FAMILIES", "SYSTEMS", "system_of"]
+
+_NUMBER = re.compile(r"[0-9]{1,9}")
+
+
+class _Family(NamedTuple):
+    """Systems that differ by numbers: how they are written, and what makes one of them."""
+
+    grammar: str
+    make: Callable[..., System]
+    numbers: tuple[int, int]
+
+
+FAMILIES: Mapping[str, _Family] = MappingProxyType(
+    {
+        "npl": _Family("npl", lambda: NPL, (0, 0)),
+        "step": _Family("step UP [DOWN]", step_system, (1, 2)),
+        "margin": _Family("margin [MOST]", margin_system, (0, 1)),
+        "elo": _Family("elo [K]", elo_system, (0, 1)),
+        "fixed": _Family("fixed [GAMES]", fixed_length_system, (0, 1)),
+    }
+)
+"""The families of systems, by the word that their names begin with."""
+
+SYSTEMS: Mapping[str, System] = MappingProxyType(
+    {
+        system.name: system
+        for system in (
+            NPL,
+            step_system(2),
+            step_system(2, 1),
+            margin_system(),
+            elo_system(),
+            fixed_length_system(),
+        )
+    }
+)
+"""A system of each kind, by name."""
+
+
+def system_of(name: Any) -> System:
+    """Return the system of this name: a word, and then its numbers.
+
+    Parameters
+    ----------
+    name
+        a word of `FAMILIES` and the numbers of its grammar, set apart by blanks or hyphens, in
+        any case: 'npl', 'step 2', 'step-2-1'. A `System` is returned as it is.
+
+    Raises
+    ------
+    InputError
+        if it names no system.
+
+    >>> system_of("npl").charts
+    ('npl_8', 'npl_10', 'npl_12', 'npl_20')
+    >>> system_of("step 3").name
+    'step 3'
+    """
+    if isinstance(name, System):
+        return name
+    word, *numbers = re.split(r"\s+|-", str(name).strip().lower())
+    family = FAMILIES.get(word)
+    if family is None:
+        *listed, last = (known.grammar for known in FAMILIES.values())
+        raise InputError(f"system is {name!r}; give {', '.join(listed)} or {last}")
+    fewest, most = family.numbers
+    if not fewest <= len(numbers) <= most or not all(_NUMBER.fullmatch(each) for each in numbers):
+        whole = ", in whole numbers" if most else ""
+        raise InputError(f"system is {name!r}; write it as {family.grammar}{whole}")
+    try:
+        return family.make(*map(int, numbers))
+    except InputError as error:
+        raise InputError(f"system is {name!r}: {error}") from None

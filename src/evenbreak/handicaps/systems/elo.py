@@ -1,0 +1,72 @@
+"""Elo's update, game by game: each game counts, and the better player is expected to win more.
+
+Of a match in which player 1 wins a of the g games, at ratings that give him the chance e to win
+a game, his rating moves by k (a - e g) points, rounded to whole ones, and player 2's by as much
+the other way. So a winner may lose points: who needs seven games against two and wins 7:1 played
+no better than his rating says. The ratings are those before the match for all of its games.
+
+Source: Elo, The Rating of Chessplayers, Past and Present (1978): the linear update.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps.fixed_length import fixed_length_chart
+from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
+from evenbreak.ratings.scale import SCALES
+
+__all__ = ["elo_system"]
+
+_SCALE = SCALES["elo"]
+
+_GAMES = 9
+"""The longest match of the chart by which the system is played where nobody names one."""
+
+
+@dataclass(frozen=True)
+class _PerGame:
+    k: int
+
+    def __call__(self, match: PlayedMatch) -> tuple[int, int]:
+        if match.games is None:
+            raise InputError("the score is None; an update by games needs it")
+        won, lost = match.games
+        expected = _SCALE.win_probability(match.rating[0] - match.rating[1])
+        # Worked out once, so that rounding takes nothing from the sum of the two ratings.
+        points = round(self.k * (won - expected * (won + lost)))
+        return points, -points
+
+
+def elo_system(k: Any = 16) -> System:
+    """Return the system in which each game of a match moves the ratings by Elo's update.
+
+    No league's chart is on Elo's scale: where nobody names one, the races are the most even
+    ones of nine games. Newcomers move like all others.
+
+    Parameters
+    ----------
+    k
+        points for a game won against all expectation, a whole number from 1 to 1,000.
+
+    Raises
+    ------
+    InputError
+        if k is not such a number; its rule, if it is not told the score.
+
+    >>> rule = elo_system(16).rule
+    >>> rule(PlayedMatch((1600, 1500), (5, 4), None)), rule(PlayedMatch((1600, 1500), (7, 1), None))
+    ((-12, 12), (30, -30))
+    """
+    points = points_of(k, "k")
+    return System(
+        f"elo {points}",
+        _SCALE,
+        (),
+        _PerGame(points),
+        f"{points} point{'s' * (points > 1)} for each game above what Elo's scale expects",
+        own_chart=fixed_length_chart(_GAMES, _SCALE),
+        asks=("games",),
+    )

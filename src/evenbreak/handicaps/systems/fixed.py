@@ -1,0 +1,35 @@
+"""Matches of one length: a point a match, by a chart whose races all last as many games."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from evenbreak.handicaps.fixed_length import fixed_length_chart
+from evenbreak.handicaps.systems.npl import NPL
+from evenbreak.handicaps.systems.system import System
+
+__all__ = ["fixed_length_system"]
+
+
+def fixed_length_system(games: Any = 9) -> System:
+    """Return the National Pool League's system played by races of one longest length.
+
+    Its rule is the same, for newcomers too; only the chart is `fixed_length_chart(games)`.
+
+    Parameters
+    ----------
+    games
+        the longest that a match may last, an odd whole number up to 999.
+
+    Raises
+    ------
+    InputError
+        if it is not such a number.
+
+    >>> fixed_length_system(7).usual_chart().race(12)
+    (5, 3)
+    """
+    chart = fixed_length_chart(games, NPL.scale)
+    longest = sum(chart.race(0)) - 1
+    return replace(NPL, name=f"fixed {longest}", charts=(), own_chart=chart)

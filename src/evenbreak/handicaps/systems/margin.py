@@ -1,0 +1,67 @@
+"""Steps by the margin of the score: the farther the loser was from home, the longer the step.
+
+Of a race in which the loser needed r games and won l of them,
+
+    points = ceil(most (r - l) / r)
+
+so a shut-out moves both by `most`, and a match that goes to the last game by 1 (while r is not
+below `most`). The share of the loser's own race is counted, not games: the weaker player needs
+fewer games and cannot lose by as many, so that by bare games the stronger of two players who are
+rated rightly would lose a fifth of a point a match at the race 5:4, and more than a point at 7:2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps.systems.npl import NPL
+from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
+
+__all__ = ["margin_system"]
+
+
+@dataclass(frozen=True)
+class _Margin:
+    most: int
+
+    def __call__(self, match: PlayedMatch) -> tuple[int, int]:
+        if match.games is None or match.race is None:
+            raise InputError(
+                "the score or the race is None; steps by the margin of the score need both"
+            )
+        needed = match.race[1]
+        points = -(-self.most * (needed - match.games[1]) // needed)
+        return points, -points
+
+
+def margin_system(most: Any = 2) -> System:
+    """Return the system whose steps go by the margin of the score, up to `most` points.
+
+    Scale and charts are those of the National Pool League. Newcomers move like all others.
+
+    Parameters
+    ----------
+    most
+        the points of a shut-out, a whole number from 1 to 1,000; 1 is a point a match.
+
+    Raises
+    ------
+    InputError
+        if `most` is not such a one; its rule, if it is not told score and race.
+
+    >>> rule = margin_system(2).rule
+    >>> [rule(PlayedMatch((80, 75), (5, lost), (5, 5))) for lost in (0, 2, 3, 4)]
+    [(2, -2), (2, -2), (1, -1), (1, -1)]
+    """
+    points = points_of(most, "most")
+    return System(
+        f"margin {points}",
+        NPL.scale,
+        NPL.charts,
+        _Margin(points),
+        f"by the share of the loser's race that was left, up to {points} point{'s' * (points > 1)}",
+        own_chart=NPL.own_chart,
+        asks=("games", "race"),
+    )

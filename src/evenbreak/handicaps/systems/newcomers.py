@@ -1,0 +1,43 @@
+"""Longer steps for newcomers, so that a first guess of their rating is mended soon."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from evenbreak.checks import whole
+
+__all__ = ["NEWCOMER_STEPS", "step_after"]
+
+NEWCOMER_STEPS = ((10, 3), (20, 2))
+"""The National Pool League's: 3 points a match for 10 matches, 2 for the next 20, then 1.
+
+As the league published them; they are not in the text.
+"""
+
+
+def step_after(played: int | None, steps: Sequence[tuple[int, int]] = NEWCOMER_STEPS) -> int:
+    """Return how many times an established player's points a player moves in his next match.
+
+    Parameters
+    ----------
+    played
+        matches before it; None: an established player.
+    steps
+        (matches, factor) for each stage of a newcomer, as `System.newcomer_steps` has them.
+
+    Raises
+    ------
+    InputError
+        if `played` is not a whole number from 0 on.
+
+    >>> [step_after(played) for played in (0, 9, 10, 29, 30, None)]
+    [3, 3, 2, 2, 1, 1]
+    """
+    if played is None:
+        return 1
+    left = whole(played, "played")
+    for matches, factor in steps:
+        if left < matches:
+            return factor
+        left -= matches
+    return 1

@@ -1,0 +1,56 @@
+"""Steps: the winner goes up by so many points and the loser down, whatever the match was."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from evenbreak.handicaps.systems.npl import NPL
+from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
+
+__all__ = ["step_system"]
+
+
+@dataclass(frozen=True)
+class _Step:
+    up: int
+    down: int
+
+    def __call__(self, match: PlayedMatch) -> tuple[int, int]:  # noqa: ARG002
+        return self.up, -self.down
+
+
+def step_system(up: Any, down: Any = None) -> System:
+    """Return the system in which the winner goes up by `up` points and the loser down by `down`.
+
+    Scale and charts are those of the National Pool League. Newcomers move like all others.
+
+    Parameters
+    ----------
+    up
+        points, a whole number from 1 to 1,000.
+    down
+        points, a whole number from 0 to 1,000; None: as many as `up`. Where it is another number
+        the league's mean rating moves with each match, by (up - down) / 2 for each of the two.
+
+    Raises
+    ------
+    InputError
+        if a number is not such a one.
+
+    >>> step_system(2).rule(PlayedMatch((80, 75), (5, 3), (5, 5)))
+    (2, -2)
+    >>> step_system(2, 1).in_words
+    'up 2 points for each match won, down 1 for each match lost'
+    """
+    won = points_of(up, "up")
+    lost = won if down is None else points_of(down, "down", at_least=0)
+    return System(
+        f"step {won}" if lost == won else f"step {won} {lost}",
+        NPL.scale,
+        NPL.charts,
+        _Step(won, lost),
+        f"up {won} point{'s' * (won > 1)} for each match won, down {lost} for each match lost",
+        own_chart=NPL.own_chart,
+        conserving=lost == won,
+    )

@@ -1,0 +1,150 @@
+"""What a handicap system is: a scale, the charts by which it is played, and how ratings move.
+
+An update rule is a plain function from a match to the points that winner and loser move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from numbers import Integral
+from typing import Any, NamedTuple
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.chart import Chart, chart
+from evenbreak.ratings.scale import Scale
+
+__all__ = ["PlayedMatch", "System", "UpdateRule", "points_of"]
+
+
+class PlayedMatch(NamedTuple):
+    """A match as an update rule sees it, winner first.
+
+    Parameters
+    ----------
+    rating
+        the two ratings before the match; a rule reads no more from them than how far they are
+        apart.
+    games
+        games won; None where only the winner is known.
+    race
+        games needed; None where that is not known.
+    played
+        matches that each had played before; None: an established player.
+    """
+
+    rating: tuple[float, float]
+    games: tuple[int, int] | None
+    race: tuple[int, int] | None
+    played: tuple[int | None, int | None] = (None, None)
+
+
+UpdateRule = Callable[[PlayedMatch], tuple[int, int]]
+
+
+@dataclass(frozen=True)
+class System:
+    """A handicap system.
+
+    Parameters
+    ----------
+    name
+        what the system is called; `system_of` finds it by that.
+    scale
+        what a difference of its ratings means.
+    charts
+        the names of the printed charts by which it is played; empty where there are none.
+    rule
+        from a match to the points that winner and loser move, in whole points.
+    in_words
+        the rule, for a person.
+    own_chart
+        the chart by which it is played where nobody names one; None: the first of `charts`.
+    asks
+        what the rule must know of a match besides who won: 'games', 'race', both or nothing.
+    conserving
+        whether the winner gains what the loser loses, once both are established. A player's
+        rating error then has a law that is the same when turned upside down.
+    newcomer_steps
+        (matches, factor) for each stage of a newcomer: in so many matches his moves are the
+        established player's times the factor. Empty: newcomers move like all others.
+    """
+
+    name: str
+    scale: Scale
+    charts: tuple[str, ...]
+    rule: UpdateRule
+    in_words: str
+    own_chart: Chart | None = None
+    asks: tuple[str, ...] = ()
+    conserving: bool = True
+    newcomer_steps: tuple[tuple[int, int], ...] = ()
+
+    def moves(self, match: PlayedMatch) -> tuple[int, int]:
+        """Return by how many points the rule moves the winner and the loser of a match.
+
+        Raises
+        ------
+        InputError
+            if the rule returns what is no pair of whole points.
+
+        >>> from evenbreak.handicaps import system_of
+        >>> system_of("step 2 1").moves(PlayedMatch((80, 75), (5, 3), (5, 5)))
+        (2, -1)
+        """
+        points: Any = self.rule(match)
+        pair = isinstance(points, tuple | list) and len(points) == 2
+        if not pair or not all(isinstance(point, Integral) for point in points):
+            raise InputError(
+                f"the rule of the system {self.name} moves ratings by {points!r}; let it return a "
+                "pair: the whole points of the winner and of the loser, such as (1, -1)"
+            )
+        return int(points[0]), int(points[1])
+
+    def usual_chart(self) -> Chart:
+        """Return the chart by which the system is played where nobody names one.
+
+        Raises
+        ------
+        InputError
+            if the system has no chart of its own.
+
+        >>> from evenbreak.handicaps import system_of
+        >>> system_of("npl").usual_chart().name
+        'npl_10'
+        """
+        if self.own_chart is not None:
+            return self.own_chart
+        if not self.charts:
+            raise InputError(f"chart is not given, and the system {self.name} has none; give one")
+        return chart(self.charts[0])
+
+    def known_charts(self) -> tuple[Chart, ...]:
+        """Return the printed charts of the system, and its own one where that is none of them.
+
+        >>> from evenbreak.handicaps import system_of
+        >>> [chart.name for chart in system_of("fixed 9").known_charts()]
+        ['fixed_9']
+        """
+        printed = tuple(chart(name) for name in self.charts)
+        own = self.own_chart
+        return printed if own is None or own in printed else (*printed, own)
+
+
+_MOST_POINTS = 1000
+"""No league moves ratings by more in a match."""
+
+
+def points_of(value: Any, name: str, *, at_least: int = 1) -> int:
+    """Return the points by which a rule moves ratings, if they are whole and not out of reach.
+
+    >>> points_of(5000, "up")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: up is 5000; give a whole number, 1000 or less
+    """
+    points = whole(value, name, at_least=at_least)
+    if points > _MOST_POINTS:
+        raise InputError(f"{name} is {points}; give a whole number, {_MOST_POINTS} or less")
+    return points

@@ -1,0 +1,231 @@
+"""What is counted while a chunk is played, and how it becomes a tally."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.league.tally import FIFTHS, WEEK_COLUMNS, Tally, fifths_of
+
+if TYPE_CHECKING:
+    from evenbreak.league.season import Season
+
+__all__ = ["ALONE", "Counting", "Ended"]
+
+_DOUBLINGS = 4.0
+"""How far rating errors and moves are told apart: odds of 16 to 1."""
+
+_BINS = 128
+"""Gaps of skill that are told apart at most."""
+
+ALONE = 1 << 15
+"""Players from which on a batch is one replica: its squares are those of the replicas."""
+
+_LARGE = 1 << 20
+"""Entries of a table of players that is not kept."""
+
+_SMALL = 1 << 15
+"""The first whole number that 16 bits with a sign do not hold."""
+
+_BLOCK = 1 << 15
+"""Ratings that are counted at a time, so that they stay in the cache."""
+
+
+class Ended(NamedTuple):
+    """The arrays that a chunk ends with, players down: one column, or one for each replica."""
+
+    rating: NDArray[Any]
+    wins: NDArray[Any]
+    games: NDArray[Any] | None
+    matches: NDArray[Any]
+    skill: NDArray[Any]
+
+
+class Counting:
+    """Counts of a chunk while it is played."""
+
+    def __init__(self, season: Season, replicas: int, batches: int) -> None:
+        self.season, self.replicas, self.batches = season, replicas, batches
+        self.look = look = season.lookup
+        rows = 2 * look.gap + 1
+        self.cells = np.zeros((batches, rows * look.races * 2), dtype=np.int64)
+        self.codes = np.zeros((batches, rows * look.codes), dtype=np.int64)
+        self.widest = round(_DOUBLINGS * season.system.scale.points_per_doubling)
+        bins = 2 * self.widest + 1
+        self.errors = np.zeros((season.weeks + 1, bins), dtype=np.int64)
+        self.weeks = np.zeros((batches, season.weeks + 1, len(WEEK_COLUMNS)))
+        self.powers = np.arange(-self.widest, self.widest + 1)[:, None] ** np.arange(3)
+        # Where the bin of no error is, in the bins of a row's batch.
+        small = np.int16 if batches * bins < _SMALL else np.intp  # few bytes are fast
+        zeros = (bins * np.arange(batches) + self.widest).astype(small)
+        self.zero = np.broadcast_to(zeros[:, None], (batches, len(season.players))).reshape(-1, 1)
+
+    def week(
+        self,
+        week: int,
+        rating: NDArray[np.int16],
+        skill: NDArray[np.int16],
+        here: NDArray[np.bool_] | None,
+    ) -> None:
+        """Count the rating errors of those who are in the league (None: everybody)."""
+        bins = 2 * self.widest + 1
+        counted = np.zeros(self.batches * bins, dtype=np.int64)
+        step = max(1, _BLOCK // rating.shape[1])
+        for start in range(0, len(rating), step):
+            some = slice(start, start + step)
+            error = rating[some] - skill[some]
+            if max(int(error.max()), -int(error.min())) > self.widest:
+                np.clip(error, -self.widest, self.widest, out=error)
+            where = self.zero[some] + error
+            if here is not None:
+                where = where[here[some]]
+            counted += np.bincount(where.ravel(), minlength=len(counted))
+        by_batch = counted.reshape(self.batches, bins)
+        self.errors[week] = by_batch.sum(axis=0)
+        self.weeks[:, week] = by_batch @ self.powers
+
+    def matches(self, cell: NDArray[np.intp], won: NDArray[np.bool_], played: Any) -> None:
+        """Count matches by their place in the tables of all batches, and by who wins.
+
+        `cell` is even, and used up.
+        """
+        cell += won
+        _add_up(self.cells, cell, played)
+
+    def scores(self, row: NDArray[Any], apart: NDArray[Any], score: Any, played: Any) -> None:
+        """Count matches by skill difference and what is noted of their final score.
+
+        `row` is that of the skill difference in the tables of all batches.
+        """
+        look = self.look
+        place = (apart.astype(np.intp) + look.widest) * look.outcomes + score
+        _add_up(self.codes, row * look.codes + look.code.take(place), played)
+
+    def tally(self, ended: Ended) -> Tally:
+        """Return the tally of the chunk."""
+        known = None if ended.skill.shape[1] > 1 else self.season.fifths
+        wins, games = self._across(ended.wins), ended.games
+        start = self.season.players.rating[:, None].astype(np.int16)
+        moved = self._across(ended.rating) - start
+        matches = self._across(ended.matches)
+        width = -(-(self.look.gap + 1) // _BINS)
+        share = 1 if ended.matches.shape[1] > 1 else self.replicas
+        return Tally(
+            replicas=np.full(self.batches, self.replicas),
+            matches=matches.sum(axis=1, dtype=np.int64) * share,
+            wins=wins.sum(axis=1, dtype=np.int64),
+            wins_squared=_squares(wins),
+            rating=moved.sum(axis=1, dtype=np.int64),
+            rating_squared=_squares(moved),
+            games=None if games is None else self._across(games).sum(axis=1, dtype=np.int64),
+            products=self._products(wins, moved, matches, share),
+            wins_counts=_by_player(wins, int(wins.max(initial=0))),
+            rating_counts=_by_player(
+                np.clip(moved, -self.widest, self.widest) + self.widest, 2 * self.widest
+            ),
+            errors=self.errors,
+            gap_width=width,
+            gaps=self._gaps(width),
+            weeks=self.weeks,
+            fifths=self._fifths(ended, share, known),
+        )
+
+    def _across(self, rows: NDArray[Any]) -> NDArray[Any]:
+        """Return an array of the chunk with a row for each player, all batches side by side."""
+        if self.batches == 1:
+            return rows
+        many = len(self.season.players)
+        return rows.reshape(self.batches, many, -1).transpose(1, 0, 2).reshape(many, -1)
+
+    def _products(self, wins: Any, moved: Any, matches: Any, share: int) -> Any:
+        """Return the sums of `PRODUCTS` over the batches; None where a batch is one replica."""
+        if len(wins) > ALONE:
+            return None
+        won, gone, played = (
+            rows.reshape(len(rows), self.batches, -1).sum(axis=2, dtype=np.int64)
+            for rows in (wins, moved, matches)
+        )
+        played *= share
+        pairs = (won, won), (won, played), (played, played), (gone, gone)
+        sums = [(one * two).sum(axis=1) for one, two in pairs]
+        sums += [self.replicas * one.sum(axis=1) for one in (won, gone)]
+        return np.column_stack(sums)
+
+    def _fifths(self, ended: Ended, share: int, known: Any) -> NDArray[np.int64]:
+        """Return matches and wins by batch and fifth of true skill at the start."""
+        many = len(self.season.players)
+        found = np.empty((self.batches, FIFTHS, 2), dtype=np.int64)
+        for batch in range(self.batches):
+            rows = slice(batch * many, (batch + 1) * many)
+            fifth = fifths_of(ended.skill[rows]) if known is None else known
+            found[batch] = _by_fifth(ended.wins[rows], ended.matches[rows], share, fifth)
+        return found
+
+    def _gaps(self, width: int) -> NDArray[np.float64]:
+        look = self.look
+        bins = look.gap // width + 1
+        skill = np.arange(-look.gap, look.gap + 1)
+        bin_of = np.abs(skill) // width
+
+        def summed(batch: Any, row: Any, *columns: NDArray[Any]) -> list[NDArray[np.float64]]:
+            place = batch * bins + bin_of[row]
+            many = self.batches * bins
+            return [np.asarray(np.bincount(place, column, many), float) for column in columns]
+
+        # Of a large table a chunk comes to few cells.
+        lost, won = self.cells.reshape(-1, 2).T
+        both = lost + won
+        at = np.flatnonzero(both)
+        lost, won, both = lost[at], won[at], both[at]
+        batch, cell = np.divmod(at, self.cells.shape[1] // 2)
+        row = cell // look.races
+        sign = np.sign(skill[row])
+        sums = summed(batch, row, both, (both + sign * (won - lost)) / 2.0)
+        if look.by_winner is None or self.season.play == "racks":
+            noted = self.codes.reshape(-1, look.codes) @ look.noted
+            sums += summed(*np.divmod(np.arange(len(noted)), len(skill)), *noted.T)
+        else:
+            sums += summed(batch, row, *(look.expected[:, cell] * both))
+        return np.column_stack(sums).reshape(self.batches, bins, -1)
+
+
+def _add_up(tables: NDArray[np.int64], where: NDArray[Any], played: Any) -> None:
+    """Add one at each place where a match is played."""
+    np.add.at(tables.reshape(-1), where.ravel() if played is None else where[played], 1)
+
+
+def _squares(values: NDArray[Any]) -> NDArray[np.int64]:
+    """Return for each row the sum of its squares."""
+    found = np.empty(len(values), dtype=np.int64)
+    step = max(1, _BLOCK // values.shape[1])
+    for start in range(0, len(values), step):
+        some = values[start : start + step].astype(np.int64)
+        found[start : start + step] = np.sum(some * some, axis=1)
+    return found
+
+
+def _by_player(values: NDArray[Any], most: int) -> NDArray[np.int64] | None:
+    """Return how often each row holds 0, 1, ..., most; None where that is a large table."""
+    many = most + 1
+    if len(values) * many > _LARGE:
+        return None
+    place = values + (np.arange(len(values)) * many)[:, None]
+    return np.bincount(place.ravel(), minlength=len(values) * many).reshape(-1, many)
+
+
+def _by_fifth(
+    wins: NDArray[Any], matches: NDArray[Any], share: int, fifth: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Return matches and wins by fifth of true skill at the start."""
+    found = np.zeros((FIFTHS, 2), dtype=np.int64)
+    for column, values, times in ((0, matches, share), (1, wins, 1)):
+        if fifth.shape[1] == 1:
+            by_player = values.sum(axis=1, dtype=np.int64) * times
+            np.add.at(found[:, column], fifth[:, 0], by_player)
+        else:
+            # One column of matches stands for all replicas, and is counted in each of them.
+            each = np.broadcast_to(values, fifth.shape).astype(np.int64)
+            np.add.at(found[:, column], fifth.ravel(), each.ravel())
+    return found

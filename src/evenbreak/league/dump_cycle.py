@@ -1,0 +1,171 @@
+"""What losing on purpose pays in the long run: so many matches dumped, so many played, again.
+
+A cycle of D matches dumped and E in earnest is one step of a chain of rating errors,
+C = K^E B^D, and its stochastic limit says at which rating he arrives each time.
+
+Where a match won is a point up and one lost a point down, the rating comes back to where it
+was exactly if he wins (D + E) / 2 of the E matches: the share that he wins follows from the
+counts alone, whatever the chart. The chart says only how low his rating must lie for that, and
+where it has no race so one-sided, the rating goes down without an end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.ladder import Ladder
+from evenbreak.league.sandbag import dumped_matrix, earnest_matrix, start_law
+
+__all__ = ["DumpCycle", "best_cycle", "dump_cycle"]
+
+Floats = NDArray[np.float64]
+
+_HELD = 1e-6
+"""A chance to be held at the ladder's lower end from which on a cycle has no limit above it."""
+
+
+class DumpCycle(NamedTuple):
+    """What a cycle comes to in the long run.
+
+    Parameters
+    ----------
+    dumped, earnest
+        matches of a cycle.
+    rating_error
+        rating less skill when he begins to play in earnest, on average, in points.
+    p_win
+        P(he wins a match in earnest), on average over those of a cycle.
+    profit
+        a match, dumped ones counted, beyond a player who plays all of them in earnest, for ever:
+        he wins half of them, by rules that take as much as they give.
+    held
+        P(his rating lies at the lower end of the ladder as a match in earnest begins); above a
+        millionth his rating would go further down, and the end, not the chart, decides.
+    """
+
+    dumped: int
+    earnest: int
+    rating_error: float
+    p_win: float
+    profit: float
+    held: float
+
+
+def dump_cycle(
+    ladder: Ladder, dumped: int, earnest: int, *, stake: float = 10.0, dumped_stake: float = 1.0
+) -> DumpCycle:
+    """Return what it pays to dump and to play in earnest by turns, for ever.
+
+    Parameters
+    ----------
+    ladder
+        the ladder; at its lower end a rating falls no further.
+    dumped, earnest
+        how many matches are dumped and then played, again and again.
+    stake, dumped_stake
+        what a match won is worth more than one lost: in earnest, and among those dumped.
+
+    Raises
+    ------
+    InputError
+        if a number is out of range, or the ladder's player drifts.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> cycle = dump_cycle(Ladder("npl"), 5, 15)
+    >>> round(cycle.p_win, 6), round(cycle.rating_error, 1), round(cycle.profit, 4)
+    (0.666667, -15.2, 1.125)
+    """
+    down, many = whole(dumped, "dumped"), whole(earnest, "earnest", at_least=1)
+    return _cycle(ladder, down, many, stake, dumped_stake, _honest_wins(ladder))
+
+
+def _honest_wins(ladder: Ladder) -> float:
+    """Return P(a player who never dumps wins) in the long run."""
+    return float(ladder.wins @ _limit(earnest_matrix(ladder), start_law(ladder, 0)))
+
+
+def _limit(chain: Floats, start: Floats) -> Floats:
+    """Return the stochastic limit of a column-stochastic chain from a start."""
+    # The chain may have a period; that of chain and standstill by turns has none, and the
+    # same limit. Squared, it forgets its start with the 2^k-th power of its second eigenvalue.
+    lazy = (chain + np.eye(chain.shape[0])) / 2.0
+    for _ in range(40):
+        squared = lazy @ lazy
+        squared /= squared.sum(axis=0)
+        if np.abs(squared - lazy).max() < 1e-12:
+            break
+        lazy = squared
+    return np.asarray(lazy @ start)
+
+
+def _cycle(
+    ladder: Ladder, down: int, many: int, stake: float, dumped_stake: float, honest: float
+) -> DumpCycle:
+    """Return a cycle's long run, against an honest player who wins so often."""
+    step = earnest_matrix(ladder)
+    dump = np.linalg.matrix_power(dumped_matrix(ladder), down)
+    law = dump @ _limit(np.linalg.matrix_power(step, many) @ dump, start_law(ladder, 0))
+    errors, wins = np.asarray(ladder.errors, dtype=float), np.asarray(ladder.wins)
+    first, won, held = float(law @ errors), 0.0, 0.0
+    for _ in range(many):
+        won += float(wins @ law) / many
+        held += float(law[0]) / many
+        law = step @ law
+    gain = stake * many * (won - honest) - dumped_stake * down * honest
+    return DumpCycle(down, many, first, won, gain / (down + many), held)
+
+
+def best_cycle(
+    ladder: Ladder,
+    lengths: Iterable[int] = (5, 10, 20),
+    *,
+    lowest: float | None = None,
+    stake: float = 10.0,
+    dumped_stake: float = 1.0,
+) -> DumpCycle:
+    """Return the cycle of the largest profit a match, among those of some lengths.
+
+    Parameters
+    ----------
+    ladder
+        the ladder.
+    lengths
+        the matches of a cycle, dumped ones counted.
+    lowest
+        the lowest rating error, in points and below 0, at which he dares to begin to play in
+        earnest, on average; None: any that the chart allows.
+    stake, dumped_stake
+        as of `dump_cycle`.
+
+    Raises
+    ------
+    InputError
+        if no length is given, or one is not a whole number above 0.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> best = best_cycle(Ladder("npl"), [10], lowest=-20)
+    >>> best.dumped, best.earnest, round(best.p_win, 3)
+    (3, 7, 0.714)
+    """
+    listed = [whole(length, "lengths", at_least=1) for length in lengths]
+    if not listed:
+        raise InputError("lengths is empty; give the matches of a cycle, such as 10")
+    honest = _honest_wins(ladder)
+    found = [
+        _cycle(ladder, down, length - down, stake, dumped_stake, honest)
+        for length in sorted(set(listed))
+        for down in range(length)
+    ]
+    allowed = [
+        cycle
+        for cycle in found
+        if not cycle.dumped
+        or (cycle.held < _HELD and (lowest is None or cycle.rating_error >= lowest))
+    ]
+    return max(allowed, key=lambda cycle: (cycle.profit, -cycle.dumped))

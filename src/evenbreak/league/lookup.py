@@ -1,0 +1,208 @@
+"""The chances and moves of matches as flat tables of whole numbers, for drawing by the million.
+
+A match is looked up by two whole differences, of ratings (which race is it, what does it move)
+and of skills (how likely is each score). Chances are held in 32 bits: a draw is 32 random bits
+that are compared with them, so that a chance is off by less than 2^-32.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.handicaps.match_table import MatchTable
+
+__all__ = ["CLASSES", "Lookup", "lookup_of"]
+
+CLASSES = 3
+"""What is noted of a final score: hill-hill, shutout, games."""
+
+_CERTAIN = 12.0
+"""Doublings of the odds beyond which skills are as far apart as they need be."""
+
+_AT_ONCE = 64
+"""Skill differences whose scores are worked out at a time."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lookup:
+    """A system's matches, looked up by difference of skills and of ratings; `lookup_of` makes it.
+
+    Parameters
+    ----------
+    table
+        what it was made of.
+    gap
+        the largest skill difference, in whole points; larger ones are taken for it.
+    wins
+        P(player 1 wins) in 2^32nds, flat and each twice, so that who wins may be added to the
+        place: 2 * ((skill difference + gap) * races + number of the race).
+    """
+
+    table: MatchTable
+    gap: int
+    wins: NDArray[np.uint32]
+
+    @property
+    def widest(self) -> int:
+        """The largest rating difference; larger ones are taken for it."""
+        return self.table.widest
+
+    @property
+    def width(self) -> int:
+        """How many rating differences there are."""
+        return 2 * self.table.widest + 1
+
+    @property
+    def races(self) -> int:
+        """How many different races there are."""
+        return len(self._races[0])
+
+    @cached_property
+    def twice_race(self) -> NDArray[np.intp]:
+        """Twice the number of the race by rating difference, the negative ones from the end."""
+        return np.asarray(np.roll(2 * self._races[1], -self.widest))
+
+    @property
+    def outcomes(self) -> int:
+        """How many final scores there is room for at each rating difference."""
+        return int(self.table.games.shape[1])
+
+    @cached_property
+    def game(self) -> NDArray[np.float64]:
+        """P(player 1 wins a game) by skill difference, shape (2 * gap + 1,)."""
+        scale = self.table.system.scale
+        return np.asarray(scale.win_probability(np.arange(-self.gap, self.gap + 1.0)))
+
+    @cached_property
+    def racks(self) -> NDArray[np.uint32]:
+        """`game` in 2^32nds."""
+        return _in_bits(self.game)
+
+    @cached_property
+    def steps(self) -> tuple[int, int] | None:
+        """What every winner and every loser moves; None where it depends on the match."""
+        table = self.table
+        real = table.games[..., 0] >= 0
+        won = np.where(table.won, table.moves[..., 0], table.moves[..., 1])[real]
+        lost = np.where(table.won, table.moves[..., 1], table.moves[..., 0])[real]
+        if (won == won[0]).all() and (lost == lost[0]).all():
+            return int(won[0]), int(lost[0])
+        return None
+
+    @cached_property
+    def by_winner(self) -> tuple[NDArray[np.int16], NDArray[np.int16]] | None:
+        """Points of player 1 and of player 2, flat by (rating difference, does player 1 win).
+
+        None where they depend on the final score too.
+        """
+        table = self.table
+        moves = table.moves
+        found = np.empty((self.width, 2, 2), dtype=np.int16)
+        for won in (0, 1):
+            side = ((table.won == bool(won)) & (table.games[..., 0] >= 0))[..., None]
+            most = np.max(moves, axis=1, where=side, initial=-(2**15))
+            if (most != np.min(moves, axis=1, where=side, initial=2**15)).any():
+                return None
+            found[:, won] = most
+        return np.ascontiguousarray(found[..., 0]).ravel(), found[..., 1].ravel()
+
+    @cached_property
+    def moves(self) -> tuple[NDArray[np.int16], NDArray[np.int16]]:
+        """Points of player 1 and of player 2, flat by (rating difference, final score)."""
+        one, two = np.moveaxis(self.table.moves.astype(np.int16), 2, 0)
+        return one.ravel(), two.ravel()
+
+    @cached_property
+    def needs(self) -> tuple[NDArray[np.int8], NDArray[np.int8]]:
+        """The games that player 1 and player 2 need, by rating difference."""
+        m, n = self.table.needs.astype(np.int8).T
+        return np.ascontiguousarray(m), np.ascontiguousarray(n)
+
+    @cached_property
+    def classes(self) -> NDArray[np.int64]:
+        """Hill-hill, shutout and games of each final score: (width, outcomes, 3).
+
+        A match is hill-hill where the loser lacks one game, a shutout where he has none.
+        """
+        games, needs = self.table.games, self.table.needs[:, None, :]
+        real = games[..., 0] >= 0
+        hill = real & ((needs - games).sum(axis=2) == 1)
+        shut = real & (games.min(axis=2) == 0)
+        return np.stack([hill, shut, np.where(real, games.sum(axis=2), 0)], axis=2).astype(np.int64)
+
+    @property
+    def codes(self) -> int:
+        """How many values `code` has room for."""
+        return 4 * (int(self.classes[..., 2].max()) + 1)
+
+    @cached_property
+    def code(self) -> NDArray[np.int64]:
+        """`classes` as one number, 4 * games + 2 * shutout + hill-hill, flat."""
+        return np.asarray(self.classes @ np.array([1, 2, 4])).ravel()
+
+    @cached_property
+    def noted(self) -> NDArray[np.int64]:
+        """`classes` of each value of `code`, shape (codes, 3)."""
+        code = np.arange(self.codes)
+        return np.column_stack([code & 1, code >> 1 & 1, code >> 2])
+
+    @cached_property
+    def won_games(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Games of player 1 and of player 2, flat by (rating difference, final score)."""
+        one, two = np.moveaxis(self.table.games.astype(np.int32), 2, 0)
+        return one.ravel(), two.ravel()
+
+    @cached_property
+    def expected(self) -> NDArray[np.float64]:
+        """The mean of each of `classes` by skill difference and race: (3, rows * races)."""
+        first, _ = self._races
+        means = np.empty((len(self.game), len(first), CLASSES))
+        for start in range(0, len(self.game), _AT_ONCE):
+            some = slice(start, start + _AT_ONCE)
+            chances = self.table.chances(self.game[some])[first]
+            means[some] = np.einsum("rog,roc->grc", chances, self.classes[first])
+        return np.ascontiguousarray(np.moveaxis(means, 2, 0)).reshape(CLASSES, -1)
+
+    @cached_property
+    def cumulative(self) -> tuple[NDArray[np.uint32], NDArray[np.intp]]:
+        """The largest draw of each final score, and the race of each rating difference.
+
+        The first has shape (final scores, (2 * gap + 1) * races): a table for each score.
+        """
+        first, place = self._races
+        sums = np.empty((self.outcomes, len(self.game), len(first)))
+        for start in range(0, len(self.game), _AT_ONCE):
+            some = slice(start, start + _AT_ONCE)
+            chances = self.table.chances(self.game[some])[first]
+            sums[:, some] = np.cumsum(chances, axis=1).transpose(1, 2, 0)
+        last = np.maximum(np.rint(np.ldexp(sums, 32)) - 1.0, 0.0).astype(np.uint32)
+        return last.reshape(self.outcomes, -1), place
+
+    @cached_property
+    def _races(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Where each race stands first, and which race each rating difference has."""
+        return _races_of(self.table)
+
+
+def lookup_of(table: MatchTable, gap: float) -> Lookup:
+    """Return the tables for skills that lie up to `gap` points apart."""
+    certain = _CERTAIN * table.system.scale.points_per_doubling
+    size = int(np.ceil(min(max(gap, 1.0), certain)))
+    p = table.system.scale.win_probability(np.arange(-size, size + 1.0))
+    wins = np.repeat(_in_bits(table.wins(p)[_races_of(table)[0]].T).ravel(), 2)
+    return Lookup(table, size, wins)
+
+
+def _races_of(table: MatchTable) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    _, first, place = np.unique(table.needs, axis=0, return_index=True, return_inverse=True)
+    return first, place.reshape(-1)
+
+
+def _in_bits(chance: Any) -> NDArray[np.uint32]:
+    scaled = np.rint(np.ldexp(chance, 32))
+    return np.ascontiguousarray(np.minimum(scaled, 2.0**32 - 1.0).astype(np.uint32))

@@ -1,0 +1,80 @@
+"""A season night by night, as its results moved the ratings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps.chart import Chart
+from evenbreak.handicaps.moves import Moves, apply_results, night_problems
+from evenbreak.handicaps.systems import System
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.roster import Roster
+
+__all__ = ["Night", "nights_of", "played_nights"]
+
+
+class Night(NamedTuple):
+    """A night of a season: the places of its matches in the results, and what they moved."""
+
+    rows: NDArray[np.int64]
+    moves: Moves
+
+
+def nights_of(results: Results) -> list[NDArray[np.int64]]:
+    """Return the places of the matches of each night, in the order of the dates.
+
+    Without dates each match is a night of its own, in the order of the file; among dates, those
+    without one come last.
+    """
+    if results.date is None:
+        return [np.array([row]) for row in range(len(results))]
+    _, night = np.unique(results.date, return_inverse=True)
+    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]
+
+
+def played_nights(
+    system: System,
+    roster: Roster,
+    results: Results,
+    *,
+    chart: Chart | None = None,
+    apply: Callable[[Roster, NDArray[np.int64]], Moves] | None = None,
+) -> list[Night]:
+    """Return a season night by night, the ratings moved by each.
+
+    Parameters
+    ----------
+    system
+        the league's system.
+    roster
+        the ratings before the first night.
+    results
+        the season.
+    chart
+        by which races were given where the results state none.
+    apply
+        how a night's matches move a list; None: by `apply_results`.
+
+    Raises
+    ------
+    InputError
+        if results cannot be used.
+    """
+
+    def by_results(list_: Roster, rows: NDArray[np.int64]) -> Moves:
+        night = results.select(rows)
+        for problem in night_problems(system, list_, night, chart=chart):
+            raise InputError(f"row {rows[problem.row]} of the results: {problem.message}")
+        return apply_results(system, list_, night, chart=chart)
+
+    nights, now = [], roster
+    for rows in nights_of(results):
+        moves = (apply or by_results)(now, rows)
+        nights.append(Night(rows, moves))
+        now = moves.after
+    return nights

@@ -1,0 +1,213 @@
+"""One season match by match: every rack, as a league would write it down.
+
+What `evenbreak.league.play` does for thousands of seasons at a time is done here for one, the
+obvious way, so that the results can be rated like those of any league, and so that the fast
+way has a witness.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.systems import PlayedMatch, UpdateRule
+from evenbreak.league.schedule import Round
+from evenbreak.league.season import Season, draws_opponents
+from evenbreak.ratings.results import Results
+
+__all__ = ["FIRST_NIGHT", "PlayedSeason", "season_matches"]
+
+FIRST_NIGHT = np.datetime64("2025-01-07")
+"""The date of week 1 where nobody says another."""
+
+_APART = 0x6D617463
+"""Keeps the draws of this season apart from those of the replicas of the same seed."""
+
+
+class _Match(NamedTuple):
+    """A match: positions, ratings before, the race, the racks in order, the moves."""
+
+    week: int
+    a: int
+    b: int
+    rating: tuple[int, int]
+    race: tuple[int, int]
+    racks: str
+    points: tuple[int, int]
+
+
+@dataclass(frozen=True, eq=False)
+class PlayedSeason:
+    """A season that was played, and what nobody knows of a real one.
+
+    Parameters
+    ----------
+    results
+        the matches, in the order in which they were played: dates, races, scores and racks;
+        players in the order of the season's.
+    week
+        of each match, from 1 on.
+    rating_a, rating_b
+        with which the two came, in points.
+    skill
+        true skill of each player before the first week, in points.
+    rating
+        of each player after the last week, in points.
+    skill_after
+        true skill of each player after the last week, in points: drift is in it.
+    """
+
+    results: Results
+    week: NDArray[np.int64]
+    rating_a: NDArray[np.int64]
+    rating_b: NDArray[np.int64]
+    skill: NDArray[np.float64]
+    rating: NDArray[np.int64]
+    skill_after: NDArray[np.float64]
+
+
+def season_matches(
+    season: Season, seed: int, *, first_night: Any = FIRST_NIGHT, names: Sequence[str] | None = None
+) -> PlayedSeason:
+    """Play one season rack by rack and return its matches.
+
+    In each week everybody who is there plays at his skill of the day. The ratings before the
+    week decide its races, and its moves are added at its end, as `apply_results` does with a
+    night's. A match of somebody who is not there is not played.
+
+    Parameters
+    ----------
+    season
+        what is played.
+    seed
+        a whole number from 0 on; the same one gives the same season.
+    first_night
+        the date of week 1; a week later comes week 2.
+    names
+        of the players; None: those of the season, or 'player 1' and so on.
+
+    Raises
+    ------
+    InputError
+        if the seed is no such number, or the date is none.
+
+    >>> from evenbreak.handicaps import chart, system_of
+    >>> from evenbreak.league import LeaguePlayers, RoundRobin, Season
+    >>> club = LeaguePlayers.of([92, 80, 71, 65])
+    >>> season = Season(club, system_of("npl"), chart("npl_10"), RoundRobin(4), 3)
+    >>> played = season_matches(season, seed=1)
+    >>> len(played.results), played.week.tolist(), played.results.date[0]
+    (6, [1, 1, 2, 2, 3, 3], np.datetime64('2025-01-07'))
+    """
+    rng = np.random.default_rng([_APART, whole(seed, "seed")])
+    try:
+        first = np.datetime64(first_night, "D")
+    except ValueError:
+        raise InputError(f"first_night is {first_night!r}; give a date, 2025-01-07") from None
+    players = season.players
+    rating = np.array(players.rating, dtype=np.int64)
+    skill = rng.normal(players.skill, players.skill_sd)
+    began, played = skill.copy(), np.array(players.played, dtype=np.int64)
+    matches: list[_Match] = []
+    for week in range(1, season.weeks + 1):
+        there = _there(season, week, rng)
+        today = np.rint(skill + rng.normal(0.0, players.day_sd))
+        move = np.zeros_like(rating)
+        for ones, others in _rounds(season, week, rng):
+            for a, b in zip(ones.tolist(), others.tolist(), strict=True):
+                if there[a] and there[b]:
+                    match = _play(season, week, (a, b), rating, played, today, rng)
+                    matches.append(match)
+                    move[[a, b]] += match.points
+                    played[[a, b]] += 1
+        rating += move
+        skill = skill + players.drift
+    return _told(season, matches, first, names, began, rating, skill)
+
+
+def _there(season: Season, week: int, rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Return who plays in a week: a member who is not absent."""
+    players = season.players
+    return np.asarray(players.here(week) & (rng.random(len(players)) >= players.absence))
+
+
+def _rounds(season: Season, week: int, rng: np.random.Generator) -> list[Round]:
+    """Return who meets whom; lots are drawn among the members of the week only."""
+    if not draws_opponents(season.schedule):
+        return list(season.schedule.pairs(week, rng, len(season.players)))
+    who = np.flatnonzero(season.players.here(week))
+    return [(who[a], who[b]) for a, b in season.schedule.pairs(week, rng, len(who))]
+
+
+def _play(
+    season: Season,
+    week: int,
+    pair: tuple[int, int],
+    rating: NDArray[np.int64],
+    played: NDArray[np.int64],
+    today: NDArray[np.float64],
+    rng: np.random.Generator,
+) -> _Match:
+    a, b = pair
+    before = int(rating[a]), int(rating[b])
+    race = season.chart.race(before[0] - before[1])
+    p = season.system.scale.win_probability(float(today[a] - today[b]))
+    racks = ""
+    while racks.count("a") < race[0] and racks.count("b") < race[1]:
+        racks += "a" if rng.random() < p else "b"
+    points = _points(season, before, racks, race, (int(played[a]), int(played[b])))
+    return _Match(week, a, b, before, race, racks, points)
+
+
+def _points(
+    season: Season,
+    rating: tuple[int, int],
+    racks: str,
+    race: tuple[int, int],
+    played: tuple[int, int],
+) -> tuple[int, int]:
+    """Return by how much the two ratings move; the rule sees the winner first."""
+    (r, s), (m, n), (i, j) = rating, race, played
+    won, lost = racks.count("a"), racks.count("b")
+    rule: UpdateRule = season.system.rule
+    if racks[-1] == "a":
+        return rule(PlayedMatch((r, s), (won, lost), (m, n), (i, j)))
+    up, down = rule(PlayedMatch((s, r), (lost, won), (n, m), (j, i)))
+    return down, up
+
+
+def _told(
+    season: Season,
+    matches: Sequence[_Match],
+    first: np.datetime64,
+    names: Sequence[str] | None,
+    began: NDArray[np.float64],
+    rating: NDArray[np.int64],
+    skill_after: NDArray[np.float64],
+) -> PlayedSeason:
+    """Return the matches as columns."""
+    known = names if names is not None else season.players.names
+    if known is None:
+        known = [f"player {k}" for k in range(1, len(rating) + 1)]
+    columns = np.array(
+        [(row.week, row.a, row.b, *row.rating, *row.race) for row in matches], dtype=np.int64
+    ).reshape(-1, 7)
+    week, a, b, rating_a, rating_b, race_a, race_b = columns.T
+    results = Results(
+        tuple(known),
+        a,
+        b,
+        np.array([row.racks.count("a") for row in matches], dtype=np.int64),
+        np.array([row.racks.count("b") for row in matches], dtype=np.int64),
+        date=first + 7 * (week - 1),
+        race_a=race_a,
+        race_b=race_b,
+        racks=np.array([row.racks for row in matches], dtype=object),
+    )
+    return PlayedSeason(results, week, rating_a, rating_b, began, rating, skill_after)

@@ -1,0 +1,246 @@
+"""Who meets whom in which week.
+
+A schedule answers `pairs(week, rng, count)`: the rounds of a week, each two arrays of the
+same length, the positions of those who meet. In a round a player occurs once at the most,
+so that whoever plays a season can move all ratings of a round at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+
+__all__ = ["FixedSchedule", "RandomPairing", "Round", "RoundRobin", "Schedule", "rounds_of"]
+
+Round = tuple[NDArray[np.intp], NDArray[np.intp]]
+"""Who meets whom at one time: two arrays of positions, no position twice."""
+
+
+_FEW = 1000
+"""Players of whom an order of all is drawn faster than one of half of them."""
+
+
+class Schedule(Protocol):
+    """What every schedule answers."""
+
+    def pairs(self, week: int, rng: np.random.Generator, count: int) -> Sequence[Round]:
+        """Return the rounds of a week (1 is the first) for `count` players."""
+
+
+@dataclass(frozen=True)
+class RoundRobin:
+    """Everybody meets everybody before anybody meets twice, and then again.
+
+    With an odd number of players one of them has a bye in each round.
+
+    Parameters
+    ----------
+    players
+        how many there are, two or more.
+    matches_a_week
+        how many matches a player has in a week.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have; `pairs` raises it for another count.
+
+    Notes
+    -----
+    The circle method: one player stays, the others move on by a place each round.
+
+    >>> league = RoundRobin(4)
+    >>> rng = np.random.default_rng(1)
+    >>> [[(a.tolist(), b.tolist()) for a, b in league.pairs(week, rng, 4)] for week in (1, 2, 3)]
+    [[([0, 1], [3, 2])], [([0, 2], [1, 3])], [([0, 3], [2, 1])]]
+    """
+
+    players: int
+    matches_a_week: int = 1
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "players", whole(self.players, "players", at_least=2))
+        matches = whole(self.matches_a_week, "matches_a_week", at_least=1)
+        object.__setattr__(self, "matches_a_week", matches)
+
+    def pairs(self, week: int, rng: np.random.Generator, count: int) -> list[Round]:  # noqa: ARG002
+        """Return the rounds of a week (1 is the first); nothing is drawn."""
+        if count != self.players:
+            raise InputError(
+                f"players is {self.players}, but the league has {count}; give RoundRobin({count})"
+            )
+        first = (week - 1) * self.matches_a_week
+        return [self._round(first + k) for k in range(self.matches_a_week)]
+
+    def _round(self, number: int) -> Round:
+        seats = self.players + self.players % 2
+        circle = np.arange(seats)
+        turned = number % (seats - 1)
+        circle[1:] = np.roll(circle[1:], -turned)
+        a, b = circle[: seats // 2], circle[: seats // 2 - 1 : -1]
+        if seats == self.players:
+            return a, b
+        there = (a < self.players) & (b < self.players)  # the last seat is empty: a bye
+        return a[there], b[there]
+
+
+@dataclass(frozen=True)
+class RandomPairing:
+    """Opponents are drawn by lot, anew for each round; of an odd number one sits out.
+
+    Parameters
+    ----------
+    matches_a_week
+        how many matches a player has in a week.
+
+    >>> (a, b), = RandomPairing().pairs(1, np.random.default_rng(1), 5)
+    >>> len(a), len({*a.tolist(), *b.tolist()})
+    (2, 4)
+    """
+
+    matches_a_week: int = 1
+
+    def __post_init__(self) -> None:
+        matches = whole(self.matches_a_week, "matches_a_week", at_least=1)
+        object.__setattr__(self, "matches_a_week", matches)
+
+    def pairs(self, week: int, rng: np.random.Generator, count: int) -> list[Round]:  # noqa: ARG002
+        """Return the rounds of a week, drawn from `rng`."""
+        return [_matched(rng, count) for _ in range(self.matches_a_week)]
+
+    def many_pairs(
+        self, rng: np.random.Generator, count: int, times: int
+    ) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+        """Return the rounds of a week of many leagues alike, a row for each of them.
+
+        >>> (a, b), = RandomPairing().many_pairs(np.random.default_rng(1), 6, 2)
+        >>> np.sort(np.hstack([a, b])).tolist()
+        [[0, 1, 2, 3, 4, 5], [0, 1, 2, 3, 4, 5]]
+        """
+        half = count // 2
+        seats = np.broadcast_to(np.arange(count), (times, count))
+        drawn = [rng.permuted(seats, axis=1) for _ in range(self.matches_a_week)]
+        return [(order[:, :half], order[:, half : 2 * half]) for order in drawn]
+
+
+@dataclass(frozen=True, eq=False)
+class FixedSchedule:
+    """The matches of a list, each in its week, in the order of the list.
+
+    Parameters
+    ----------
+    week
+        the week of each match, from 1 on.
+    a, b
+        positions of the two who meet.
+
+    Raises
+    ------
+    InputError
+        if the columns differ in length or hold what is no week or no position, or somebody
+        meets himself; `pairs` raises it if a position is beyond the players.
+
+    >>> fixtures = FixedSchedule([1, 1, 3], [0, 0, 1], [1, 2, 2])
+    >>> [(a.tolist(), b.tolist()) for a, b in fixtures.pairs(1, np.random.default_rng(1), 3)]
+    [([0], [1]), ([0], [2])]
+    >>> fixtures.weeks, len(fixtures), fixtures.pairs(2, np.random.default_rng(1), 3)
+    (3, 3, [])
+    """
+
+    week: NDArray[np.int64] = field(repr=False)
+    a: NDArray[np.int64] = field(repr=False)
+    b: NDArray[np.int64] = field(repr=False)
+
+    def __init__(self, week: ArrayLike, a: ArrayLike, b: ArrayLike) -> None:
+        for name, given, least in (("week", week, 1), ("a", a, 0), ("b", b, 0)):
+            object.__setattr__(self, name, _whole_column(given, name, least))
+        if not len(self.week) == len(self.a) == len(self.b):
+            raise InputError(
+                f"week, a and b have {len(self.week)}, {len(self.a)} and {len(self.b)} values; "
+                "give one of each for every match"
+            )
+        if (self.a == self.b).any():
+            row = int(np.argmax(self.a == self.b))
+            raise InputError(f"match {row} is of {self.a[row]} with himself; give two players")
+
+    def __len__(self) -> int:
+        return len(self.week)
+
+    @property
+    def weeks(self) -> int:
+        """The last week that has a match; 0 where there is none."""
+        return int(self.week.max(initial=0))
+
+    def pairs(self, week: int, rng: np.random.Generator, count: int) -> list[Round]:  # noqa: ARG002
+        """Return the rounds of a week; none where the list has no match in it."""
+        most = int(max(self.a.max(initial=-1), self.b.max(initial=-1)))
+        if most >= count:
+            raise InputError(
+                f"the schedule has a player {most}, but the league has {count} from 0 on; "
+                "leave out his matches, or add the player"
+            )
+        return self._rounds.get(week, [])
+
+    @cached_property
+    def _rounds(self) -> dict[int, list[Round]]:
+        rows = np.argsort(self.week, kind="stable")
+        weeks, starts = np.unique(self.week[rows], return_index=True)
+        parts = np.split(rows, starts[1:])[: len(weeks)]  # of no rows it makes one part
+        return {
+            week: rounds_of(self.a[part], self.b[part])
+            for week, part in zip(weeks.tolist(), parts, strict=True)
+        }
+
+
+def _matched(rng: np.random.Generator, count: int) -> Round:
+    """Return a round in which all ways to pair `count` players are equally likely.
+
+    Of many, half are drawn, in an order drawn by lot; whoever is left meets them in his own
+    order. That is half the work of an order of all.
+    """
+    half = count // 2
+    if count < _FEW:
+        order = rng.permutation(count)
+        return order[:half], order[half : 2 * half]
+    drawn = rng.choice(count, count - half, replace=False)
+    left = np.ones(count, dtype=bool)
+    left[drawn] = False
+    return np.flatnonzero(left), drawn[:half]  # of an odd number the last one drawn sits out
+
+
+def rounds_of(a: NDArray[Any], b: NDArray[Any]) -> list[Round]:
+    """Return matches as rounds in each of which a player occurs once at the most.
+
+    Each match comes as early as it can without overtaking an earlier one of its players.
+
+    >>> [(a.tolist(), b.tolist()) for a, b in rounds_of(np.array([0, 0, 2]), np.array([1, 2, 3]))]
+    [([0], [1]), ([0], [2]), ([2], [3])]
+    """
+    free: dict[int, int] = {}
+    place = np.zeros(len(a), dtype=np.intp)
+    for row, (one, other) in enumerate(zip(a.tolist(), b.tolist(), strict=True)):
+        place[row] = max(free.get(one, 0), free.get(other, 0))
+        free[one] = free[other] = int(place[row]) + 1
+    rounds = [np.flatnonzero(place == k) for k in range(int(place.max(initial=-1)) + 1)]
+    return [(a[rows].astype(np.intp), b[rows].astype(np.intp)) for rows in rounds]
+
+
+def _whole_column(given: ArrayLike, name: str, least: int) -> NDArray[np.int64]:
+    try:
+        numbers = np.asarray(given, dtype=float)
+        right = numbers.ndim == 1 and bool((numbers == np.floor(numbers)).all())
+    except (TypeError, ValueError):
+        right = False
+    if not right or (numbers < least).any():
+        raise InputError(f"{name} is {given!r}; give a whole number, {least} or more, a match")
+    column = numbers.astype(np.int64)
+    column.flags.writeable = False
+    return column

@@ -1,0 +1,148 @@
+"""A season: who plays, by which system, whom in which week, and for how long."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.checks import one_of, whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.chart import Chart
+from evenbreak.handicaps.chart import chart as printed_chart
+from evenbreak.handicaps.match_table import MatchTable, match_table
+from evenbreak.handicaps.systems import System, system_of
+from evenbreak.league.lookup import Lookup, lookup_of
+from evenbreak.league.players import LeaguePlayers
+from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin, Schedule
+from evenbreak.league.tally import fifths_of
+
+__all__ = ["Season", "draws_opponents"]
+
+_DOUBLINGS = 3.0
+"""How far moves are told by rating difference: to where the odds of a game are 8 to 1."""
+
+_SDS = 5.0
+"""Standard deviations of skill within which a league's skills are taken to lie."""
+
+
+@dataclass(frozen=True, eq=False)
+class Season:
+    """A season to be simulated.
+
+    A week goes so. Each player's skill of the day is his true skill then and the day's
+    deviation, in whole points; all his matches of the week are played with it. The ratings
+    before the week say all its races, and all moves are added up at its end, as
+    `evenbreak.handicaps.apply_results` does with a night. Then skills drift.
+
+    Parameters
+    ----------
+    players
+        who plays.
+    system
+        the handicap system, or its name.
+    chart
+        by which the races are given, or its name; None: the system's first.
+    schedule
+        who meets whom; None: a round robin, again and again.
+    weeks
+        how many weeks are played.
+    play
+        'matches': each match is won by its exact chance. 'racks': it is played rack by rack,
+        which gives final scores too. Both have the same law.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have.
+
+    >>> season = Season(LeaguePlayers.of([92, 80, 71, 64]), "npl", "npl_10", weeks=12)
+    >>> season.chart.name, season.schedule
+    ('npl_10', RoundRobin(players=4, matches_a_week=1))
+    """
+
+    players: LeaguePlayers
+    system: Any
+    chart: Any = None
+    schedule: Any = None
+    weeks: int = 30
+    play: str = "matches"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.players, LeaguePlayers):
+            raise InputError(f"players is {self.players!r}; give LeaguePlayers")
+        put = object.__setattr__
+        if not isinstance(self.system, System):
+            put(self, "system", system_of(self.system))
+        if self.chart is None:
+            put(self, "chart", self.system.usual_chart())
+        elif not isinstance(self.chart, Chart):
+            put(self, "chart", printed_chart(self.chart))
+        if self.schedule is None:
+            put(self, "schedule", RoundRobin(len(self.players)))
+        put(self, "weeks", whole(self.weeks, "weeks", at_least=1))
+        put(self, "play", one_of(self.play, "play", ("matches", "racks")))
+        _check_schedule(self.schedule, len(self.players))
+
+    @cached_property
+    def table(self) -> MatchTable:
+        """The races, moves and chances of the season's matches."""
+        doubling = self.system.scale.points_per_doubling
+        least = max(self.chart.rows[-1].difference_from, round(_DOUBLINGS * doubling))
+        # Where no two ratings are further apart than the table is wide, none need be clipped.
+        spread = int(self.players.rating.max() - self.players.rating.min()) + round(doubling)
+        return match_table(self.system, self.chart, widest=max(least, min(spread, 2 * least)))
+
+    @cached_property
+    def lookup(self) -> Lookup:
+        """The same as flat tables of whole numbers, for drawing."""
+        return lookup_of(self.table, self.widest_gap)
+
+    @cached_property
+    def widest_gap(self) -> int:
+        """The largest difference of two skills of the day, five standard deviations included."""
+        players = self.players
+        around = _SDS * np.hypot(players.skill_sd, players.day_sd)
+        drifted = players.drift * (self.weeks - 1)
+        high = players.skill + np.maximum(drifted, 0.0) + around
+        low = players.skill + np.minimum(drifted, 0.0) - around
+        # A point more, since drift adds up in another order.
+        return int(np.rint(high.max()) - np.rint(low.min())) + 1
+
+    @cached_property
+    def longest_move(self) -> int:
+        """The most points that a match may move a rating."""
+        steps = self.system.newcomer_steps
+        anybody_new = (self.players.played < sum(matches for matches, _ in steps)).any()
+        factors = [factor for _, factor in steps] if anybody_new else []
+        return int(np.abs(self.table.moves).max()) * max(factors, default=1)
+
+    @cached_property
+    def fifths(self) -> NDArray[np.int64]:
+        """Each player's fifth by skill at the start, 0 the weakest; one column."""
+        return fifths_of(self.players.skill[:, None])
+
+    def __reduce__(self) -> Any:
+        # What is worked out is worked out again where the season arrives: it is larger.
+        given = (self.players, self.system, self.chart, self.schedule, self.weeks, self.play)
+        return Season, given
+
+
+def _check_schedule(schedule: Any, players: int) -> None:
+    """Find out before the first week what would stop the season in a later one."""
+    if isinstance(schedule, RandomPairing):
+        return
+    if isinstance(schedule, RoundRobin | FixedSchedule):
+        schedule.pairs(1, np.random.default_rng(0), players)
+    elif not hasattr(schedule, "pairs"):
+        raise InputError(
+            f"schedule is {schedule!r}; give RoundRobin, RandomPairing or FixedSchedule"
+        )
+
+
+def draws_opponents(schedule: Schedule) -> bool:
+    """Tell whether opponents are drawn by lot, so among those who are there."""
+    return isinstance(schedule, RandomPairing)

@@ -1,0 +1,221 @@
+"""What is kept of simulated seasons: counts that add up, whatever part of them is counted where."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.errors import InputError
+
+__all__ = ["FIFTHS", "GAP_COLUMNS", "PRODUCTS", "WEEK_COLUMNS", "Tally", "fifths_of"]
+
+Counts = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+GAP_COLUMNS = ("matches", "stronger_won", "hill_hill", "shutouts", "games")
+"""What is summed for each gap of the two skills."""
+
+WEEK_COLUMNS = ("players", "error", "error_squared")
+"""What is summed for each week."""
+
+PRODUCTS = (
+    *("wins_wins", "wins_matches", "matches_matches", "moved_moved"),
+    *("wins_replicas", "moved_replicas"),
+)
+"""What is multiplied for each player in a batch, and summed over the batches."""
+
+FIFTHS = 5
+"""Groups of players by true skill, the weakest first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tally:
+    """What replicas of a season came to; two tallies of one season add up to one with `+`.
+
+    All counts are whole numbers, so that sums of tallies do not depend on how they are
+    bracketed; what is kept batch by batch keeps the order in which tallies are added.
+
+    The replicas of one batch share the pairings that are drawn by lot, and batches draw their
+    own: batches are independent, and replicas of a batch are so given its pairings. So standard
+    errors come from how sums vary from batch to batch.
+
+    Parameters
+    ----------
+    replicas
+        seasons counted in each batch, shape (batches,).
+    matches, wins, wins_squared
+        of each player, summed over the replicas: matches played, matches won, and the square
+        of those won in a season; shape (players,).
+    rating, rating_squared
+        of each player, summed over the replicas: the rating after the season, in points less
+        his rating at the start, and the square of that.
+    games
+        games that each player won, summed over the replicas; None where matches are not played
+        rack by rack.
+    products
+        of each player, summed over the batches: the products of `PRODUCTS`, each of two sums
+        over the replicas of a batch (`moved` is `rating` of a batch); shape (players, 6). None
+        in a league so large that a batch is one replica.
+    wins_counts
+        in how many replicas each player won 0, 1, 2, ... matches: shape (players, most + 1).
+        None where it would be large.
+    rating_counts
+        in how many replicas each player's rating moved by -most, ..., most points: shape
+        (players, 2 * most + 1); what moved further stands at the ends. None where it would be
+        large.
+    errors
+        how many players stood at each rating error (rating less true skill, rounded to whole
+        points) at the start and after each week, its drift included: shape (weeks + 1,
+        2 * widest + 1), from -widest to widest, where what is further off stands too.
+    gap_width
+        points of a bin of `gaps`.
+    gaps
+        shape (batches, bins, 5), the columns of `GAP_COLUMNS` for matches in which the skills of
+        the day lie [k * gap_width, (k + 1) * gap_width) points apart, k the bin: matches, those
+        that the stronger won (of equals: half of them), hill-hill, shutouts (the loser won no
+        game), and games in all. Where matches are not played rack by rack the last three are
+        means given the two ratings and skills of each match, and not drawn.
+    weeks
+        shape (batches, weeks + 1, 3), the columns of `WEEK_COLUMNS`: players in the league, and
+        their rating errors (as `errors` counts them) and squares of these, summed.
+    fifths
+        shape (batches, 5, 2): matches and wins by fifth of true skill at the start.
+
+    >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
+    >>> season = Season(LeaguePlayers.of([60, 50], skill=[50, 50]), "npl", weeks=100)
+    >>> one, two = (run_chunk(season, 50, seed) for seed in np.random.SeedSequence(1).spawn(2))
+    >>> both = one + two
+    >>> both.replicas, both.matches, both.weeks.shape
+    (array([50, 50]), array([10000, 10000]), (2, 101, 3))
+    """
+
+    replicas: Counts
+    matches: Counts
+    wins: Counts
+    wins_squared: Counts
+    rating: Counts
+    rating_squared: Counts
+    games: Counts | None
+    products: Counts | None
+    wins_counts: Counts | None
+    rating_counts: Counts | None
+    errors: Counts
+    gap_width: int
+    gaps: Floats
+    weeks: Floats
+    fifths: Counts
+
+    def __add__(self, other: Tally) -> Tally:
+        if not isinstance(other, Tally):
+            return NotImplemented
+        if len(self.matches) != len(other.matches) or self.errors.shape != other.errors.shape:
+            raise InputError("the two tallies are of different seasons; add those of one season")
+        return Tally(**{field.name: _added(self, other, field.name) for field in fields(Tally)})
+
+    @property
+    def error_values(self) -> NDArray[np.int64]:
+        """The rating errors of the columns of `errors`, in points."""
+        most = self.errors.shape[1] // 2
+        return np.arange(-most, most + 1)
+
+    def mean_and_error(self, above: Any, below: Any) -> tuple[Any, Any]:
+        """Return sum(above) / sum(below) and its Monte Carlo standard error.
+
+        Parameters
+        ----------
+        above, below
+            sums for each batch, of shape (batches, ...), such as wins and matches.
+
+        Returns
+        -------
+        mean, standard error
+            arrays of the shape of one batch; NaN where nothing was counted, and for the error
+            where there are fewer than two batches.
+
+        Notes
+        -----
+        The standard error of a ratio of means, to first order, for k batches:
+        sqrt(k / (k - 1) sum (above - mean * below)^2) / sum(below).
+        """
+        above, below = np.asarray(above, dtype=float), np.asarray(below, dtype=float)
+        batches = len(above)
+        total = below.sum(axis=0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            mean = above.sum(axis=0) / total
+            if batches < 2:
+                return mean, np.full_like(mean, np.nan)
+            off = ((above - mean * below) ** 2).sum(axis=0)
+            return mean, np.sqrt(batches / (batches - 1) * off) / total
+
+    def player_errors(self) -> tuple[Floats, Floats, Floats]:
+        """Return the Monte Carlo standard errors of what each player can expect.
+
+        Returns
+        -------
+        matches won in a season, P(he wins | he plays a match), points that his rating moves
+            arrays of shape (players,); NaN where there are fewer than two batches, or the
+            player had no match. As in `mean_and_error`; in a league so large that `products`
+            is None that of the chance takes his number of matches for given.
+        """
+        n = self.replicas.astype(float)
+        batches, seasons = len(n), n.sum()
+        if batches < 2:
+            missing = np.full(len(self.wins), np.nan)
+            return missing, missing, missing
+        with np.errstate(invalid="ignore", divide="ignore"):
+            won, moved, rate = self.wins / seasons, self.rating / seasons, self.wins / self.matches
+            if self.products is None:
+                squares = self.wins_squared - won * self.wins
+                squares_moved = self.rating_squared - moved * self.rating
+                squares_rate = squares
+            else:
+                ww, wm, mm, rr, wn, rn = self.products.T.astype(float)
+                squares = ww - 2 * won * wn + won**2 * (n @ n)
+                squares_moved = rr - 2 * moved * rn + moved**2 * (n @ n)
+                squares_rate = ww - 2 * rate * wm + rate**2 * mm
+            found = (squares, seasons), (squares_rate, self.matches), (squares_moved, seasons)
+            one, two, three = (
+                np.sqrt(batches / (batches - 1) * np.maximum(off, 0.0)) / total
+                for off, total in found
+            )
+        return one, two, three
+
+
+def fifths_of(skill: NDArray[Any]) -> NDArray[np.int64]:
+    """Return each player's fifth by skill, 0 the weakest; equals by their position.
+
+    Parameters
+    ----------
+    skill
+        players down, replicas across.
+
+    >>> fifths_of(np.array([[50.0], [90.0], [70.0], [60.0], [80.0]])).ravel()
+    array([0, 4, 2, 1, 3])
+    """
+    many = len(skill)
+    order = np.argsort(skill, axis=0, kind="stable")
+    fifth: NDArray[np.int64] = np.empty(skill.shape, dtype=np.int64)
+    ranks = (np.arange(many) * FIFTHS // many)[:, None]
+    np.put_along_axis(fifth, order, np.broadcast_to(ranks, skill.shape), axis=0)
+    return fifth
+
+
+_IN_BATCHES = ("replicas", "gaps", "weeks", "fifths")
+_WIDENED = ("wins_counts",)
+
+
+def _added(one: Tally, other: Tally, name: str) -> Any:
+    mine, theirs = getattr(one, name), getattr(other, name)
+    if name == "gap_width":
+        return mine
+    if mine is None or theirs is None:
+        return None
+    if name in _IN_BATCHES:
+        return np.concatenate([mine, theirs])
+    if name in _WIDENED and mine.shape != theirs.shape:
+        most = max(mine.shape[1], theirs.shape[1])
+        mine, theirs = (np.pad(x, ((0, 0), (0, most - x.shape[1]))) for x in (mine, theirs))
+    return mine + theirs

@@ -1,0 +1,289 @@
+"""Watching a league for sandbagging: each player's evidence, match by match, with its alarm."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.checks import one_of
+from evenbreak.errors import AccuracyError, InputError
+from evenbreak.handicaps.systems import System
+from evenbreak.league.evidence import (
+    DEPTHS,
+    FARTHEST,
+    GAINS,
+    HONEST,
+    SHARES,
+    SHARES_MARKED,
+    WIDEST,
+    Evidence,
+    Likelihood,
+    Result,
+    units,
+)
+from evenbreak.league.nights import Night
+from evenbreak.stats.summary import Distribution
+
+__all__ = ["Watched", "watch", "watch_player"]
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Watched:
+    """What one player's results weigh for sandbagging.
+
+    Parameters
+    ----------
+    player
+        the name.
+    rows
+        places of his matches in the results, in the order in which they were played.
+    won
+        whether he won each.
+    any, established
+        the logarithm of e after each match, against honest players of any skill, and against
+        established ones.
+    honest
+        against which of the two the alarm is raised.
+    alpha
+        the chance that an honest player is ever flagged, at most.
+    """
+
+    player: str
+    rows: NDArray[np.int64]
+    won: NDArray[np.bool_]
+    any: Floats
+    established: Floats
+    honest: str
+    alpha: float
+
+    @property
+    def log_e(self) -> Floats:
+        """The logarithm of e by which the alarm is raised, after each match."""
+        return self.any if self.honest == "any" else self.established
+
+    @property
+    def alarm(self) -> int | None:
+        """The place in `rows` of the match that first raised the alarm; None if none did."""
+        over = np.flatnonzero(self.log_e >= -math.log(self.alpha))
+        return int(over[0]) if over.size else None
+
+    @property
+    def e_value(self) -> float:
+        """The value of e after the last match."""
+        return _e(float(self.log_e[-1]))
+
+    @property
+    def largest_e(self) -> float:
+        """The largest e after any match: his alarm was raised if it is 1 / alpha or more."""
+        return _e(float(self.log_e.max()))
+
+    @property
+    def p_value(self) -> float:
+        """The smallest alpha at which he would have been flagged: 1 / the largest e."""
+        return min(1.0, 1.0 / self.largest_e)
+
+
+def watch(
+    nights: Iterable[Night],
+    system: System,
+    error: Distribution,
+    *,
+    alpha: float = 0.01,
+    honest: str = "any",
+    marked: NDArray[np.bool_] | None = None,
+    day_sd: float = 0.0,
+) -> list[Watched]:
+    """Return what the results of a season weigh against each player, by name.
+
+    Parameters
+    ----------
+    nights
+        the season, as `played_nights` returns it.
+    system
+        the league's system.
+    error
+        the law of a rating's error (rating less skill), such as `Ladder(...).law()`.
+    alpha
+        for each honest player the chance that he is ever flagged, at most.
+    honest
+        'any': the bound holds for every constant skill within 180 points of the rating at the
+        start, and for those that change all the time by -1/4, 1/4 or 1/2 point a match (where 30
+        double the odds). 'established': it holds on average over the errors that
+        the ladder gives a rating at the start, and sandbaggers are seen sooner; but honest
+        players who are rated far wrongly or improve are flagged too.
+    marked
+        for each match whether it is one that may have been dumped; None: any may.
+    day_sd
+        how far the form of the day is from the skill, of all players: one standard deviation, in
+        points. Honest players whose form varies more than is said here are flagged too often.
+
+    Raises
+    ------
+    InputError
+        if alpha is not above 0 and below 1, honest is neither, or `day_sd` is out of range.
+    AccuracyError
+        if a result is all but impossible by the ratings.
+
+    Notes
+    -----
+    The bound holds for each player by himself, and on average over the errors of his opponents'
+    ratings, which are taken to be independent from match to match, of the law `error`; as is the
+    form of the day. Among N honest players at most N · alpha are flagged on average; at alpha / N
+    the chance that any is stays below alpha.
+
+    >>> from evenbreak.handicaps import Ladder, chart, system_of
+    >>> from evenbreak.league import played_nights
+    >>> from evenbreak.ratings import Results, Roster
+    >>> club = Roster(["Ann", "Bo"], [80, 80])
+    >>> season = Results.from_names(["Ann"] * 4, ["Bo"] * 4, [5, 0, 5, 0], [0, 5, 1, 5])
+    >>> npl, ten = system_of("npl"), chart("npl_10")
+    >>> season = played_nights(npl, club, season, chart=ten)
+    >>> for one in watch(season, npl, Ladder("npl", ten).law()):
+    ...     print(one.player, one.won.tolist(), one.alarm)
+    Ann [True, False, True, False] None
+    Bo [False, True, False, True] None
+    """
+    if not 0.0 < alpha < 1.0:
+        raise InputError(f"alpha is {alpha!r}; give a number above 0 and below 1")
+    one_of(honest, "honest", HONEST)
+    most = 4.0 * system.scale.points_per_doubling
+    if not 0.0 <= day_sd <= most:
+        raise InputError(f"day_sd is {day_sd!r}; give a number of points from 0 to {most:.0f}")
+    shares = SHARES if marked is None else SHARES_MARKED
+    results: dict[int, list[Result]] = {}
+    rows: dict[int, list[int]] = {}
+    start: dict[int, int] = {}
+    names: tuple[str, ...] = ()
+    for night in nights:
+        names = night.moves.before.players
+        rating = night.moves.before.rating
+        for match in night.moves.matches:
+            row = int(night.rows[match.row])
+            may = marked is None or bool(marked[row])
+            sides = ((match.winner, match.loser, 1), (match.loser, match.winner, -1))
+            for player, other, turn in sides:
+                start.setdefault(player, units(float(rating[player]), system.scale))
+                rows.setdefault(player, []).append(row)
+                results.setdefault(player, []).append(
+                    Result(
+                        units(float(rating[other]), system.scale),
+                        _turned(match.games, turn),
+                        _turned(match.race, turn),
+                        turn == 1,
+                        may,
+                    )
+                )
+    likelihood = Likelihood(system.scale, error, day_sd)
+    found = []
+    for player in sorted(results, key=lambda place: names[place]):
+        try:
+            both = watch_player(start[player], results[player], likelihood, shares=shares)
+        except AccuracyError as error:
+            raise AccuracyError(f"{names[player]!r}: {error}") from error
+        won = np.array([result.won for result in results[player]])
+        place = np.array(rows[player])
+        found.append(Watched(names[player], place, won, *both, honest, alpha))
+    return found
+
+
+def _turned(pair: tuple[int, int] | None, turn: int) -> tuple[int, int] | None:
+    return pair if pair is None or turn == 1 else (pair[1], pair[0])
+
+
+def watch_player(
+    rating: int,
+    results: Sequence[Result],
+    likelihood: Likelihood,
+    *,
+    shares: Sequence[float] = SHARES,
+) -> tuple[Floats, Floats]:
+    """Return the logarithm of e after each match of a player.
+
+    Parameters
+    ----------
+    rating
+        his rating at the start, in whole points of which 30 double the odds.
+    results
+        his matches, in the order in which they were played.
+    likelihood
+        of the scale, and of the errors of ratings.
+    shares
+        the shares of his marked matches that a sandbagger dumps, to be mixed over.
+
+    Returns
+    -------
+    two arrays of shape (results,)
+        against honest players of any skill; and against established ones, whose ratings at
+        the start err as `likelihood` says.
+
+    >>> from evenbreak.ratings.scale import SCALES
+    >>> rightly = Likelihood(SCALES["npl"], Distribution((0,), (1.0,)))
+    >>> match = Result(80, (5, 4), (5, 5), True)
+    >>> watch_player(80, [match] * 3, rightly)[0].round(2).tolist()
+    [-0.34, -0.63, -0.89]
+    """
+    evidence = Evidence(skill_prior(likelihood), shares, len(DEPTHS) + 1)
+    log_e = np.empty((2, len(results)))
+    for place, result in enumerate(results):
+        shift, (up, down) = rating - result.opponent, drift_room(place)
+        chances = likelihood.of(
+            result.games,
+            result.race,
+            won=result.won,
+            first=shift - FARTHEST - down,
+            last=shift + FARTHEST + up,
+        )
+        drifting, kinds = at_skills(*chances, place)
+        evidence.add(drifting[None], kinds[None], marked=result.marked)
+        log_e[:, place] = [evidence.log_e(honest)[0] for honest in HONEST]
+    return log_e[0], log_e[1]
+
+
+def skill_prior(likelihood: Likelihood) -> Floats:
+    """Return the law of skill less rating, shape (1, skills)."""
+    prior = np.zeros((1, 2 * WIDEST + 1))
+    for place, weight in enumerate(likelihood.error):
+        skill = -(place + likelihood.lowest)
+        prior[0, min(max(skill, -WIDEST), WIDEST) + WIDEST] += weight
+    return prior
+
+
+def drift_room(place: int) -> tuple[int, int]:
+    """Return by how much the honest skills can have risen and fallen until a match."""
+    gained = [round(gain * place) for gain in GAINS]
+    return max(*gained, 0), -min(*gained, 0)
+
+
+def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floats]:
+    """Return a result's chance at each skill: honest of each gain, and for each way of dumping.
+
+    Parameters
+    ----------
+    chance, feigned
+        at the differences from -FARTHEST less the room to fall on, the last axis.
+    place
+        how many matches came before.
+
+    Returns
+    -------
+    arrays of shape (..., gains, 2 * FARTHEST + 1) and (..., ways, 2 * WIDEST + 1)
+    """
+    middle = FARTHEST + drift_room(place)[1]
+
+    def part(values: Floats, offset: int, widest: int) -> Floats:
+        return values[..., middle + offset - widest : middle + offset + widest + 1]
+
+    drifting = [part(chance, round(gain * place), FARTHEST) for gain in GAINS]
+    kinds = [*(part(chance, -depth, WIDEST) for depth in DEPTHS), part(feigned, 0, WIDEST)]
+    return np.stack(drifting, axis=-2), np.stack(kinds, axis=-2)
+
+
+def _e(log_e: float) -> float:
+    """Return e, held where a float ends."""
+    return math.exp(min(log_e, 700.0))

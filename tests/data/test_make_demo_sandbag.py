@@ -1,0 +1,14 @@
+"""The committed season of a sandbagger is what its script makes."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+DATA = Path(__file__).resolve().parents[2] / "data"
+
+
+def test_script_makes_the_committed_bytes(tmp_path):
+    script = DATA / "make_demo_sandbag.py"
+    subprocess.run([sys.executable, str(script), str(tmp_path)], check=True)
+    for name in ("demo_sandbag.csv", "demo_sandbag_roster.csv"):
+        assert (tmp_path / name).read_bytes() == (DATA / name).read_bytes()

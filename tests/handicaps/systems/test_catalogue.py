@@ -1,0 +1,46 @@
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps.systems import step_system, system_of
+
+
+@pytest.mark.parametrize(
+    ("written", "name"),
+    [
+        ("Step 3", "step 3"),
+        ("step-3-1", "step 3 1"),
+        ("step  3\t1", "step 3 1"),
+        ("margin", "margin 2"),
+        ("ELO", "elo 16"),
+        ("elo-32", "elo 32"),
+        ("fixed 13", "fixed 13"),
+    ],
+)
+def test_a_name_is_a_word_and_numbers(written, name):
+    assert system_of(written).name == name
+
+
+def test_a_system_is_its_own_name():
+    system = step_system(7)
+    assert system_of(system) is system
+
+
+@pytest.mark.parametrize(
+    ("written", "message"),
+    [
+        ("fide", "system is 'fide'; give npl, step UP .DOWN., .* or fixed"),
+        ("", "system is ''; give npl"),
+        (None, "system is None; give npl"),
+        ("npl 3", "write it as npl$"),
+        ("step", r"write it as step UP \[DOWN\], in whole numbers"),
+        ("step 1 2 3", "write it as step"),
+        ("step -2", "write it as step"),
+        ("step 1.5", "write it as step"),
+        ("step ²", "write it as step"),
+        ("elo 0", "system is 'elo 0': k is 0; give a whole number, 1 or more"),
+        ("fixed 8", "system is 'fixed 8': games is 8, in which .*; give 7 or 9"),
+    ],
+)
+def test_what_names_no_system_is_told_with_what_does(written, message):
+    with pytest.raises(InputError, match=message):
+        system_of(written)

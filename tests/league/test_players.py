@@ -1,0 +1,63 @@
+"""The columns of a simulated league."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.league import ESTABLISHED, LeaguePlayers
+
+
+def test_one_number_stands_for_everybody() -> None:
+    club = LeaguePlayers.of([50, 60, 70], day_sd=4, absence=0.25)
+    assert club.day_sd.tolist() == [4.0] * 3
+    assert club.absence.tolist() == [0.25] * 3
+    assert club.skill.tolist() == [50.0, 60.0, 70.0]
+    assert club.played.tolist() == [ESTABLISHED] * 3
+
+
+def test_columns_are_read_only_copies() -> None:
+    rating = np.array([50, 60])
+    club = LeaguePlayers.of(rating)
+    rating[0] = 99
+    assert club.rating.tolist() == [50, 60]
+    with pytest.raises(ValueError, match="read-only"):
+        club.rating[0] = 1
+
+
+def test_players_can_be_sent_elsewhere() -> None:
+    club = LeaguePlayers.of([50, 60], drift=0.5, names=["Ann", "Bo"])
+    again = pickle.loads(pickle.dumps(club))  # noqa: S301
+    assert again.names == ("Ann", "Bo")
+    assert again.drift.tolist() == [0.5, 0.5]
+
+
+def test_who_is_here() -> None:
+    club = LeaguePlayers.of([50, 60, 70], joins=[1, 3, 1], leaves=[0, 0, 2])
+    here = [club.here(week).tolist() for week in (1, 2, 3)]
+    assert here == [[True, False, True], [True, False, True], [True, True, False]]
+
+
+@pytest.mark.parametrize(
+    ("columns", "said"),
+    [
+        ({"rating": [50]}, "two players or more"),
+        ({"rating": [[50, 60]]}, "two players or more"),
+        ({"rating": [50.5, 60]}, "rating holds 50.5; give whole numbers"),
+        ({"rating": [50, 60], "skill": [50]}, r"skill has the shape \(1,\)"),
+        ({"rating": [50, 60], "skill": [50, np.nan]}, "skill holds nan"),
+        ({"rating": [50, 60], "skill": ["a", "b"]}, "skill is .*give a number for each"),
+        ({"rating": [50, 60], "absence": 1.5}, "absence holds 1.5; give numbers from 0 to 1"),
+        ({"rating": [50, 60], "day_sd": -1}, "day_sd holds -1"),
+        ({"rating": [50, 60], "joins": 0}, "joins holds 0; give numbers of 1 or more"),
+        ({"rating": [50, 60], "played": -1}, "played holds -1; give numbers of 0 or more"),
+        ({"rating": [50, 60_000]}, "rating holds 60000"),
+        ({"rating": [50, 60], "joins": [1, 4], "leaves": [0, 2]}, "leaves in week 2 and joins in"),
+        ({"rating": [50, 60], "names": ["Ann"]}, "names are 1"),
+        ({"rating": [50, 60], "names": ["Ann", "Ann"]}, "names are 2"),
+    ],
+)
+def test_what_is_refused(columns: dict, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        LeaguePlayers.of(**columns)
