@@ -33,7 +33,7 @@ COMMANDS = {
     "drill": "Find where a progressive drill settles, and what to practise.",
     "practice": "Tell what practice scores say: was it luck, did it help?",
     "physics": "Answer what ball, cloth and cue do: throw, aim, spin.",
-    "reproduce": "Write section 5 of the source text, computed anew.",
+    "reproduce": "Write all numbers and figures of the source text, computed anew.",
     "chain": "Find the stochastic limit of any chain, from a file of arcs.",
 }
 """Each command with its line of help; module and function bear the command's name."""

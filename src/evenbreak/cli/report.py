@@ -111,8 +111,9 @@ def report(
     from evenbreak.reports.matchups import RaceLimits, find_players, most_active
     from evenbreak.reports.rate_words import prior_words
     from evenbreak.reports.read_results import read_results
-    from evenbreak.reports.write_files import write_files
+    from evenbreak.reports.write_files import check_folder, write_files
 
+    check_folder(out)
     scale = scale_of(scale_name)
     limits = RaceLimits(games, RACE_TO if games is None and race_to is None else race_to)
     say(f"Reading {'standard input' if results == '-' else results}")

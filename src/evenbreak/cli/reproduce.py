@@ -41,8 +41,9 @@ def reproduce(ctx: click.Context, out: str) -> None:
     from evenbreak.reports.physics.numbers import physics_findings
     from evenbreak.reports.reproduce import differing, reproduction
     from evenbreak.reports.section5.numbers import findings
-    from evenbreak.reports.write_files import write_files
+    from evenbreak.reports.write_files import check_folder, write_files
 
+    check_folder(out)
     files = reproduction(say)
     write_files(out, files)
     say(f"Wrote {_kinds(files)} to {out}")
