@@ -91,7 +91,7 @@ class MatchTable:
         Returns
         -------
         numpy.ndarray
-            shape (2 * widest + 1, *shape of p).
+            shape (2 * widest + 1,) followed by that of p.
 
         Raises
         ------
@@ -120,7 +120,7 @@ class MatchTable:
         Returns
         -------
         numpy.ndarray
-            shape (2 * widest + 1, outcomes, *shape of p); 0 in the padding. They add up to 1
+            shape (2 * widest + 1, outcomes) followed by that of p; 0 in the padding. They add up to 1
             over the scores.
 
         Raises

@@ -6,7 +6,8 @@ omega about a level axis, that point slips over the cloth at
     u = V + omega x (-R k) = (V_x - R omega_y, V_y + R omega_x)
 
 and the cloth pulls with mu g against u. u keeps its direction and shrinks at 7/2 mu g, so the
-force is constant, the path is a parabola, and natural roll comes after 2 |u| / (7 mu g) at
+force is constant, the path is a parabola, and natural roll comes after 2/7 of the length of u
+over mu g, at
 
     V_NR = 5/7 V + 2/7 R (omega_y, -omega_x)
 

@@ -8,9 +8,9 @@ to the left and up. Friction pulls the object ball that way, by a share mu of wh
 gives it along the line of centres: tan(throw) = mu cos(gamma), where gamma is the angle of the
 slip above the level. That holds only while the balls slip: the hit takes level slip away at
 seven times the speed that it gives, upright slip at six times, as the table holds one of the
-balls. So
+balls. So, in size,
 
-    |V_b,sideways| <= |V_cp,sideways| / 7,   |V_b,upward| <= |V_cp,upward| / 6
+    V_b,sideways <= V_cp,sideways / 7,   V_b,upward <= V_cp,upward / 6
 
 and a stun shot has its full throw only where tan(cut) >= 7 mu. `friction="limited"` keeps to
 that, `friction="shepard"` is the law of the text, which knows no limit and there adds energy.
