@@ -120,8 +120,8 @@ class MatchTable:
         Returns
         -------
         numpy.ndarray
-            shape (2 * widest + 1, outcomes) followed by that of p; 0 in the padding. They add up to 1
-            over the scores.
+            shape (2 * widest + 1, outcomes) followed by that of p; 0 in the padding. They add up
+            to 1 over the scores.
 
         Raises
         ------
