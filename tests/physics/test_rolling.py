@@ -18,7 +18,7 @@ from evenbreak.physics import (
     rolling_time,
     spin_stop,
 )
-from evenbreak.physics.units import STANDARD_GRAVITY
+from evenbreak.physics.units import GRAVITY
 
 
 @given(st.floats(-20.0, 20.0))
@@ -39,7 +39,7 @@ def test_a_round_body_rolls_as_long_as_its_slowing_says(
 ) -> None:
     inertia = SHAPES[shape]
     friction = rolling_friction(mu, shape=inertia)
-    for gravity in (STANDARD_GRAVITY, MOON_GRAVITY):
+    for gravity in (GRAVITY, MOON_GRAVITY):
         time = rolling_time(distance, friction, shape=inertia, gravity=gravity)
         assert 0.5 * mu * gravity * time**2 == pytest.approx(distance)
 

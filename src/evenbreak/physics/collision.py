@@ -22,7 +22,7 @@ import numpy as np
 from evenbreak.physics.arrays import Floats, numbers, plain, positive
 from evenbreak.physics.objects import Ball
 from evenbreak.physics.throw import BALL_FRICTION, shot_of, slip_of, thrown
-from evenbreak.physics.units import STANDARD_GRAVITY
+from evenbreak.physics.units import GRAVITY
 
 __all__ = ["Collision", "Jump", "axis_tilt", "collide"]
 
@@ -146,7 +146,7 @@ class Collision:
         pushed = np.minimum(self.upward, 0.0)
         return plain(2.0 * self.ball.mass * self.ball.radius * pushed)
 
-    def jump(self, *, gravity: float = STANDARD_GRAVITY) -> Jump:
+    def jump(self, *, gravity: float = GRAVITY) -> Jump:
         """Return the object ball's flight, all 0 where it does not jump (P4.9).
 
         >>> from evenbreak.physics.units import INCH

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.physics.arrays import numbers, plain, positive
-from evenbreak.physics.units import STANDARD_GRAVITY
+from evenbreak.physics.units import GRAVITY
 
 __all__ = [
     "friction_of_incline",
@@ -52,7 +52,7 @@ def friction_of_throw(sideways: Any, ahead: Any) -> Any:
     return plain(sideways / positive(ahead, "ahead"))
 
 
-def friction_of_stop(distance: Any, time: Any, *, gravity: float = STANDARD_GRAVITY) -> Any:
+def friction_of_stop(distance: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
     """Return the coefficient of what slides or rolls a distance until it stops, in a time.
 
     Parameters
@@ -78,9 +78,7 @@ def friction_of_stop(distance: Any, time: Any, *, gravity: float = STANDARD_GRAV
     )
 
 
-def sliding_speed(
-    speed: Any, friction: Any, time: Any, *, gravity: float = STANDARD_GRAVITY
-) -> Any:
+def sliding_speed(speed: Any, friction: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
     """Return the speed of a block that has slid for a time; 0 once it has stopped.
 
     >>> round(sliding_speed(50.0, 0.2, 0.5, gravity=386.0), 9)
@@ -90,9 +88,7 @@ def sliding_speed(
     return plain(np.maximum(speed - friction * positive(gravity, "gravity") * time, 0.0))
 
 
-def sliding_distance(
-    speed: Any, friction: Any, time: Any, *, gravity: float = STANDARD_GRAVITY
-) -> Any:
+def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
     """Return how far a block has slid after a time; it stays where it has stopped.
 
     >>> round(sliding_distance(50.0, 0.2, 0.5, gravity=386.0), 9)
@@ -104,9 +100,7 @@ def sliding_distance(
     return plain(speed * moving - 0.5 * slowing * moving**2)
 
 
-def sliding_power(
-    speed: Any, friction: Any, mass: Any, *, gravity: float = STANDARD_GRAVITY
-) -> Any:
+def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAVITY) -> Any:
     """Return dT/dt, the rate at which a sliding block of this speed gains energy: below 0.
 
     >>> round(sliding_power(2.0, 0.1, 1.0, gravity=10.0), 9)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import LARGEST
-from evenbreak.physics.units import INCH, OUNCE, STANDARD_GRAVITY
+from evenbreak.physics.units import GRAVITY, INCH, OUNCE
 
 __all__ = ["Ball", "Cloth", "Cue", "Table"]
 
@@ -94,7 +94,7 @@ class Cloth:
 
     mu_slide: float = 0.2
     mu_roll: float = 0.01
-    gravity: float = STANDARD_GRAVITY
+    gravity: float = GRAVITY
 
     def __post_init__(self) -> None:
         _positive(self, "mu_slide", "such as 0.2")

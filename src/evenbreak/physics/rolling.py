@@ -15,7 +15,7 @@ import numpy as np
 
 from evenbreak.physics.arrays import numbers, plain, positive
 from evenbreak.physics.objects import Ball, Cloth
-from evenbreak.physics.units import INCH, STANDARD_GRAVITY
+from evenbreak.physics.units import GRAVITY, INCH
 
 __all__ = [
     "MOON_GRAVITY",
@@ -89,7 +89,7 @@ def rolling_time(
     friction: Any,
     *,
     shape: float = SHAPES["ball"],
-    gravity: float = STANDARD_GRAVITY,
+    gravity: float = GRAVITY,
 ) -> Any:
     """Return how long a round body takes to roll a distance to rest, in seconds (P2.5).
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from evenbreak.physics.arrays import numbers, plain, positive
 from evenbreak.physics.objects import Ball, Cloth, Table
-from evenbreak.physics.units import STANDARD_GRAVITY
+from evenbreak.physics.units import GRAVITY
 
 __all__ = ["TABLE_SPEEDS", "lag_distance", "lag_speed", "roll_distance", "roll_time", "table_speed"]
 
@@ -34,7 +34,7 @@ def lag_distance(table: Table, ball: Ball) -> float:
     return table.length - ball.diameter
 
 
-def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = STANDARD_GRAVITY) -> Any:
+def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = GRAVITY) -> Any:
     """Return the table speed from a ball that rolls a distance to rest, in a time.
 
     Parameters

@@ -5,7 +5,7 @@ Multiply to come in, divide to go out: `9 * INCH` is metres, `length / INCH` is 
 
 import math
 
-__all__ = ["CENTIMETRE", "DEGREE", "FOOT", "GRAM", "INCH", "OUNCE", "STANDARD_GRAVITY"]
+__all__ = ["CENTIMETRE", "DEGREE", "FOOT", "GRAM", "GRAVITY", "INCH", "OUNCE"]
 
 INCH = 0.0254
 """Metres in an inch."""
@@ -25,5 +25,5 @@ GRAM = 0.001
 DEGREE = math.pi / 180.0
 """Radians in a degree."""
 
-STANDARD_GRAVITY = 386.0 * INCH
+GRAVITY = 386.0 * INCH
 """The acceleration of gravity in m/s^2, as the source text has it: 386 in/s^2, 9.8044 m/s^2."""

@@ -21,7 +21,7 @@ from evenbreak.physics.throw import (
     throw_factor,
     throw_sensitivity,
 )
-from evenbreak.physics.units import DEGREE, FOOT, INCH, STANDARD_GRAVITY
+from evenbreak.physics.units import DEGREE, FOOT, GRAVITY, INCH
 from evenbreak.reports.physics.inputs import Answers, Inputs, crossing, slope
 
 __all__ = ["ANSWERS"]
@@ -213,9 +213,9 @@ ANSWERS: Answers = {
     ("P4.8", "tan(beta)"): _tilt,
     ("P4.8", "beta/epsilon for small epsilon"): lambda _: axis_tilt(1e-6) / 1e-6,
     ("P4.8", "F_s/F_avg"): lambda i: (
-        Cloth(mu_slide=i["mu_s"]).mu_slide * STANDARD_GRAVITY * i["t"] / i["V_bx"]
+        Cloth(mu_slide=i["mu_s"]).mu_slide * GRAVITY * i["t"] / i["V_bx"]
     ),
-    ("P4.8", "F_grav/F_avg"): lambda i: STANDARD_GRAVITY * i["t"] / i["V_bx"],
+    ("P4.8", "F_grav/F_avg"): lambda i: GRAVITY * i["t"] / i["V_bx"],
     ("P4.9", "sin(gamma) of straight draw"): lambda i: _upward_share(_straight(i)),
     ("P4.9", "V_bz, in/s"): lambda i: _straight(i).upward / INCH,
     # A flight is as long down as up.

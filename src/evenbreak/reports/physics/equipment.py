@@ -37,9 +37,9 @@ from evenbreak.physics.units import (
     CENTIMETRE,
     DEGREE,
     GRAM,
+    GRAVITY,
     INCH,
     OUNCE,
-    STANDARD_GRAVITY,
 )
 from evenbreak.reports.physics.inputs import Answers, Inputs
 
@@ -88,7 +88,7 @@ def _stopped(speed: float, mu: float) -> float:
 
 
 def _stop_friction(i: Inputs) -> float:
-    time = i["V_0"] / (i["mu"] * STANDARD_GRAVITY)
+    time = i["V_0"] / (i["mu"] * GRAVITY)
     return float(friction_of_stop(_stopped(i["V_0"], i["mu"]), time))
 
 
@@ -169,6 +169,6 @@ ANSWERS: Answers = {
     ("Section 1", "table speed, most"): lambda i: TABLE_SPEEDS[i["class"]][1],
     ("P1.5", "length of the playing area, in"): lambda _: Table().length / INCH,
     ("P1.5", "width of the playing area, in"): lambda _: Table().width / INCH,
-    ("P1.5", "g, in/s^2"): lambda _: STANDARD_GRAVITY / INCH,
+    ("P1.5", "g, in/s^2"): lambda _: GRAVITY / INCH,
 }
 """What the text answers."""

@@ -27,7 +27,7 @@ from evenbreak.physics.slide import (
     sliding_ball_speed,
 )
 from evenbreak.physics.table_speed import lag_distance, table_speed
-from evenbreak.physics.units import INCH, STANDARD_GRAVITY
+from evenbreak.physics.units import GRAVITY, INCH
 from evenbreak.reports.physics.inputs import Answers, Inputs
 
 __all__ = ["ANSWERS"]
@@ -127,10 +127,10 @@ ANSWERS: Answers = {
     ),
     ("Section 2", "mu_eff/mu_rolling"): lambda _: _MU / rolling_friction(_MU),
     ("P2.5", "mu_rolling"): lambda i: rolling_friction(1.0 / i["table_speed"]),
-    ("P2.5", "g on the moon over g"): lambda _: MOON_GRAVITY / STANDARD_GRAVITY,
+    ("P2.5", "g on the moon over g"): lambda _: MOON_GRAVITY / GRAVITY,
     ("P2.5", "lag time of a cylinder on the moon, s"): lambda i: _moon_time(i, "cylinder"),
     ("P2.5", "lag time of a ball on the moon, s"): lambda i: _moon_time(i, "ball"),
-    ("P2.5", "sqrt(g/g on the moon)"): lambda _: math.sqrt(STANDARD_GRAVITY / MOON_GRAVITY),
+    ("P2.5", "sqrt(g/g on the moon)"): lambda _: math.sqrt(GRAVITY / MOON_GRAVITY),
     ("P2.6", "V_NR, in/s"): _of_stop("roll_speed", INCH),
     ("P2.6", "t_NR, s"): _of_stop("slide_time", 1.0),
     ("P2.6", "d_NR, in"): _of_stop("slide_distance", INCH),
