@@ -8,15 +8,38 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.physics import (
+    Ball,
+    Cloth,
+    ContactPoint,
+    Slide,
     aim,
+    ball_speed_ratio,
+    break_energy_share,
     collide,
+    contact_for_later,
     deflection,
+    drag_distance,
+    effective_contact,
     friction_of_stop,
+    friction_of_throw,
+    gearing_tip,
+    kinetic_energy,
+    lag_speed,
+    parabola,
+    roll_side,
+    roll_speed,
+    roll_speed_ratio,
+    roll_velocity,
     rolling_time,
+    sliding_ball_speed,
     sliding_distance,
     sliding_power,
     sliding_speed,
     strike,
+    stroke_energy,
+    stroke_speed,
+    stun_distance,
+    stun_offset,
     table_speed,
     throw_angle,
 )
@@ -94,3 +117,55 @@ def test_plain() -> None:
 def test_shapes_that_do_not_fit_are_refused_by_name(ask, message):
     with pytest.raises(InputError, match=message):
         ask()
+
+
+TWO, THREE, CLOTH = [0.1, 0.2], [0.1, 0.2, 0.3], Cloth()
+
+
+@pytest.mark.parametrize(
+    ("ask", "names"),
+    [
+        (lambda: friction_of_throw(TWO, THREE), "sideways, ahead"),
+        (lambda: friction_of_stop(TWO, THREE), "distance, time"),
+        (lambda: sliding_speed(TWO, THREE, 1.0), "speed, friction"),
+        (lambda: sliding_distance(TWO, 0.2, THREE), "speed, time"),
+        (lambda: sliding_power(TWO, 0.2, THREE), "speed, mass"),
+        (lambda: roll_side(TWO, THREE), "y, z"),
+        (lambda: effective_contact(ContactPoint(0.1, TWO), 1.0, THREE, CLOTH), "z, time"),
+        (lambda: contact_for_later(ContactPoint(TWO, 1.0), THREE), "later.y, z"),
+        (lambda: gearing_tip(TWO, THREE), "cut, z"),
+        (lambda: stun_offset(TWO, THREE, CLOTH), "speed, distance"),
+        (lambda: ball_speed_ratio(TWO, THREE), "offset, ball_ratio"),
+        (lambda: roll_speed_ratio(TWO, THREE), "offset, ball_ratio"),
+        (lambda: kinetic_energy(Ball(), TWO, THREE), "speed, rim_speed"),
+        (lambda: rolling_time(TWO, THREE), "distance, friction"),
+        (lambda: sliding_ball_speed(TWO, THREE, 1.0), "speed, rim_speed"),
+        (lambda: roll_speed(TWO, THREE), "speed, rim_speed"),
+        (lambda: roll_velocity(np.ones((2, 2)), np.ones((3, 3))), "velocity, rim_velocity"),
+        (lambda: parabola(THREE, np.ones((2, 2)), CLOTH), "ahead, velocity"),
+        (lambda: stun_distance(TWO, [-0.1, -0.2, -0.3], CLOTH), "speed, spin"),
+        (lambda: drag_distance(TWO, THREE, CLOTH), "speed, spin"),
+        (
+            lambda: Slide(Ball(), CLOTH, [0, 0], np.ones((2, 2)), np.ones((3, 3))),
+            "velocity, spin",
+        ),
+        (lambda: table_speed(TWO, distance=THREE), "lag_time, distance"),
+        (lambda: lag_speed(TWO, distance=THREE), "lag_time, distance"),
+        (lambda: stroke_speed(TWO, THREE, 1.0), "force, length"),
+        (lambda: stroke_energy(1.0, TWO, THREE), "stick_ratio, forearm_ratio"),
+        (lambda: break_energy_share(TWO, THREE), "stick_ratio, forearm_ratio"),
+    ],
+)
+def test_every_formula_says_whose_shapes_do_not_fit(ask, names):
+    first, second = names.split(", ")
+    vectors = r"(\[\.\.\., 0\])?"
+    said = rf"{first}{vectors} has shape \(2,\), (.*, )?{second}{vectors} has shape \(3,\)"
+    turned = rf"{first}{vectors} has shape \(3,\), {second}{vectors} has shape \(2,\)"
+    with pytest.raises(InputError, match=f"({said}|{turned}); give shapes that broadcast"):
+        ask()
+
+
+def test_a_slide_cannot_be_changed():
+    slide = Slide(Ball(), CLOTH, [0, 0], [1, 0], [0, 0, 0])
+    with pytest.raises(ValueError, match="read-only"):
+        slide.velocity[0] = 2.0

@@ -53,7 +53,8 @@ def deflection(cut: Any, topspin: Any = 1.0) -> Any:
 
     Notes
     -----
-    Source: P4.13, P4.21 and P4.23, without friction between the balls.
+    Source: P4.13, P4.21 and P4.23, without friction between the balls; the same by tangents is
+    P4.14. Near the largest deflection it hardly changes with the cut (P4.17).
 
     >>> [round(math.degrees(deflection(math.radians(30.0), spin)), 2) for spin in (1, 0, -1)]
     [33.67, 60.0, 109.11]
@@ -67,7 +68,8 @@ def deflection(cut: Any, topspin: Any = 1.0) -> Any:
 def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:
     """Return d theta / d cut: how sensitive the cue ball's path is to the cut (P4.15).
 
-    In natural roll it falls from 5/2 to -5/7; for stun it is -1 at every cut.
+    In natural roll it falls from 5/2, the rule for small cut angles (P4.18), to -5/7; for stun it
+    is -1 at every cut.
 
     >>> round(deflection_slope(0.0), 9), round(deflection_slope(math.pi / 2.0), 4)
     (2.5, -0.7143)

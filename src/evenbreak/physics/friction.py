@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain, positive
+from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
 from evenbreak.physics.units import GRAVITY
 
 __all__ = [
@@ -48,8 +48,9 @@ def friction_of_throw(sideways: Any, ahead: Any) -> Any:
     >>> round(friction_of_throw(4.0, 72.0), 4)
     0.0556
     """
-    sideways = numbers(sideways, "sideways", low=0.0)
-    return plain(sideways / positive(ahead, "ahead"))
+    sideways, ahead = numbers(sideways, "sideways", low=0.0), positive(ahead, "ahead")
+    together(sideways=sideways, ahead=ahead)
+    return plain(sideways / ahead)
 
 
 def friction_of_stop(distance: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
@@ -72,10 +73,10 @@ def friction_of_stop(distance: Any, time: Any, *, gravity: float = GRAVITY) -> A
     >>> friction_of_stop(1.0, 1.0, gravity=10.0)
     0.2
     """
-    time = positive(time, "time")
-    return plain(
-        numbers(distance, "distance", low=0.0) / (0.5 * positive(gravity, "gravity") * time**2)
-    )
+    distance, time = numbers(distance, "distance", low=0.0), positive(time, "time")
+    pull = positive(gravity, "gravity")
+    together(distance=distance, time=time, gravity=pull)
+    return plain(distance / (0.5 * pull * time**2))
 
 
 def sliding_speed(speed: Any, friction: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
@@ -84,8 +85,8 @@ def sliding_speed(speed: Any, friction: Any, time: Any, *, gravity: float = GRAV
     >>> round(sliding_speed(50.0, 0.2, 0.5, gravity=386.0), 9)
     11.4
     """
-    speed, friction, time = _block(speed, friction, time, "time")
-    return plain(np.maximum(speed - friction * positive(gravity, "gravity") * time, 0.0))
+    speed, slowing, time = _block(speed, friction, gravity, time=time)
+    return plain(np.maximum(speed - slowing * time, 0.0))
 
 
 def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
@@ -94,8 +95,7 @@ def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = G
     >>> round(sliding_distance(50.0, 0.2, 0.5, gravity=386.0), 9)
     15.35
     """
-    speed, friction, time = _block(speed, friction, time, "time")
-    slowing = friction * positive(gravity, "gravity")
+    speed, slowing, time = _block(speed, friction, gravity, time=time)
     moving = np.minimum(time, speed / slowing)
     return plain(speed * moving - 0.5 * slowing * moving**2)
 
@@ -106,8 +106,8 @@ def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAV
     >>> round(sliding_power(2.0, 0.1, 1.0, gravity=10.0), 9)
     -2.0
     """
-    speed, friction, mass = _block(speed, friction, mass, "mass")
-    return plain(-friction * mass * positive(gravity, "gravity") * speed)
+    speed, slowing, mass = _block(speed, friction, gravity, mass=mass)
+    return plain(-slowing * mass * speed)
 
 
 def miscue_offset(friction: Any) -> Any:
@@ -136,9 +136,14 @@ def tip_friction_of(offset: Any) -> Any:
         return plain(offset / np.sqrt((1.0 - offset) * (1.0 + offset)))
 
 
-def _block(speed: Any, friction: Any, third: Any, name: str) -> tuple[Any, Any, Any]:
-    return (
-        numbers(speed, "speed", low=0.0),
-        positive(friction, "friction"),
-        numbers(third, name, low=0.0),
-    )
+def _block(speed: Any, friction: Any, gravity: Any, **third: Any) -> tuple[Floats, Floats, Floats]:
+    """Return a block's speed, how fast it loses it, and the third number, or refuse them."""
+    found = {
+        "speed": numbers(speed, "speed", low=0.0),
+        "friction": positive(friction, "friction"),
+        "gravity": positive(gravity, "gravity"),
+        **{name: numbers(value, name, low=0.0) for name, value in third.items()},
+    }
+    together(**found)
+    speed, friction, gravity, last = found.values()
+    return speed, friction * gravity, last

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import numbers, plain, positive
+from evenbreak.physics.arrays import numbers, plain, positive, together
 from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
@@ -86,7 +86,8 @@ def roll_side(y: Any, z: Any) -> Any:
     >>> roll_side(-0.5, 0.5)
     3.5
     """
-    y, z = _offset(y, "y"), numbers(z, "z", low=0.0, high=2.0, open_low=True)
+    y, z = _offset(y, "y"), _height(z)
+    together(y=y, z=z)
     return plain(-3.5 * y / z)
 
 
@@ -140,12 +141,13 @@ def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth
     >>> round(now.y, 4), round(now.z, 4)
     (0.2222, 0.8889)
     """
-    y, z = _offset(contact.y, "y"), numbers(contact.z, "z", low=0.0, high=2.0, open_low=True)
-    speed = positive(speed, "speed")
+    y, z = _offset(contact.y, "y"), _height(contact.z)
+    speed, time = positive(speed, "speed"), numbers(time, "time", low=0.0)
+    together(y=y, z=z, speed=speed, time=time)
     slowing = cloth.mu_slide * cloth.gravity
     # Natural roll ends it at 5/7 z of the speed, slower or faster than the ball began.
     rolls = 5.0 / 7.0 * z
-    lost = np.minimum(slowing * numbers(time, "time", low=0.0) / speed, np.abs(1.0 - rolls))
+    lost = np.minimum(slowing * time / speed, np.abs(1.0 - rolls))
     now = 1.0 - np.sign(1.0 - rolls) * lost
     # What is lost by then may round to all there is.
     stretch = 1.0 / np.where(rolls < 1.0, np.maximum(now, rolls), np.minimum(now, rolls))
@@ -160,10 +162,10 @@ def contact_for_later(later: ContactPoint, z: Any) -> ContactPoint:
     >>> contact_for_later(ContactPoint(0.3, 1.0), 0.7)
     ContactPoint(y=0.21, z=0.7)
     """
-    z = numbers(z, "z", low=0.0, high=2.0, open_low=True)
-    height = numbers(later.z, "z", low=0.0, high=2.0, open_low=True)
+    z, height, y = _height(z), _height(later.z, "later.z"), numbers(later.y, "later.y")
+    together(**{"later.y": y, "later.z": height, "z": z})
     # Where sidespin lasts, `later` may lie beyond the ball; what the tip can strike may not.
-    y = _offset(numbers(later.y, "y") * z / height, "y")
+    y = _offset(y * z / height, "y")
     return ContactPoint(plain(y), plain(z))
 
 
@@ -184,8 +186,9 @@ def gearing_tip(cut: Any, z: Any = 1.0 + NATURAL_ROLL_OFFSET) -> ContactPoint:
     >>> round(tip.y, 9), round(tip.z, 9)
     (0.2, 1.4)
     """
-    z = numbers(z, "z", low=0.0, high=2.0, open_low=True)
-    return ContactPoint(plain(-gearing_side(cut) * z / 3.5), plain(z))
+    z, side = _height(z), gearing_side(cut)
+    together(cut=np.asarray(side), z=z)
+    return ContactPoint(plain(-side * z / 3.5), plain(z))
 
 
 def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
@@ -218,6 +221,7 @@ def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
     """
     speed = positive(speed, "speed")
     distance = numbers(distance, "distance", low=0.0)
+    together(speed=speed, distance=distance)
     lost = 2.0 * cloth.mu_slide * cloth.gravity * distance / speed**2
     if np.any(lost > 1.0):
         raise InputError(
@@ -241,8 +245,9 @@ def ball_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     >>> round(ball_speed_ratio(0.0, 1 / 3), 9), round(ball_speed_ratio(0.3, 1 / 3), 4)
     (1.5, 1.2834)
     """
-    ratio = numbers(ball_ratio, "ball_ratio", low=0.0)
-    return plain(2.0 / (1.0 + ratio + 2.5 * _offset(offset) ** 2))
+    ratio, offset = numbers(ball_ratio, "ball_ratio", low=0.0), _offset(offset)
+    together(offset=offset, ball_ratio=ratio)
+    return plain(2.0 / (1.0 + ratio + 2.5 * offset**2))
 
 
 def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
@@ -251,7 +256,8 @@ def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     >>> round(roll_speed_ratio(0.3, 1 / 3), 4)
     1.1917
     """
-    return plain((5.0 + 5.0 * _offset(offset)) / 7.0 * ball_speed_ratio(offset, ball_ratio))
+    ratio = ball_speed_ratio(offset, ball_ratio)
+    return plain((5.0 + 5.0 * _offset(offset)) / 7.0 * ratio)
 
 
 def best_lag_offset(ball_ratio: Any) -> Any:
@@ -263,6 +269,10 @@ def best_lag_offset(ball_ratio: Any) -> Any:
     (0.238, 0.225)
     """
     return plain(np.sqrt(1.4 + 0.4 * numbers(ball_ratio, "ball_ratio", low=0.0)) - 1.0)
+
+
+def _height(value: Any, name: str = "z") -> Any:
+    return numbers(value, name, low=0.0, high=2.0, open_low=True)
 
 
 def _offset(value: Any, name: str = "offset") -> Any:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain, positive
+from evenbreak.physics.arrays import numbers, plain, positive, together
 from evenbreak.physics.objects import Ball, Cloth
 from evenbreak.physics.units import GRAVITY, INCH
 
@@ -61,6 +61,7 @@ def kinetic_energy(ball: Ball, speed: Any, rim_speed: Any) -> Energy:
     0.714286
     """
     speed, rim_speed = numbers(speed, "speed"), numbers(rim_speed, "rim_speed")
+    together(speed=speed, rim_speed=rim_speed)
     return Energy(plain(0.5 * ball.mass * speed**2), plain(0.2 * ball.mass * np.square(rim_speed)))
 
 
@@ -81,7 +82,9 @@ def rolling_friction(mu_roll: Any, *, shape: float = SHAPES["ball"]) -> Any:
     >>> round(rolling_friction(1 / 96.7), 4)
     0.0145
     """
-    return plain((1.0 + _inertia(shape)) * numbers(mu_roll, "mu_roll", low=0.0))
+    inertia, mu_roll = numbers(shape, "shape", low=0.0), numbers(mu_roll, "mu_roll", low=0.0)
+    together(mu_roll=mu_roll, shape=inertia)
+    return plain((1.0 + inertia) * mu_roll)
 
 
 def rolling_time(
@@ -108,9 +111,10 @@ def rolling_time(
     >>> round(rolling_time(length, 0.0145, shape=SHAPES["cylinder"], gravity=MOON_GRAVITY), 1)
     17.8
     """
-    pull = positive(gravity, "gravity") * positive(friction, "friction")
-    distance = numbers(distance, "distance", low=0.0)
-    return plain(np.sqrt(2.0 * (1.0 + _inertia(shape)) * distance / pull))
+    friction, pull = positive(friction, "friction"), positive(gravity, "gravity")
+    distance, inertia = numbers(distance, "distance", low=0.0), numbers(shape, "shape", low=0.0)
+    together(distance=distance, friction=friction, shape=inertia, gravity=pull)
+    return plain(np.sqrt(2.0 * (1.0 + inertia) * distance / (pull * friction)))
 
 
 class SpinStop(NamedTuple):
@@ -168,7 +172,3 @@ def spin_stop(rim_speed: Any, cloth: Cloth) -> SpinStop:
         speed**2 / (2.0 * resistance),
     )
     return SpinStop(*map(plain, parts))
-
-
-def _inertia(shape: float) -> Any:
-    return numbers(shape, "shape", low=0.0)

@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.arrays import Floats, numbers, plain, together
 from evenbreak.physics.objects import Ball, Cloth
 
 __all__ = [
@@ -50,8 +50,10 @@ def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
     >>> sliding_ball_speed(60.0, -45.0, 30.0)
     30.0
     """
-    change = numbers(rim_speed_now, "rim_speed_now") - numbers(rim_speed, "rim_speed")
-    return plain(numbers(speed, "speed") - 0.4 * change)
+    speed, before = numbers(speed, "speed"), numbers(rim_speed, "rim_speed")
+    now = numbers(rim_speed_now, "rim_speed_now")
+    together(speed=speed, rim_speed=before, rim_speed_now=now)
+    return plain(speed - 0.4 * (now - before))
 
 
 def roll_speed(speed: Any, rim_speed: Any) -> Any:
@@ -65,7 +67,9 @@ def roll_speed(speed: Any, rim_speed: Any) -> Any:
     >>> round(roll_speed(1.0, 0.0), 4), round(roll_speed(1.0, -1.0), 4)
     (0.7143, 0.4286)
     """
-    return plain((5.0 * numbers(speed, "speed") + 2.0 * numbers(rim_speed, "rim_speed")) / 7.0)
+    speed, rim_speed = numbers(speed, "speed"), numbers(rim_speed, "rim_speed")
+    together(speed=speed, rim_speed=rim_speed)
+    return plain((5.0 * speed + 2.0 * rim_speed) / 7.0)
 
 
 def roll_velocity(velocity: Any, rim_velocity: Any) -> Floats:
@@ -81,7 +85,9 @@ def roll_velocity(velocity: Any, rim_velocity: Any) -> Floats:
     >>> roll_velocity([0.0, 1.0], [0.0, 1.75, 9.0])
     array([0.5       , 0.71428571])
     """
-    return (5.0 * numbers(velocity, "velocity") + 2.0 * _forward(rim_velocity)) / 7.0
+    velocity, forward = _vectors(velocity, "velocity", 2), _forward(rim_velocity, "rim_velocity")
+    together(**{"velocity[..., 0]": velocity[..., 0], "rim_velocity[..., 0]": forward[..., 0]})
+    return (5.0 * velocity + 2.0 * forward) / 7.0
 
 
 def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
@@ -103,10 +109,11 @@ def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
     >>> parabola(1.0, (2.0, -1.0), Cloth(mu_slide=0.2, gravity=10.0))
     -0.25
     """
-    across, along = np.moveaxis(numbers(velocity, "velocity"), -1, 0)
+    velocity, x = _vectors(velocity, "velocity", 2), numbers(ahead, "ahead")
+    across, along = velocity[..., 0], velocity[..., 1]
+    together(**{"ahead": x, "velocity[..., 0]": across})
     if not np.all(across):
         raise InputError("velocity is 0 across the force; the path is a straight line then")
-    x = numbers(ahead, "ahead")
     return plain(along / across * x + 0.5 * cloth.mu_slide * cloth.gravity * (x / across) ** 2)
 
 
@@ -131,6 +138,7 @@ def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     """
     speed = numbers(speed, "speed", low=0.0)
     spin = numbers(spin, "spin", low=-2.5, high=0.0)
+    together(speed=speed, spin=spin)
     time = -0.4 * spin * speed / (cloth.mu_slide * cloth.gravity)
     return plain(speed * time * (1.0 + 0.2 * spin))
 
@@ -151,7 +159,9 @@ def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     0.816326531
     """
     speed = numbers(speed, "speed", low=0.0)
-    slip = 1.0 - numbers(spin, "spin", low=-2.5)
+    spin = numbers(spin, "spin", low=-2.5)
+    together(speed=speed, spin=spin)
+    slip = 1.0 - spin
     time = 2.0 * np.abs(slip) * speed / (7.0 * cloth.mu_slide * cloth.gravity)
     return plain(speed * time * (1.0 - slip / 7.0))
 
@@ -172,7 +182,7 @@ class Slide:
     Raises
     ------
     InputError
-        if they are not finite numbers of these shapes.
+        if they are not finite numbers of these shapes, or shapes that broadcast.
 
     Notes
     -----
@@ -191,11 +201,12 @@ class Slide:
     spin: Floats
 
     def __post_init__(self) -> None:
-        for name, size in (("position", 2), ("velocity", 2), ("spin", 3)):
-            array = numbers(getattr(self, name), name).copy()
-            if array.ndim == 0 or array.shape[-1] != size:
-                raise InputError(f"{name} has shape {array.shape}; give (..., {size})")
+        names = {"position": 2, "velocity": 2, "spin": 3}
+        for name, size in names.items():
+            array = _vectors(getattr(self, name), name, size).copy()
+            array.flags.writeable = False  # what is reckoned from it once has to stay so
             object.__setattr__(self, name, array)
+        together(**{f"{name}[..., 0]": getattr(self, name)[..., 0] for name in names})
 
     @cached_property
     def slip(self) -> Floats:
@@ -272,11 +283,19 @@ class Slide:
         return np.concatenate([level, upright], axis=-1)
 
 
-def _forward(spin: Any) -> Floats:
+def _vectors(value: Any, name: str, size: int) -> Floats:
+    """Return vectors of so many components, which come last, or refuse them."""
+    array = numbers(value, name)
+    if array.ndim == 0 or array.shape[-1] != size:
+        raise InputError(f"{name} has shape {array.shape}; give (..., {size})")
+    return array
+
+
+def _forward(spin: Any, name: str = "spin") -> Floats:
     """Return the velocity at which a ball of this spin rolls, per metre of its radius."""
-    spin = numbers(spin, "spin")
+    spin = numbers(spin, name)
     if spin.ndim == 0 or spin.shape[-1] not in (2, 3):
-        raise InputError(f"spin has shape {spin.shape}; give (..., 3)")
+        raise InputError(f"{name} has shape {spin.shape}; give (..., 3)")
     return np.stack([spin[..., 1], -spin[..., 0]], axis=-1)
 
 

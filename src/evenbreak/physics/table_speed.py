@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-from evenbreak.physics.arrays import numbers, plain, positive
+from evenbreak.physics.arrays import numbers, plain, positive, together
 from evenbreak.physics.objects import Ball, Cloth, Table
 from evenbreak.physics.units import GRAVITY
 
@@ -53,10 +53,10 @@ def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = GRAVITY
     >>> round(table_speed(7.0), 1)
     96.7
     """
-    metres = _nine_feet() if distance is None else distance
-    time = positive(lag_time, "lag_time")
-    pull = positive(gravity, "gravity")
-    return plain(0.5 * pull * time**2 / positive(metres, "distance"))
+    metres = positive(_nine_feet() if distance is None else distance, "distance")
+    time, pull = positive(lag_time, "lag_time"), positive(gravity, "gravity")
+    together(lag_time=time, distance=metres, gravity=pull)
+    return plain(0.5 * pull * time**2 / metres)
 
 
 def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
@@ -68,9 +68,10 @@ def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
     >>> round(lag_speed(7.0) / INCH, 1)
     27.9
     """
-    metres = _nine_feet() if distance is None else distance
+    metres = numbers(_nine_feet() if distance is None else distance, "distance", low=0.0)
     time = positive(lag_time, "lag_time")
-    return plain(2.0 * numbers(metres, "distance", low=0.0) / time)
+    together(lag_time=time, distance=metres)
+    return plain(2.0 * metres / time)
 
 
 def roll_time(speed: Any, cloth: Cloth) -> Any:

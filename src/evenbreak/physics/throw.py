@@ -64,6 +64,11 @@ def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
     -------
     from -1, where english throws the ball the other way, to 1; 0 where nothing slips
 
+    Notes
+    -----
+    Source: P4.2; for stun it is 1 or -1 at every cut (P4.3), in natural and in reverse natural
+    roll without english the sine of the cut (P4.4, P4.6).
+
     >>> throw_factor(math.pi / 6.0), throw_factor(0.4, 0.0), throw_factor(0.4, 0.0, -0.8)
     (0.49999999999999994, 1.0, -1.0)
     """
@@ -97,7 +102,7 @@ def throw_angle(
 
     Notes
     -----
-    Source: P4.2; the speed does not matter.
+    Source: P4.2, for stun P4.3, in natural roll P4.4; the speed does not matter.
 
     >>> round(math.degrees(throw_angle(math.radians(30.0))), 3)
     1.591
@@ -117,7 +122,8 @@ def throw_angle(
 def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
     """Return the cut angle from which a stun shot has its full throw, in radians.
 
-    Below it the slip ends before the hit does, and tan(throw) = tan(cut) / 7.
+    Below it the slip ends before the hit does, and tan(throw) = tan(cut) / 7. The answer of P4.3,
+    full throw at every cut, holds from here on.
 
     >>> round(math.degrees(full_throw_cut()), 2)
     21.25

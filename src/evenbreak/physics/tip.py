@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain, positive
+from evenbreak.physics.arrays import numbers, plain, positive, together
 
 __all__ = [
     "CentreHit",
@@ -48,7 +48,9 @@ def stroke_speed(force: Any, length: Any, mass: Any) -> Any:
     3.6515
     """
     force, length = numbers(force, "force", low=0.0), numbers(length, "length", low=0.0)
-    return plain(np.sqrt(2.0 * force * length / positive(mass, "mass")))
+    mass = positive(mass, "mass")
+    together(force=force, length=length, mass=mass)
+    return plain(np.sqrt(2.0 * force * length / mass))
 
 
 def centre_hit(stick_ratio: Any) -> CentreHit:
@@ -97,7 +99,9 @@ def stroke_energy(stick_energy: Any, stick_ratio: Any, forearm_ratio: Any) -> An
     """
     stick = positive(stick_ratio, "stick_ratio")
     forearm = numbers(forearm_ratio, "forearm_ratio", low=0.0)
-    return plain(numbers(stick_energy, "stick_energy", low=0.0) * (1.0 + forearm / (3.0 * stick)))
+    energy = numbers(stick_energy, "stick_energy", low=0.0)
+    together(stick_energy=energy, stick_ratio=stick, forearm_ratio=forearm)
+    return plain(energy * (1.0 + forearm / (3.0 * stick)))
 
 
 def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
@@ -108,6 +112,7 @@ def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
     """
     stick = positive(stick_ratio, "stick_ratio")
     forearm = numbers(forearm_ratio, "forearm_ratio", low=0.0)
+    together(stick_ratio=stick, forearm_ratio=forearm)
     return plain(4.0 * stick**2 / ((1.0 + stick) ** 2 * (stick + forearm / 3.0)))
 
 
