@@ -305,3 +305,11 @@ def test_one_season_has_no_standard_errors(run, terminal, tmp_path):
     assert result.exit_code == 0
     assert json.loads(result.stdout)["standard_errors"] == {}
     assert "±" not in terminal(*asked).stdout
+
+
+@pytest.mark.usefixtures("no_pictures")
+def test_much_to_play_is_said_and_jobs_advised_where_there_are_none(run, monkeypatch, tmp_path):
+    monkeypatch.setattr("evenbreak.cli.simulate_season.LONG", 1)
+    words = ("simulate", ROSTER, *FIXTURES, *FEW, "--no-matches", "--out", str(tmp_path / "out"))
+    assert " matches are played; --jobs shares them out\n" in run(*words).stderr
+    assert " matches are played\n" in run(*words, "--jobs", "2").stderr

@@ -17,7 +17,6 @@ from evenbreak.league import (
     run_chunk,
     season_matches,
 )
-from evenbreak.reports.one_season_frames import matches_frame, truth_frame
 from evenbreak.reports.season_frames import (
     fairness_frame,
     season_frame,
@@ -214,17 +213,3 @@ def test_the_summary_says_what_was_simulated_and_what_came_of_it():
     errors = frame.set_index("quantity")["standard_error"]
     assert errors["p_stronger_wins"] > 0
     assert math.isnan(errors["seed"])
-
-
-def test_matches_and_truth_are_laid_out_for_their_readers():
-    played = season_matches(a_season(), seed=1)
-    frame = matches_frame(played)
-    assert list(frame.columns) == [
-        *("date", "event", "player_a", "player_b"),
-        *("race_a", "race_b", "score_a", "score_b", "racks"),
-    ]
-    assert frame["event"].iloc[-1] == "week 8"
-    assert (frame["racks"].str.count("a") == frame["score_a"]).all()
-    truth = truth_frame(a_season(), played)
-    assert truth["rating"].tolist() == [90, 84, 50, 60, 61]
-    assert truth["skill"].iloc[0] == 95

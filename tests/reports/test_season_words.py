@@ -38,6 +38,25 @@ def test_nobody_profits_where_all_are_alike():
     assert words[3].startswith("Who profits? Nobody that these seasons can tell")
 
 
+def test_of_many_who_are_all_alike_nobody_is_named():
+    """Of 200 some ten are two standard errors off a half; that is luck, and no profit."""
+    season = Season(LeaguePlayers.of([80] * 200), "npl", weeks=10)
+    words, _ = told(season, many=20, replicas=5)
+    assert words[3].startswith("Who profits? Nobody that these seasons can tell")
+
+
+def test_only_those_are_named_of_whom_it_is_clear():
+    """Forty lose a little to the one who is better than his rating: none of them clearly."""
+    players = LeaguePlayers.of([80] * 41, skill=[110, *[80] * 40])
+    words, _ = told(Season(players, "npl", weeks=10), many=20, replicas=2)
+    assert words[3].startswith("Who profits? Most of all player 1, rated 80 with a skill of 110")
+    assert words[3].endswith("nobody clearly wins less than half.")
+    players = LeaguePlayers.of([80] * 41, skill=[50, *[80] * 40])
+    words, _ = told(Season(players, "npl", weeks=10), many=20, replicas=2)
+    assert words[3].startswith("Who profits? Nobody clearly wins more than half of his matches;")
+    assert "; least player 1, rated 80 with a skill of 50, wins " in words[3]
+
+
 def test_a_long_table_shows_its_ends():
     _, rows = told(Season(LeaguePlayers.of([80] * 40), "npl", weeks=2), many=1, replicas=10)
     assert len(rows) == 14

@@ -170,7 +170,7 @@ def simulate(
     file = read_league(roster, day_sd=played["day_sd"])
     season = season_of_options(file, played)
     check_folder(out)
-    for remark in remarks(file, season, replicas):
+    for remark in remarks(file, season, replicas, alone=jobs == 1 and cluster is None):
         say(remark)
     tally = _simulated(season, replicas, seed, jobs, cluster)
     settings = {"roster_file": PurePath(file.source).name, "seed": seed, "day_sd": played["day_sd"]}

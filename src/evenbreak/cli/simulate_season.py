@@ -73,8 +73,11 @@ def season_of_options(file: LeagueFile, played: dict[str, Any]) -> Season:
     return Season(file.players, system, chart, schedule, weeks or WEEKS, play)
 
 
-def remarks(file: LeagueFile, season: Season, replicas: int) -> list[str]:
-    """Return what is assumed of the players, what looks odd in their list, and what takes long."""
+def remarks(file: LeagueFile, season: Season, replicas: int, *, alone: bool) -> list[str]:
+    """Return what is assumed of the players, what looks odd in their list, and what takes long.
+
+    `alone` is whether this process does all the work.
+    """
     told = [f"Warning: {warning}" for warning in file.warnings]
     many = len(file.players)
     if file.guessed:
@@ -88,10 +91,10 @@ def remarks(file: LeagueFile, season: Season, replicas: int) -> list[str]:
             "neither skill nor standard_error is stated"
         )
     doubts = scale_doubts(season.system.scale, file.players.rating, "--scale says what they mean")
-    return [*told, *doubts, *_much(season, replicas)]
+    return [*told, *doubts, *_much(season, replicas, alone=alone)]
 
 
-def _much(season: Season, replicas: int) -> list[str]:
+def _much(season: Season, replicas: int, *, alone: bool) -> list[str]:
     """Return a word on how much there is to play, where it takes more than some seconds."""
     from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 
@@ -102,4 +105,5 @@ def _much(season: Season, replicas: int) -> list[str]:
             a_season = season.weeks * many * (len(season.players) // 2)
     if a_season * replicas < LONG:
         return []
-    return [f"About {a_season * replicas:,} matches are played; --jobs shares them out"]
+    remedy = "; --jobs shares them out" if alone else ""
+    return [f"About {a_season * replicas:,} matches are played{remedy}"]

@@ -26,8 +26,8 @@ __all__ = ["season_words", "standings_rows"]
 SHOWN = 12
 """Players of the table that a terminal shows: the first and the last half of them."""
 
-CLEAR = 2.0
-"""Standard errors from which a difference is told as one."""
+MISTAKEN = 0.05
+"""The chance, at most, that anybody is said to profit or to lose where nobody does either."""
 
 
 def season_words(season: Season, tally: Tally) -> list[str]:
@@ -50,7 +50,7 @@ def season_words(season: Season, tally: Tally) -> list[str]:
         "simulated.",
         _ratings(weeks_frame(tally)),
         _nights(fairness_frame(season, tally)),
-        _profit(standings),
+        _profit(standings, len(tally.replicas)),
         _luck(standings),
     ]
 
@@ -102,16 +102,18 @@ def _nights(fairness: pd.DataFrame) -> str:
     )
 
 
-def _profit(standings: pd.DataFrame) -> str:
+def _profit(standings: pd.DataFrame, batches: int) -> str:
+    """Return the sentence on who wins most and least of his matches, if that is no luck.
+
+    Of many players some are off a half by luck: the more there are, the further one must be.
+    """
+    from scipy.special import stdtrit
+
     played = standings[standings["matches"] > 0]
-    off = (played["p_win"] - 0.5).to_numpy()
-    sure = abs(off) > CLEAR * played["p_win_se"].to_numpy()
-    if not sure.any():
-        return (
-            "Who profits? Nobody that these seasons can tell: no player's part of matches won "
-            "is clearly off a half."
-        )
-    best, worst = played.iloc[off.argmax()], played.iloc[off.argmin()]
+    off = played["p_win"] - 0.5
+    clear = -float(stdtrit(max(batches - 1, 1), MISTAKEN / 2 / len(played)))
+    sure = off.abs() > clear * played["p_win_se"]  # never where there is no standard error
+    above, below = played[sure & (off > 0)], played[sure & (off < 0)]
 
     def told(row: pd.Series[Any]) -> str:
         return (
@@ -119,7 +121,20 @@ def _profit(standings: pd.DataFrame) -> str:
             f"{row['skill_start']:.0f}, wins {_percent(row['p_win'], row['p_win_se'])}"
         )
 
-    return f"Who profits? Most of all {told(best)} of the matches; least {told(worst)}."
+    if above.empty and below.empty:
+        return (
+            "Who profits? Nobody that these seasons can tell: no player's part of matches won "
+            "is clearly off a half."
+        )
+    best = "" if above.empty else told(above.iloc[above["p_win"].argmax()])
+    worst = "" if below.empty else told(below.iloc[below["p_win"].argmin()])
+    if not worst:
+        return (
+            f"Who profits? Most of all {best} of the matches; nobody clearly wins less than half."
+        )
+    if not best:
+        return f"Who profits? Nobody clearly wins more than half of his matches; least {worst}."
+    return f"Who profits? Most of all {best} of the matches; least {worst}."
 
 
 def _luck(standings: pd.DataFrame) -> str:
