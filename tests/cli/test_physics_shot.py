@@ -129,6 +129,7 @@ def on_a_terminal(run, monkeypatch, line):
         ("--cut 30 --distance 24 --speed 80 --offset -0.3", "still sliding"),
         ("--cut 30 --distance 24 --speed 200", "it is not followed from there"),
         ("--cut 0 --distance 2.25 --speed 50", "hits at once with stun."),
+        ("--cut 0 --distance 2.25 --speed 50", "The cue ball stays where it is."),
         ("--cut 0 --distance 9 --speed 50 --offset 0.4", "natural roll, rolling from the tip on."),
         ("--cut 0 --distance 9 --speed 0", "it stops after 0.0 inches."),
         (AIMED + " --mu 0", "there is no throw to speak of"),

@@ -197,6 +197,8 @@ def _slid_text(leg: Leg) -> str:
 
 
 def _end_text(leg: Leg, units: Units) -> str:
+    if leg.ending == "rest" and not leg.phases:
+        return f"The {leg.name} stays where it is."
     end = leg.state(leg.end)
     way = f"The {leg.name} goes {decimals(leg.length / units.length, 1)} {units.length_word} and"
     if leg.ending == "rest":

@@ -107,7 +107,10 @@ class Collision:
 
     @property
     def delta_elastic(self) -> Any:
-        """Twice the energy that goes into spin, over M, level friction alone (P4.11)."""
+        """Twice the energy that goes into spin, over M, level friction alone (P4.11).
+
+        Above 0 where both balls then spin the same way, below 0 where they do not (P4.1).
+        """
         spin = self.side * self.speed
         return plain(-2.0 * spin * self.sideways + 5.0 * np.square(self.sideways))
 
@@ -118,7 +121,10 @@ class Collision:
 
     @property
     def delta_total(self) -> Any:
-        """V_0^2 - V_b^2 - V_c^2 for the level speeds, the sum of the two (P4.11)."""
+        """V_0^2 - V_b^2 - V_c^2 for the level speeds, the sum of the two (P4.11).
+
+        Above 0 the balls part at less than a right angle, below 0 at more.
+        """
         across = self.speed * np.sin(self.cut)
         return plain(2.0 * self.sideways * across - 2.0 * np.square(self.sideways))
 

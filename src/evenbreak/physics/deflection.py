@@ -134,6 +134,8 @@ def right_angle_cut(topspin: Any = -1.0) -> Any:
 def split_cut(topspin: Any = 1.0) -> Any:
     """Return the cut angle that splits all kinetic energy evenly, just after the hit (P4.22).
 
+    In natural roll that is the answer of P4.19, for stun that of P4.20.
+
     Parameters
     ----------
     topspin

@@ -85,9 +85,10 @@ def roll_velocity(velocity: Any, rim_velocity: Any) -> Floats:
     >>> roll_velocity([0.0, 1.0], [0.0, 1.75, 9.0])
     array([0.5       , 0.71428571])
     """
-    velocity, forward = _vectors(velocity, "velocity", 2), _forward(rim_velocity, "rim_velocity")
-    together(**{"velocity[..., 0]": velocity[..., 0], "rim_velocity[..., 0]": forward[..., 0]})
-    return (5.0 * velocity + 2.0 * forward) / 7.0
+    moving, forward = _vectors(velocity, "velocity", 2), _forward(rim_velocity, "rim_velocity")
+    together(**{"velocity[..., 0]": moving[..., 0], "rim_velocity[..., 0]": forward[..., 0]})
+    found: Floats = (5.0 * moving + 2.0 * forward) / 7.0
+    return found
 
 
 def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
