@@ -41,6 +41,21 @@ def test_the_table_is_drawn_and_of_a_large_league_its_ends():
     assert axes.get_title().endswith("the first and the last 20 of 100")
 
 
+def test_the_key_of_the_table_covers_nobody():
+    season, tally = seasons(Season(LeaguePlayers.of([80] * 20), "npl", weeks=2))
+    figure = standings_figure(season, tally)
+    figure.draw_without_rendering()
+    (key,) = figure.legends
+    assert [text.get_text() for text in key.get_texts()] == ["8 seasons in 10", "mean"]
+    assert key.get_window_extent().y1 <= figure.axes[0].get_tightbbox().y0
+
+
+def test_of_one_season_the_table_shows_no_spread():
+    season = Season(LeaguePlayers.of([80] * 4), "npl", weeks=2)
+    figure = standings_figure(season, run_chunk(season, 1, np.random.SeedSequence(1)))
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["mean"]
+
+
 def test_a_season_without_matches_is_drawn_empty():
     season = Season(
         LeaguePlayers.of([80, 70], joins=[1, 9]), "npl", None, FixedSchedule([1], [0], [1]), weeks=2

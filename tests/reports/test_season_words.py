@@ -70,6 +70,7 @@ def test_one_season_and_none_at_all_are_told_as_such():
     assert "1 season simulated" in words[0]
     assert "±" not in "".join(words)
     assert "nan" not in "".join(words) + str(rows)
+    assert [row[5] for row in rows] == ["8 of 10 seasons", "", ""]
     season = Season(
         LeaguePlayers.of([80, 70], joins=[1, 9]), "npl", None, FixedSchedule([1], [0], [1]), weeks=2
     )

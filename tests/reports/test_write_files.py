@@ -190,3 +190,11 @@ def test_a_folder_is_checked_without_a_trace(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(NotADirectoryError, match="is a file, so no folder can be in it"):
         check_folder(tmp_path / "file" / "x" / "y")
+
+
+@posix
+def test_a_link_to_nowhere_is_no_folder(tmp_path):
+    (tmp_path / "link").symlink_to(tmp_path / "nowhere")
+    with pytest.raises(NotADirectoryError, match="a link to what is not there"):
+        check_folder(tmp_path / "link")
+    assert [path.name for path in tmp_path.iterdir()] == ["link"]

@@ -105,16 +105,17 @@ def standings_figure(season: Season, tally: Tally) -> Figure:
     size = (6.4, 1.4 + 0.22 * len(rows))
     figure, axes = new_axes("matches won in a season", "", title=title, size=size)
     place = np.arange(len(rows))[::-1]
-    mean, sd = rows["points_mean"].to_numpy(), np.nan_to_num(rows["points_sd"].to_numpy())
+    mean, sd = rows["points_mean"].to_numpy(), rows["points_sd"].to_numpy()
     low = rows["points_p10"].to_numpy(float, na_value=np.nan)
     high = rows["points_p90"].to_numpy(float, na_value=np.nan)
     # Where the laws of the players are not kept, as if they were normal.
     low = np.where(np.isnan(low), mean - 1.2816 * sd, low)
     high = np.where(np.isnan(high), mean + 1.2816 * sd, high)
-    axes.hlines(place, low, high, color="0.65", linewidth=5, label="8 seasons in 10")
+    if not np.isnan(sd).all():  # one season has no spread
+        axes.hlines(place, low, high, color="0.65", linewidth=5, label="8 seasons in 10")
     axes.plot(mean, place, "o", color=LINES[0].color, markersize=4, label="mean")
     axes.set_yticks(place, [printable(str(name))[:32] for name in rows["player"]])
     axes.set_ylim(-0.8, len(rows) - 0.2)
     axes.set_xlim(left=0.0)
-    axes.legend(loc="lower right", frameon=False)
+    figure.legend(loc="outside lower center", ncols=2, frameon=False)
     return figure

@@ -160,7 +160,8 @@ def standings_rows(season: Season, tally: Tally) -> list[list[str]]:
             if place == half:
                 rows.append(["...", *[""] * 7])
             continue
-        known = row["points_p10"] == row["points_p10"] and row["points_p10"] is not None
+        # One season has no spread, and a large league's laws are not kept.
+        known = not math.isnan(row["points_sd"]) and row["points_p10"] == row["points_p10"]
         rows.append(
             [
                 str(place + 1),

@@ -47,6 +47,8 @@ def check_folder(folder: str | Path) -> None:
     """
     folder = Path(folder)
     try:
+        if folder.is_symlink() and not folder.exists():
+            raise NotADirectoryError(errno.ENOTDIR, "a link to what is not there; name another")
         there = folder if folder.exists() else _folder_above(folder)
         probe = _temporary(there / "probe")
         try:
