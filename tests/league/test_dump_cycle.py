@@ -6,6 +6,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.handicaps import Ladder, chart
 from evenbreak.league.dump_cycle import best_cycle, dump_cycle
+from evenbreak.league.sandbag import dumped_matrix, earnest_matrix
 from evenbreak.matches import race_win_probability
 
 
@@ -61,3 +62,18 @@ def test_the_honest_do_not_win_half_by_steps_that_give_more_than_they_take():
     assert 7 * cycle.p_win == pytest.approx(10 / 3, abs=1e-6)
     # Of ten matches he wins as many as the honest player, all of them in earnest.
     assert cycle.profit == pytest.approx((4.0 - 1.0) * 3 / 3 / 10, abs=1e-6)
+
+
+def test_a_rating_that_larger_moves_cannot_take_to_the_very_end_is_held_there():
+    # From 0 by steps of 3 down to -60; -61 is the end of the line.
+    cycle = dump_cycle(Ladder("step 3", widest=61), 9, 1)
+    assert cycle.held == pytest.approx(1.0, abs=1e-3)
+
+
+def test_the_limit_is_that_of_the_powers_of_the_cycle():
+    ladder = Ladder("margin 2", widest=90)
+    step, dump = earnest_matrix(ladder), dumped_matrix(ladder)
+    chain = np.linalg.matrix_power(step, 7) @ np.linalg.matrix_power(dump, 3)
+    law = np.linalg.matrix_power(dump, 3) @ np.linalg.matrix_power(chain, 4096)[:, 90]
+    expected = law @ np.arange(-90, 91)
+    assert dump_cycle(ladder, 3, 7).rating_error == pytest.approx(expected, abs=1e-9)

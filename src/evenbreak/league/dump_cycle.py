@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladder import Ladder
-from evenbreak.league.sandbag import dumped_matrix, earnest_matrix, start_law
+from evenbreak.league.sandbag import at_the_end, dumped_matrix, earnest_matrix, start_law
 
 __all__ = ["DumpCycle", "best_cycle", "dump_cycle"]
 
@@ -28,6 +28,10 @@ Floats = NDArray[np.float64]
 
 _HELD = 1e-6
 """A chance to be held at the ladder's lower end from which on a cycle has no limit above it."""
+_FOLLOWED, _SQUARINGS = 256, 40
+"""Steps in which a law is followed before the chain is squared, and how often it is."""
+_SETTLED = 1e-15
+"""A change of a law that is but a rounding."""
 
 
 class DumpCycle(NamedTuple):
@@ -45,8 +49,9 @@ class DumpCycle(NamedTuple):
         a match, dumped ones counted, beyond a player who plays all of them in earnest, for ever:
         he wins half of them, by rules that take as much as they give.
     held
-        P(his rating lies at the lower end of the ladder as a match in earnest begins); above a
-        millionth his rating would go further down, and the end, not the chart, decides.
+        P(his rating lies so low as a match in earnest begins that another defeat would take it
+        beyond the lower end of the ladder, or at that end); above a millionth his rating would
+        go further down, and the end, not the chart, decides.
     """
 
     dumped: int
@@ -82,7 +87,7 @@ def dump_cycle(
     (0.666667, -15.2, 1.125)
     """
     down, many = whole(dumped, "dumped"), whole(earnest, "earnest", at_least=1)
-    return _cycle(ladder, down, many, stake, dumped_stake, _honest_wins(ladder))
+    return _cycles(ladder, [(down, many)], stake, dumped_stake)[0]
 
 
 def _honest_wins(ladder: Ladder) -> float:
@@ -93,32 +98,44 @@ def _honest_wins(ladder: Ladder) -> float:
 def _limit(chain: Floats, start: Floats) -> Floats:
     """Return the stochastic limit of a column-stochastic chain from a start."""
     # The chain may have a period; that of chain and standstill by turns has none, and the
-    # same limit. Squared, it forgets its start with the 2^k-th power of its second eigenvalue.
-    lazy = (chain + np.eye(chain.shape[0])) / 2.0
-    for _ in range(40):
-        squared = lazy @ lazy
-        squared /= squared.sum(axis=0)
-        if np.abs(squared - lazy).max() < 1e-12:
-            break
-        lazy = squared
-    return np.asarray(lazy @ start)
+    # same limit. A law is soon followed; where it settles slowly, squared steps are longer.
+    lazy, law = (chain + np.eye(chain.shape[0])) / 2.0, start
+    for _ in range(_SQUARINGS):
+        for _ in range(_FOLLOWED):
+            before, law = law, lazy @ law
+            if np.abs(law - before).max() < _SETTLED:
+                return np.asarray(law / law.sum())
+        lazy = lazy @ lazy
+        lazy /= lazy.sum(axis=0)
+    return np.asarray(law / law.sum())
 
 
-def _cycle(
-    ladder: Ladder, down: int, many: int, stake: float, dumped_stake: float, honest: float
-) -> DumpCycle:
-    """Return a cycle's long run, against an honest player who wins so often."""
-    step = earnest_matrix(ladder)
-    dump = np.linalg.matrix_power(dumped_matrix(ladder), down)
-    law = dump @ _limit(np.linalg.matrix_power(step, many) @ dump, start_law(ladder, 0))
+def _cycles(
+    ladder: Ladder, counts: Iterable[tuple[int, int]], stake: float, dumped_stake: float
+) -> list[DumpCycle]:
+    """Return the long run of each of some cycles: matches dumped, and played in earnest."""
+    honest, step, dump = _honest_wins(ladder), earnest_matrix(ladder), dumped_matrix(ladder)
+    last, start = at_the_end(ladder), start_law(ladder, 0)
     errors, wins = np.asarray(ladder.errors, dtype=float), np.asarray(ladder.wins)
-    first, won, held = float(law @ errors), 0.0, 0.0
-    for _ in range(many):
-        won += float(wins @ law) / many
-        held += float(law[0]) / many
-        law = step @ law
-    gain = stake * many * (won - honest) - dumped_stake * down * honest
-    return DumpCycle(down, many, first, won, gain / (down + many), held)
+    # Where each error is led by a match dumped, and by none.
+    falls, here = dump.argmax(axis=0), np.arange(errors.size)
+    played, matches = np.eye(errors.size), 0
+    found = []
+    for down, many in sorted(counts, key=lambda count: count[1]):
+        played, matches = np.linalg.matrix_power(step, many - matches) @ played, many
+        low = here
+        for _ in range(down):
+            low = falls[low]
+        begun = _limit(played[:, low], start)
+        law = np.asarray(np.bincount(low, begun, errors.size), dtype=float)
+        first, won, held = float(law @ errors), 0.0, 0.0
+        for _ in range(many):
+            won += float(wins @ law) / many
+            held += float(law[last].sum()) / many
+            law = step @ law
+        gain = stake * many * (won - honest) - dumped_stake * down * honest
+        found.append(DumpCycle(down, many, first, won, gain / (down + many), held))
+    return found
 
 
 def best_cycle(
@@ -156,12 +173,8 @@ def best_cycle(
     listed = [whole(length, "lengths", at_least=1) for length in lengths]
     if not listed:
         raise InputError("lengths is empty; give the matches of a cycle, such as 10")
-    honest = _honest_wins(ladder)
-    found = [
-        _cycle(ladder, down, length - down, stake, dumped_stake, honest)
-        for length in sorted(set(listed))
-        for down in range(length)
-    ]
+    counts = [(down, length - down) for length in set(listed) for down in range(length)]
+    found = _cycles(ladder, counts, stake, dumped_stake)
     allowed = [
         cycle
         for cycle in found

@@ -174,7 +174,7 @@ def sandbagging(
     step, down = earnest_matrix(ladder), dumped_matrix(ladder)
     honest = _laws(step, law, most + many)
     after = _laws(down, law, most + 1)
-    if after[-1] @ _at_the_end(ladder) > _HELD:
+    if after[-1] @ at_the_end(ladder) > _HELD:
         raise InputError(
             f"dumped is {most}, which takes the rating to the ladder's end at {-ladder.widest}; "
             "give fewer, or a wider ladder"
@@ -261,7 +261,7 @@ def most_dumped(ladder: Ladder, start: int | Distribution = 0) -> int:
     >>> most_dumped(Ladder("npl", widest=120)), most_dumped(Ladder("step 3", widest=120), -30)
     (119, 29)
     """
-    law, down, last = start_law(ladder, start), dumped_matrix(ladder), _at_the_end(ladder)
+    law, down, last = start_law(ladder, start), dumped_matrix(ladder), at_the_end(ladder)
     # By one point or more a match the end is reached in so many; by none it never is.
     for many in range(ladder.errors.size):
         law = down @ law
@@ -324,23 +324,23 @@ def dumped_matrix(ladder: Ladder) -> Floats:
     """
     refuse_drift(ladder)
     here = np.arange(ladder.errors.size)
-    there = here + _dumped_moves(ladder)
+    there = here + dumped_moves(ladder)
     matrix = np.zeros((here.size, here.size))
     matrix[np.where((there < 0) | (there >= here.size), here, there), here] = 1.0
     return matrix
 
 
-def _dumped_moves(ladder: Ladder) -> NDArray[np.int64]:
+def dumped_moves(ladder: Ladder) -> NDArray[np.int64]:
     """Return by how much the most costly defeat moves each error."""
     table = match_table(ladder.system, ladder.chart, widest=int(ladder.errors[-1]))
     lost = ~table.won & (table.games[..., 1] >= 0)
     return np.asarray(np.where(lost, table.moves[..., 0], np.iinfo(np.int64).max).min(axis=1))
 
 
-def _at_the_end(ladder: Ladder) -> NDArray[np.bool_]:
+def at_the_end(ladder: Ladder) -> NDArray[np.bool_]:
     """Return which errors are the lowest, or are kept from falling by the ladder's end."""
     here = np.arange(ladder.errors.size)
-    return np.asarray((here == 0) | (here + _dumped_moves(ladder) < 0))
+    return np.asarray((here == 0) | (here + dumped_moves(ladder) < 0))
 
 
 def refuse_drift(ladder: Ladder) -> None:

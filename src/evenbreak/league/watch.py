@@ -184,8 +184,8 @@ def watch(
     for player in sorted(results, key=lambda place: names[place]):
         try:
             both = watch_player(start[player], results[player], likelihood, shares=shares)
-        except AccuracyError as error:
-            raise AccuracyError(f"{names[player]!r}: {error}") from error
+        except AccuracyError as why:
+            raise AccuracyError(f"{names[player]!r}: {why}") from why
         won = np.array([result.won for result in results[player]])
         place = np.array(rows[player])
         found.append(Watched(names[player], place, won, *both, honest, alpha))
