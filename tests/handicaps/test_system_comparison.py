@@ -13,7 +13,7 @@ from evenbreak.handicaps import (
     settling,
     step_front,
 )
-from evenbreak.handicaps.system_comparison import StepPoint, _beaten
+from evenbreak.handicaps.system_comparison import on_front
 from evenbreak.handicaps.systems import elo_system, step_system
 from evenbreak.matches import match_length
 
@@ -74,13 +74,9 @@ def test_longer_steps_are_faster_and_worse_so_all_are_on_the_front():
 
 
 def test_a_point_that_another_beats_is_not_on_the_front():
-    good, bad, slow = (StepPoint(k, *at, True) for k, at in enumerate([(4, 60), (5, 60), (3, 70)]))
-    assert [_beaten(point, [good, bad, slow]) for point in (good, bad, slow)] == [
-        False,
-        True,
-        False,
-    ]
-    assert not _beaten(good, [good, good])
+    good, bad, slow = (4.0, 60.0), (5.0, 60.0), (3.0, 70.0)
+    assert on_front([good, bad, slow]) == [True, False, True]
+    assert on_front([good, good]) == [True, True]
 
 
 def test_nonsense_is_refused():

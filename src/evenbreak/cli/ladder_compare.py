@@ -121,11 +121,11 @@ def _newcomer(row: SystemRow, chart: Chart, opponents: Opponents) -> SystemRow:
 
 def _steps(chart: Chart, opponents: Opponents) -> list[tuple[SystemRow, bool]]:
     """Return what each step is worth by this chart, and whether no other one is better."""
-    from evenbreak.handicaps.system_comparison import compare_systems, step_front
+    from evenbreak.handicaps.system_comparison import compare_systems, on_front
 
-    front = step_front(STEPS, chart, opponents=opponents)
     rows = compare_systems([(f"step {step}", chart) for step in STEPS], opponents=opponents)
-    return [(row, point.on_front) for row, point in zip(rows, front, strict=True)]
+    front = on_front([(row.sd, row.settling_mean) for row in rows])
+    return list(zip(rows, front, strict=True))
 
 
 def _print(

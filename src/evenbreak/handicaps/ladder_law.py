@@ -164,13 +164,16 @@ def _one_match_more(
     night. Held at once, an even number of matches could move an error by an odd number of
     points, and how often it does so in ages would decide between even and odd errors.
     """
-    many = moved.shape[1]
+    many, far = moved.shape[1], int(np.abs(sums).max())
     reached = np.unique(sums[:, None] + steps)
     after = np.zeros((len(reached), *moved.shape[1:]))
+    beyond = np.pad(chances, ((0, 0), (far, far), (0, 0)), mode="edge")
+    # Where moves are of many sizes this is most of the work: without copies it fits a cache.
+    both = np.empty(moved.shape[1:])
     for total, before in zip(sums.tolist(), moved, strict=True):
-        place = np.clip(np.arange(many) + total, 0, many - 1)
-        where = np.searchsorted(reached, total + steps)
-        after[where] += before * chances[:, place]
+        here = beyond[:, far + total : far + total + many]
+        for place, chance in zip(np.searchsorted(reached, total + steps), here, strict=True):
+            after[place] += np.multiply(before, chance, out=both)
     return reached, after
 
 

@@ -46,7 +46,7 @@ class Pairing(ABC):
     Parameters
     ----------
     table
-        all that a match can come to.
+        all that a match can come to, at all rating differences that occur.
     widest
         the largest error.
     opponents
@@ -70,6 +70,7 @@ class Pairing(ABC):
         self.errors = np.arange(-widest, widest + 1)
         self.days = days
         self.blur = blur
+        self.farthest = opponents.farthest
         self.spread = np.array(opponents.spread.values, dtype=np.int64)
         self.chance = np.array(opponents.spread.probability, dtype=float)
         real = table.games[..., 0] >= 0
@@ -82,6 +83,11 @@ class Pairing(ABC):
             moves=table.moves[first],
             won=table.won[first],
         )
+        self._prepare()
+
+    @abstractmethod
+    def _prepare(self) -> None:
+        """Work out what is the same for each law of the opponents."""
 
     @abstractmethod
     def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -137,26 +143,19 @@ class Pairing(ABC):
 class SkillGiven(Pairing):
     """Opponents whose skill is given."""
 
-    def __init__(
-        self,
-        table: MatchTable,
-        widest: int,
-        opponents: Opponents,
-        blur: NDArray[np.float64],
-        days: NDArray[np.int64],
-        reach: int,
-    ) -> None:
-        super().__init__(table, widest, opponents, blur, days)
-        self._reach = reach
+    def _prepare(self) -> None:
+        widest, days = int(self.errors[-1]), self.days
+        # The table is as wide as the player's error, the opponent's, and how far he is apart.
+        self._reach = reach = self.table.widest - widest - self.farthest
         # All that can be the difference of two errors, and of two deviations.
         apart = np.arange(-widest - reach, widest + reach + 1)
         unit = int(days[1] - days[0]) if len(days) > 1 else 1
         between = unit * np.arange(-(len(days) - 1), len(days))
         self._by_difference = np.zeros((len(self.steps) + 1, len(apart), len(between)))
-        farthest = int(np.abs(self.spread).max() + between.max())
-        scores = self.scores(-farthest, farthest)
+        far = int(self.farthest + between.max())
+        scores = self.scores(-far, far)
         for skill, chance in zip(self.spread.tolist(), self.chance.tolist(), strict=True):
-            here = scores[:, :, between - skill + farthest]
+            here = scores[:, :, between - skill + far]
             self.add(self._by_difference, apart - skill, here, chance)
         self._size = tuple(next_fast_len(n, real=True) for n in self._by_difference.shape[1:])
         self._spectrum: NDArray[np.complex128] | None = None
@@ -187,18 +186,11 @@ class SkillGiven(Pairing):
 class RatingGiven(Pairing):
     """Opponents whose rating is given."""
 
-    def __init__(
-        self,
-        table: MatchTable,
-        widest: int,
-        opponents: Opponents,
-        blur: NDArray[np.float64],
-        days: NDArray[np.int64],
-    ) -> None:
-        super().__init__(table, widest, opponents, blur, days)
+    def _prepare(self) -> None:
+        days = self.days
         # The player's deviation less the opponent's rating, and the opponent's j - g.
-        self._far = int(days[-1] + np.abs(self.spread).max())
-        self._hidden = widest + int(days[-1])
+        self._far = int(days[-1] + self.farthest)
+        self._hidden = int(self.errors[-1] + days[-1])
         reach = self._far + self._hidden
         self._scores = self.scores(-reach, reach)
         self._place = (self.errors[:, None] - days + self._hidden).ravel()
@@ -229,7 +221,7 @@ def pairing_of(
         return RatingGiven(table, widest, opponents, blur, days)
     reach = widest if opponents.error is None else min(farthest(opponents.error), widest)
     table = _table(system, chart, widest=apart + reach)
-    return SkillGiven(table, widest, opponents, blur, days, reach)
+    return SkillGiven(table, widest, opponents, blur, days)
 
 
 def _distinct(needs: NDArray[np.int64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

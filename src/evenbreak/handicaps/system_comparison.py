@@ -24,7 +24,15 @@ from evenbreak.ratings.scale import SCALES
 if TYPE_CHECKING:
     from evenbreak.handicaps.chart import Chart
 
-__all__ = ["StepPoint", "SystemRow", "compare_systems", "mean_games", "step_front", "system_row"]
+__all__ = [
+    "StepPoint",
+    "SystemRow",
+    "compare_systems",
+    "mean_games",
+    "on_front",
+    "step_front",
+    "system_row",
+]
 
 NEAR = 1.0 / 6.0
 """Settled is within so much of a doubling: 5 points of the NPL's 30."""
@@ -208,21 +216,26 @@ def step_front(
     2 6.22 31.9 True
     4 9.03 16.8 True
     """
-    found = []
+    listed, found = [], []
     for step in steps:
         ladder = Ladder(step_system(step), chart, opponents=opponents)
         points = ladder.system.scale.points_per_doubling
         mean = settling(ladder, -round(points), round(NEAR * points)).mean
-        found.append(StepPoint(int(step), ladder.law().sd, mean, on_front=True))
+        listed.append(int(step))
+        found.append((ladder.law().sd, mean))
     if not found:
         raise InputError("steps is empty; give one step or more, such as 1")
-    return [point._replace(on_front=not _beaten(point, found)) for point in found]
+    front = zip(listed, found, on_front(found), strict=True)
+    return [StepPoint(step, *both, on_front=best) for step, both, best in front]
 
 
-def _beaten(point: StepPoint, others: Sequence[StepPoint]) -> bool:
-    return any(
-        other.sd <= point.sd
-        and other.settling_mean <= point.settling_mean
-        and (other.sd, other.settling_mean) != (point.sd, point.settling_mean)
-        for other in others
-    )
+def on_front(points: Sequence[tuple[float, float]]) -> list[bool]:
+    """Return which pairs no other pair beats: is at least as low in both, and lower in one.
+
+    >>> on_front([(4.4, 62.7), (10.0, 13.0), (11.0, 13.5)])
+    [True, True, False]
+    """
+    return [
+        not any(other[0] <= one[0] and other[1] <= one[1] and other != one for other in points)
+        for one in points
+    ]

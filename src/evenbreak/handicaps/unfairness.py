@@ -47,9 +47,13 @@ def unfairness(ladder: Ladder) -> Distribution:
     """
     meetings = meetings_of(ladder)
     own = np.asarray(ladder.law().probability, dtype=float)
-    chances = meetings.wins()[meetings.places(), meetings.ahead]
-    values, place = np.unique(np.round(chances, _DIGITS), return_inverse=True)
-    weight = np.bincount(place.ravel(), np.outer(own, meetings.chance).ravel())
+    chances = meetings.wins()
+    # Many opponents lead to the same pair of differences: add their chances up before sorting.
+    pairs = meetings.places() * chances.shape[1] + meetings.ahead
+    often = np.bincount(pairs.ravel(), np.outer(own, meetings.chance).ravel(), chances.size)
+    met = often > 0.0
+    values, place = np.unique(np.round(chances.ravel()[met], _DIGITS), return_inverse=True)
+    weight = np.bincount(place, often[met])
     return Distribution(tuple(values.tolist()), tuple((weight / weight.sum()).tolist()))
 
 
