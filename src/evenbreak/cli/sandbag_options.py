@@ -19,8 +19,10 @@ __all__ = [
     "between",
     "found_chart",
     "found_system",
+    "wants_alpha",
     "wants_chart",
     "wants_day_sd",
+    "wants_honest",
     "wants_system",
     "watched_ladder",
     "wide_ladder",
@@ -59,6 +61,25 @@ def between(low: float, high: float) -> Callable[..., float | None]:
 
     return read
 
+
+wants_alpha: Callable[[Command], Command] = click.option(
+    "--alpha",
+    default="0.01",
+    show_default=True,
+    metavar="P",
+    callback=between(1e-9, 0.5),
+    help="The chance that an honest player is ever flagged, at most.",
+)
+"""The option --alpha."""
+
+wants_honest: Callable[[Command], Command] = click.option(
+    "--honest",
+    type=click.Choice(["any", "established"]),
+    default="any",
+    show_default=True,
+    help="Who counts as honest: players of any skill, or those rated as rightly as ratings are.",
+)
+"""The option --honest."""
 
 wants_day_sd: Callable[[Command], Command] = click.option(
     "--day-sd",

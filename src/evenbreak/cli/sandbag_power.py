@@ -13,8 +13,10 @@ from evenbreak.cli.sandbag_options import (
     between,
     found_chart,
     found_system,
+    wants_alpha,
     wants_chart,
     wants_day_sd,
+    wants_honest,
     wants_system,
     watched_ladder,
 )
@@ -77,21 +79,8 @@ Examples:
     help="The part of the matches known as those that may be dumped; S is of them.  [default: "
     "any may be]",
 )
-@click.option(
-    "--alpha",
-    default="0.01",
-    show_default=True,
-    metavar="P",
-    callback=between(1e-9, 0.5),
-    help="The chance that an honest player is ever flagged, at most.",
-)
-@click.option(
-    "--honest",
-    type=click.Choice(["any", "established"]),
-    default="any",
-    show_default=True,
-    help="Who counts as honest: players of any skill, or those rated as rightly as ratings are.",
-)
+@wants_alpha
+@wants_honest
 @wants_day_sd
 @click.option(
     "--replicas",

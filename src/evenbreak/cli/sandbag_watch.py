@@ -19,11 +19,12 @@ from evenbreak.cli.output import (
 )
 from evenbreak.cli.plot import plot_option, write_plot
 from evenbreak.cli.sandbag_options import (
-    between,
     found_chart,
     found_system,
+    wants_alpha,
     wants_chart,
     wants_day_sd,
+    wants_honest,
     wants_system,
     watched_ladder,
 )
@@ -72,21 +73,8 @@ Examples:
 )
 @wants_chart
 @wants_system
-@click.option(
-    "--alpha",
-    default="0.01",
-    show_default=True,
-    metavar="P",
-    callback=between(1e-9, 0.5),
-    help="The chance that an honest player is ever flagged, at most.",
-)
-@click.option(
-    "--honest",
-    type=click.Choice(["any", "established"]),
-    default="any",
-    show_default=True,
-    help="Who counts as honest: players of any skill, or those rated as rightly as ratings are.",
-)
+@wants_alpha
+@wants_honest
 @click.option(
     "--dumps-in",
     "events",
