@@ -165,6 +165,13 @@ def test_every_formula_says_whose_shapes_do_not_fit(ask, names):
         ask()
 
 
+@pytest.mark.parametrize("ask", ["at", "velocity_at", "spin_at"])
+def test_times_that_do_not_fit_the_balls_are_refused(ask):
+    balls = Slide(Ball(), CLOTH, [0, 0], np.ones((2, 2)), [0, 0, 0])
+    with pytest.raises(InputError, match=r"time has shape \(3,\), slip.* has shape \(2,\)"):
+        getattr(balls, ask)(THREE)
+
+
 def test_a_slide_cannot_be_changed():
     slide = Slide(Ball(), CLOTH, [0, 0], [1, 0], [0, 0, 0])
     with pytest.raises(ValueError, match="read-only"):

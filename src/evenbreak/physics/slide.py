@@ -244,7 +244,7 @@ class Slide:
         time
             seconds, of a shape that broadcasts with the balls'.
         """
-        time = numbers(time, "time", low=0.0)
+        time = self._time(time)
         sliding = np.minimum(time, self.slide_time)[..., None]
         rolling = np.clip(time - self.slide_time, 0.0, self.stop_time - self.slide_time)[..., None]
         pull = self.cloth.mu_slide * self.cloth.gravity
@@ -257,7 +257,7 @@ class Slide:
 
     def velocity_at(self, time: Any) -> Floats:
         """Return the velocity at a time, in m/s; shape (..., 2)."""
-        time = numbers(time, "time", low=0.0)
+        time = self._time(time)
         sliding = np.minimum(time, self.slide_time)[..., None]
         rolling = np.clip(time - self.slide_time, 0.0, self.stop_time - self.slide_time)[..., None]
         pull = self.cloth.mu_slide * self.cloth.gravity
@@ -271,7 +271,7 @@ class Slide:
 
     def spin_at(self, time: Any) -> Floats:
         """Return the angular velocity at a time, in rad/s; shape (..., 3)."""
-        time = numbers(time, "time", low=0.0)
+        time = self._time(time)
         slides = np.minimum(time, self.slide_time)[..., None]
         pull = self.cloth.mu_slide * self.cloth.gravity
         gain = 2.5 * pull / self.ball.radius * slides * _direction(self.slip)
@@ -282,6 +282,12 @@ class Slide:
         level = np.where(rolling, np.stack([-now[..., 1], now[..., 0]], axis=-1), level)
         upright = np.broadcast_to(self.spin[..., 2:], (*level.shape[:-1], 1))
         return np.concatenate([level, upright], axis=-1)
+
+    def _time(self, time: Any) -> Floats:
+        """Return times as an array that broadcasts with the balls, or refuse them."""
+        times = numbers(time, "time", low=0.0)
+        together(time=times, **{"slip[..., 0]": self.slip[..., 0]})
+        return times
 
 
 def _vectors(value: Any, name: str, size: int) -> Floats:
