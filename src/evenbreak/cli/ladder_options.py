@@ -108,14 +108,14 @@ def chart_of_option(name: str | None, system: System) -> Chart:
 
 
 def say_if_long(system: System, chart: Chart, matches: int) -> None:
-    """Tell a person that nights of several matches take minutes where moves differ much."""
+    """Tell a person that nights of several matches take long where moves differ much."""
     from evenbreak.handicaps.match_table import match_table
 
     moves = len(set(match_table(system, chart).moves.ravel().tolist()))
     if matches > 1 and moves > MANY_MOVES:
         say(
-            f"Note: the system {system.name} has {moves} different moves; nights of several "
-            "matches then take minutes to work out"
+            f"Note: the system {system.name} has {moves} different moves; nights of three matches "
+            "then take some 20 seconds to work out, of six a minute, and of more far longer"
         )
 
 

@@ -14,7 +14,7 @@ Source: problem P5.5 (the chances of the final scores), Table 5.6 (charts).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -27,7 +27,7 @@ from evenbreak.handicaps.chart import Chart
 from evenbreak.handicaps.systems import PlayedMatch, System
 from evenbreak.matches.win import race_win_probability
 
-__all__ = ["MatchTable", "match_table"]
+__all__ = ["MatchTable", "known_table", "match_table"]
 
 NOBODY = -1
 """What stands in `games` where a race has fewer final scores than the table has places."""
@@ -183,6 +183,10 @@ def match_table(system: System, chart: Chart | None = None, *, widest: Any = Non
     for table in tables:
         table.setflags(write=False)
     return MatchTable(system, by, size, *tables)
+
+
+known_table = lru_cache(maxsize=8)(match_table)
+"""`match_table` for one who asks again: the last tables are kept, which nobody can write into."""
 
 
 def _scores(needs: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:

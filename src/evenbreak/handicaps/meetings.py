@@ -13,12 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from evenbreak.handicaps.fluctuation import deviation_grid, difference_law
-from evenbreak.handicaps.match_table import MatchTable, match_table
+from evenbreak.handicaps.match_table import MatchTable, known_table
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -96,6 +97,7 @@ class Meetings:
             yield scale.win_probability(self.skills + form), weight
 
 
+@lru_cache(maxsize=1)
 def meetings_of(ladder: Ladder) -> Meetings:
     """Return whom the player of a ladder meets."""
     opponents, law = ladder.opponents, ladder.opponent_law
@@ -113,5 +115,5 @@ def meetings_of(ladder: Ladder) -> Meetings:
     weight = np.bincount(kind.reshape(-1), chance[chance > _RARE])
     skills, ahead = np.unique(kinds[:, 1], return_inverse=True)
     widest = ladder.widest + int(np.abs(kinds[:, 0]).max())
-    table = match_table(ladder.system, ladder.chart, widest=widest)
+    table = known_table(ladder.system, ladder.chart, widest=widest)
     return Meetings(ladder, table, skills, kinds[:, 0], ahead, weight / weight.sum())

@@ -17,14 +17,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import replace
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.fft import irfftn, next_fast_len, rfftn
 
 from evenbreak.handicaps.fluctuation import averages
-from evenbreak.handicaps.match_table import MatchTable, match_table
+from evenbreak.handicaps.match_table import MatchTable, known_table
 from evenbreak.handicaps.opponents import Opponents, farthest
 
 if TYPE_CHECKING:
@@ -35,7 +34,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Pairing", "RatingGiven", "SkillGiven", "pairing_of"]
 
-_table = lru_cache(maxsize=8)(match_table)
 _FEW = 1 << 20
 """Products up to which a sum is faster than a Fourier transform."""
 
@@ -217,10 +215,10 @@ def pairing_of(
     """Return the matches of a player against these opponents."""
     apart = widest + opponents.farthest
     if opponents.given == "rating":
-        table = _table(system, chart, widest=apart)
+        table = known_table(system, chart, widest=apart)
         return RatingGiven(table, widest, opponents, blur, days)
     reach = widest if opponents.error is None else min(farthest(opponents.error), widest)
-    table = _table(system, chart, widest=apart + reach)
+    table = known_table(system, chart, widest=apart + reach)
     return SkillGiven(table, widest, opponents, blur, days)
 
 
