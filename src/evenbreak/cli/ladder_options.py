@@ -115,7 +115,7 @@ def say_if_long(system: System, chart: Chart, matches: int) -> None:
     if matches > 1 and moves > MANY_MOVES:
         say(
             f"Note: the system {system.name} has {moves} different moves; nights of three matches "
-            "then take some 20 seconds to work out, of six a minute, and of more far longer"
+            "then can take 20 seconds to work out, of six a minute, and of more far longer"
         )
 
 

@@ -90,7 +90,7 @@ class Ladder(ErrorWalk):
     of all nights, and its law is exact for that average; how fast a rating settles follows
     from it to good approximation only. Such nights take a fraction of a second for moves of
     few points; for moves as different as Elo's on a line of 960 errors, nights of three matches
-    take some 20 seconds, of six a minute, and of more far longer.
+    can take 20 seconds, of six a minute, and of more far longer: if opponents err as he does.
 
     Source: the natural and the autocorrelated distributions of Fig. 5.9 and after it. The
     limit of a +-1 ladder is that of the powers of M, since an error stays at the two ends now
