@@ -336,6 +336,20 @@ def test_the_comparison_as_one_table_and_as_a_picture(run, terminal, tmp_path):
     assert max(map(len, text.splitlines())) <= 80
 
 
+def test_ratings_that_are_fitted_anew_are_simulated_beside_the_ladders(run, terminal):
+    table = run("ladder", "--compare", "--equal-skill").stdout.splitlines()
+    rows = list(csv.DictReader(table))
+    (refit,) = (row for row in rows if row["sd_se"])
+    (npl,) = (row for row in rows if (row["system"], row["chart"]) == ("npl", "npl_10"))
+    assert refit["system"] == "refit"
+    # Newcomers come in sooner than step by step, and nobody is as far off as by longer steps.
+    settling, error = float(refit["settling_mean"]), float(refit["settling_mean_se"])
+    assert settling + 4.0 * error < float(npl["settling_mean"])
+    assert 4.0 < float(refit["sd"]) - float(refit["sd_se"]) < 6.2
+    assert "refit: all ratings are fitted anew each week" in terminal("--compare", "--equal-skill")
+    assert "refit" not in run("ladder", "--compare").stdout
+
+
 @pytest.mark.parametrize(
     "words",
     [("--system", "npl"), ("--step", "2"), ("--from", "3"), ("--newcomer",), ("--drift", "0.1")],

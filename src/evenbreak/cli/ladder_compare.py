@@ -28,12 +28,14 @@ if TYPE_CHECKING:
     from evenbreak.handicaps.chart import Chart
     from evenbreak.handicaps.opponents import Opponents
     from evenbreak.handicaps.system_comparison import SystemRow
+    from evenbreak.league.reestimate import Reestimated
 
 __all__ = ["COMPARE_COLUMNS", "compare_ladders"]
 
 COMPARE_COLUMNS = (
     *("system", "chart", "sd", "sd_doublings", "settling_mean", "settling_p90"),
     *("p_favourite_mean", "favourite_over_60", "games_mean", "inflation", "on_front"),
+    *("sd_se", "settling_mean_se"),
 )
 
 HEADINGS = (
@@ -52,6 +54,10 @@ ALLOWED = ("autocorrelated", "equal_skill", "league", "skill")
 
 NEWCOMERS = "npl new"
 """What the row is called of a player who moves by the league's newcomer steps."""
+
+
+REFITTED_PLAYERS, REFITTED_LEAGUES, REFITTED_SEED = 40, 8, 1
+"""The leagues of players of equal skill in which ratings are fitted anew each week."""
 
 
 def compare_ladders(
@@ -77,14 +83,18 @@ def compare_ladders(
         steps = _steps(chart, opponents)
     except AccuracyError as error:
         raise AccuracyError(why_not(error, opponents)) from None
-    listed = [*((row, None) for row in systems), *steps]
+    refitted = _refitted(chart) if name == "equal skill" else None
+    listed: list[tuple[Any, ...]] = [(*row, None, None, None) for row in systems]
+    if refitted is not None:
+        listed.append((*refitted.row, None, refitted.sd_error, refitted.settling_error))
+    listed += [(*row, best, None, None) for row, best in steps]
     if as_json:
-        told = [dict(zip(COMPARE_COLUMNS, (*row, best), strict=True)) for row, best in listed]
+        told = [dict(zip(COMPARE_COLUMNS, row, strict=True)) for row in listed]
         print_json({"opponents": name, "systems": told, "schema_version": SCHEMA_VERSION})
     elif to_terminal():
-        _print(chart, systems, steps, name)
+        _print(chart, systems, steps, name, refitted)
     else:
-        rows = [(*row, None if best is None else int(best)) for row, best in listed]
+        rows = [[int(cell) if isinstance(cell, bool) else cell for cell in row] for row in listed]
         click.echo(csv_text(COMPARE_COLUMNS, rows), nl=False)
     if plot is not None:
         _draw(chart, systems, steps, plot)
@@ -119,6 +129,20 @@ def _newcomer(row: SystemRow, chart: Chart, opponents: Opponents) -> SystemRow:
     return row._replace(system=NEWCOMERS, settling_mean=sooner.mean, settling_p90=nine)
 
 
+def _refitted(chart: Chart) -> Reestimated:
+    """Return how wrong ratings stay that are fitted anew each week, in leagues simulated."""
+    from evenbreak.league.reestimate import reestimate
+
+    return reestimate(
+        [0.0] * REFITTED_PLAYERS,
+        chart,
+        scale="npl",
+        newcomer_weeks=100,
+        leagues=REFITTED_LEAGUES,
+        seed=REFITTED_SEED,
+    )
+
+
 def _steps(chart: Chart, opponents: Opponents) -> list[tuple[SystemRow, bool]]:
     """Return what each step is worth by this chart, and whether no other one is better."""
     from evenbreak.handicaps.system_comparison import compare_systems, on_front
@@ -129,7 +153,11 @@ def _steps(chart: Chart, opponents: Opponents) -> list[tuple[SystemRow, bool]]:
 
 
 def _print(
-    chart: Chart, systems: list[SystemRow], steps: list[tuple[SystemRow, bool]], opponents: str
+    chart: Chart,
+    systems: list[SystemRow],
+    steps: list[tuple[SystemRow, bool]],
+    opponents: str,
+    refitted: Reestimated | None,
 ) -> None:
     from evenbreak.cli.ladder_answer import OPPONENTS
 
@@ -144,7 +172,17 @@ def _print(
     )
     click.echo("\n" + paragraphs(_what_helps(chart, systems, steps)))
     head = heading_lines(HEADINGS)
-    click.echo("\n" + aligned([*head, *map(_cells, systems)], left=2))
+    shown = [*systems, *([] if refitted is None else [refitted.row])]
+    click.echo("\n" + aligned([*head, *map(_cells, shown)], left=2))
+    if refitted is not None:
+        click.echo(
+            paragraphs(
+                f"{refitted.row.system}: all ratings are fitted anew each week to all results, as "
+                f"Fargo's are; {REFITTED_LEAGUES} leagues of {REFITTED_PLAYERS} players simulated "
+                f"over a year, so that its sd is off by about {refitted.sd_error:.2f} points and "
+                f"its settling by {refitted.settling_error:.1f} matches."
+            )
+        )
     inflating = [f"{row.system} by {row.inflation:+.2f}" for row in systems if row.inflation]
     click.echo(
         f"Ratings inflate, in points a match: {', '.join(inflating)}."
