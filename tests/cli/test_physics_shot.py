@@ -166,7 +166,8 @@ def test_a_terminal_tells_it_in_sentences(run, monkeypatch, line, words):
         (AIMED.replace("foot-left", "corner"), "--pocket 'corner'; give one of head-right"),
         (AIMED.replace("50,25", "98.5,48.5"), "--object-ball hangs in --pocket foot-left, where"),
         (AIMED.replace("foot-left", "head-right"), "where no cut sends the object ball"),
-        (AIMED.replace("25,16", "50,24"), "overlap; put them 2.25 inches apart or more"),
+        (AIMED.replace("25,16", "50,24"), "overlap; put them more than 2.25 inches apart"),
+        (AIMED.replace("25,16", "47.75,25"), "the object ball goes along the line through them"),
         (PLAIN + " --plot shot.gif", "name a file that ends in .png or .svg"),
     ],
 )

@@ -134,6 +134,22 @@ def test_watch_as_json_and_as_a_picture(run, tmp_path):
     assert len(one["matches"]) == 52
 
 
+NONE_IN_EARNEST = ("sandbag", "power", "--share", "1", "--replicas", "20", "--matches", "8")
+
+
+def test_who_plays_no_match_in_earnest_wins_no_part_of_them(run):
+    kinds = json.loads(run(*NONE_IN_EARNEST, "--json").stdout)["kinds"]
+    assert [kind["p_win"] is None for kind in kinds] == [False, True]
+    assert table(run(*NONE_IN_EARNEST).stdout)[-1]["p_win"] == ""
+
+
+@pytest.mark.usefixtures("terminal")
+def test_a_part_that_is_not_known_is_left_empty(run):
+    text = run(*NONE_IN_EARNEST).stdout
+    assert "100%" in text
+    assert "nan" not in text
+
+
 @pytest.mark.usefixtures("terminal")
 def test_power(run):
     words = ("sandbag", "power", "--share", "0.9", "--replicas", "20", "--matches", "8")

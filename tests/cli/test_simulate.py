@@ -168,6 +168,12 @@ def test_a_weekly_list_is_cut_with_a_word(run, tmp_path):
     assert "demo_schedule.csv: what is after week 4 is not played" in found.stderr
 
 
+@pytest.mark.usefixtures("no_pictures")
+def test_weeks_after_the_schedule_are_told(run, tmp_path):
+    found = run("simulate", ROSTER, *FIXTURES, *FEW, "--weeks", "20", "--out", str(tmp_path / "o"))
+    assert "demo_schedule.csv: ends with week 15; after it nobody plays" in found.stderr
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [

@@ -269,8 +269,13 @@ def _refuse_layout(how: dict[str, Any], units: Units, apart: float, diameter: fl
     """Say why there is no shot where the balls were said to be."""
     touching = f"{diameter / units.length:.4g} {units.length_word}"
     if how["pocket"] is not None:
-        if apart < diameter:
-            refuse(f"--cue-ball and --object-ball overlap; put them {touching} apart or more")
+        if apart < diameter * (1.0 - 1e-9):
+            refuse(f"--cue-ball and --object-ball overlap; put them more than {touching} apart")
+        if apart < diameter * (1.0 + 1e-9):
+            refuse(
+                "--cue-ball and --object-ball touch: but for throw the object ball goes along the "
+                f"line through them, wherever you aim; put them more than {touching} apart"
+            )
         refuse(
             f"--pocket {how['pocket']} is where no cut sends the object ball: it would take a "
             "right angle or more; name another pocket"

@@ -118,12 +118,13 @@ def sandbag_power(
     ladder = watched_ladder(found_system(system_name), chart, day_sd)
     size = ladder.system.scale.points_per_doubling / 30.0
     several = [(part, None if low is None else round(low * size)) for part, low in KINDS]
-    kinds = several if share is None else [(0.0, None), (share, points)]
+    honest: tuple[float, int | None] = (0.0, None)
+    kinds = several if share is None else [honest, *([(share, points)] if share else [])]
     found = []
     with Progress("kinds of players simulated") as progress:
         for count, (part, depth) in enumerate(kinds, 1):
             found.append(watch_power(ladder, share=part, points=depth, matches=matches, **asked))
-            progress(count)
+            progress(count, len(kinds))
     _print(found, ladder.chart.name, matches, asked, as_json=as_json)
 
 

@@ -64,6 +64,8 @@ def season_of_options(file: LeagueFile, played: dict[str, Any]) -> Season:
         schedule, last = fixtures.schedule, fixtures.schedule.weeks
         if weeks is not None and weeks < last:
             say(f"Warning: {fixtures.source}: what is after week {weeks} is not played")
+        if weeks is not None and weeks > last:
+            say(f"Warning: {fixtures.source}: ends with week {last}; after it nobody plays")
         weeks = weeks or last
     elif played["by_lot"]:
         schedule = RandomPairing(matches)

@@ -58,7 +58,8 @@ class WatchPower(NamedTuple):
     rating_error
         mean rating less skill before each match, in points, shape (matches,).
     p_win
-        the part of the matches played in earnest that were won, over all matches.
+        the part of the matches played in earnest that were won, over all matches; None where
+        he plays none in earnest.
     """
 
     share: float
@@ -67,7 +68,7 @@ class WatchPower(NamedTuple):
     flagged: Floats
     se: Floats
     rating_error: Floats
-    p_win: float
+    p_win: float | None
 
 
 def watch_power(
@@ -157,7 +158,7 @@ def watch_power(
         flagged,
         np.sqrt(flagged * (1.0 - flagged) / players),
         error / players,
-        float(earnest[0] / earnest[1]) if earnest[1] else math.nan,
+        float(earnest[0] / earnest[1]) if earnest[1] else None,
     )
 
 

@@ -124,6 +124,7 @@ def aimed_shot(
     for name, place in (("cue_ball", start), ("object_ball", standing)):
         on_table(place, name, table, strike.ball.radius)
     travel_for(0.0, distance, diameter)  # refuses balls that overlap
+    distance = max(distance, diameter)  # of balls that touch, rounding may say less
     # How far to the right of the line through the balls the target lies.
     wanted = -_between(standing - start, goal - standing)
 

@@ -30,6 +30,9 @@ from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
 from evenbreak.physics.throw import BALL_FRICTION, FRICTION_LAWS
 
+_ROUNDING = 1e-12
+"""By how much, in diameters, the distance of balls that touch may be off by reckoning it."""
+
 __all__ = ["Shot", "one_number", "shot", "sound_strike", "spin_ratios", "travel_for"]
 
 
@@ -262,11 +265,12 @@ def travel_for(cut: float, distance: float, diameter: float) -> float:
     >>> travel_for(0.0, 10.0, 2.0)
     8.0
     """
-    if distance < diameter:
+    if distance < diameter * (1.0 - _ROUNDING):
         raise InputError(
             f"distance is {distance:.4g} m between the centres; give {diameter:.4g} m, where "
             "the balls touch, or more"
         )
+    distance = max(distance, diameter)
     sideways = diameter * math.sin(cut)
     return math.sqrt((distance - sideways) * (distance + sideways)) - diameter * math.cos(cut)
 
