@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from evenbreak.files.results import read_results
 from evenbreak.ratings import Results, fit, validate
-from evenbreak.reports.read_results import read_results
 
 PLACE = Path(__file__).resolve().parents[2] / "shared/data/snooker_2016_17_results.csv"
 

@@ -12,14 +12,14 @@ from pathlib import Path
 
 import pytest
 
-SRC = Path(__file__).resolve().parents[1] / "src" / "evenbreak"
+from places import SRC
 
 # A layer may import from itself and from every layer before it; rooms in one row know nothing
 # of each other.
 LAYERS: tuple[frozenset[str], ...] = tuple(
     frozenset(row.split())
     for row in (
-        "_lazy errors",
+        "errors",
         "checks",
         "game",
         "games chains stats physics",
@@ -27,13 +27,17 @@ LAYERS: tuple[frozenset[str], ...] = tuple(
         "practice ratings",
         "handicaps",
         "league",
-        "reports",
+        "files",
+        "answers",
+        "plots",
+        "sheets",
+        "source_text",
         "cli",
         "__main__",
     )
 )
 DEPTH = {room: depth for depth, row in enumerate(LAYERS) for room in row}
-FACES_OUTWARD = {"reports", "cli", "__main__"}
+FACES_OUTWARD = {"files", "answers", "plots", "sheets", "source_text", "cli", "__main__"}
 OUTWARD_MODULES = {"click", "fileinput", "jinja2", "matplotlib", "pathlib", "rich", "tempfile"}
 OUTWARD_CALLS = {"input", "open", "print"}
 OUTWARD_STREAMS = {"stdin", "stdout", "stderr"}
@@ -132,7 +136,7 @@ def test_modules_are_short(path: Path) -> None:
         ("game", "from evenbreak import Race"),
         ("game", "import evenbreak"),
         ("errors", "from evenbreak import checks"),
-        ("reports", "from evenbreak.cli import main"),
+        ("sheets", "from evenbreak.cli import main"),
         ("matches", "from evenbreak.nowhere import thing"),
     ],
 )
@@ -144,7 +148,7 @@ def test_checker_sees_a_wrong_direction(room: str, source: str) -> None:
     ("room", "source"),
     [
         ("games", "from evenbreak.games.race import Race\nfrom .race import Race"),
-        ("cli", "from evenbreak.reports import to_csv\nfrom evenbreak import errors, __version__"),
+        ("cli", "from evenbreak.files import to_csv\nfrom evenbreak import errors, __version__"),
         ("matches", "from ..chains import Chain\nfrom evenbreak.games import Race\nimport numpy"),
         ("games", "import networkx.exception\nfrom games import evenbreak"),
     ],
@@ -189,9 +193,9 @@ def modules_loaded_by(statement: str) -> set[str]:
         "import evenbreak.games",
         "from evenbreak.games import Race",
         "import evenbreak.chains, evenbreak.matches, evenbreak.ratings, evenbreak.handicaps",
-        "import evenbreak.reports",
+        "import evenbreak.files",
         "import evenbreak.cli",
-        "import evenbreak.ratings.scale, evenbreak.handicaps.fair",
+        "import evenbreak.ratings.scale, evenbreak.handicaps.charts.fair",
     ],
 )
 def test_starting_up_loads_nothing_heavy(statement: str) -> None:

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import evenbreak.physics
+from places import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "reference" / "problems.md"
 PROBLEMS = [
     f"P{section}.{number}"

@@ -9,23 +9,18 @@ from pathlib import Path
 import networkx as nx
 from matplotlib.figure import Figure
 
+from evenbreak.answers.fair_pairs import RaceLimits, matchups_frame, most_active
+from evenbreak.answers.frames import ratings_frame
+from evenbreak.files.results import read_results
 from evenbreak.games import Ahead, OneBall, Race, Rack
 from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling
 from evenbreak.physics import Table, aimed_shot, pockets, strike_for_speed
 from evenbreak.physics.units import INCH
+from evenbreak.plots.diagram import draw, image_bytes
+from evenbreak.plots.ladders import SettlingCurve, ladder_figure
+from evenbreak.plots.traced_shot import shot_on_table
 from evenbreak.ratings import fit
-from evenbreak.reports import (
-    RaceLimits,
-    draw,
-    image_bytes,
-    matchups_frame,
-    most_active,
-    ratings_frame,
-    read_results,
-    sheet_pages,
-    shot_on_table,
-)
-from evenbreak.reports.ladder_plots import SettlingCurve, ladder_figure
+from evenbreak.sheets.pdf_sheet import sheet_pages
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE.parents[1] / "data" / "demo_league.csv"

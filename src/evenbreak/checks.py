@@ -14,8 +14,6 @@ from evenbreak.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["number_probabilities", "number_probability", "one_of", "probability", "whole"]
-
 
 def probability(value: Any, name: str) -> Any:
     """Return `value` if it is a probability, or an array of them.

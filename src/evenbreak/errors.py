@@ -9,16 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-__all__ = [
-    "AccuracyError",
-    "ChainError",
-    "DataError",
-    "EvenbreakError",
-    "GameError",
-    "InputError",
-    "WorkerError",
-]
-
 
 class EvenbreakError(Exception):
     """Base of every error that this package raises on purpose."""

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     import networkx as nx
     from numpy.typing import NDArray
 
-__all__ = ["ArcArrays", "Game", "State", "arcs_of", "graph_of"]
-
 _ONE = 1.0 + 1e-9  # a sum of chances may miss 1 by rounding
 
 State: TypeAlias = Hashable

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from evenbreak.chains import chain_of
+from evenbreak.chains.passage_times import steps_to_absorption
 from evenbreak.chains.rewards import long_run_reward, total_reward
-from evenbreak.chains.steps import steps_to_absorption
 from evenbreak.errors import ChainError
 from evenbreak.games import (
     OneBall,

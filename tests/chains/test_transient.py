@@ -17,9 +17,9 @@ from evenbreak.chains import (
     transient,
 )
 from evenbreak.chains.banded import BandedElimination
-from evenbreak.chains.flow import Flow
+from evenbreak.chains.decimal_elimination import WideElimination, wide_law
 from evenbreak.chains.sparse_lu import SparseFactorisation
-from evenbreak.chains.wide import WideElimination, wide_law
+from evenbreak.chains.triangular_solve import Flow
 from evenbreak.errors import AccuracyError
 
 # name -> (arcs for plain Python, largest small class, width of a narrow band)

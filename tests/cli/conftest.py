@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from evenbreak.cli.base import program
+from evenbreak.cli.program import program
 
 Run = Callable[..., Result]
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.reports.section5 import numbers
+from evenbreak.source_text.section5 import numbers
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def test_other_files_of_the_folder_are_left_alone(made, run, monkeypatch):
     _, folder = made
     (folder / "README.md").write_text("mine")
     quick = {"index.md": b"new", "a.csv": b"1", "a.png": b"2", "a.svg": b"3"}
-    monkeypatch.setattr("evenbreak.reports.reproduce.reproduction", lambda _: quick)
+    monkeypatch.setattr("evenbreak.source_text.reproduce.reproduction", lambda _: quick)
     assert run("reproduce", "--out", str(folder)).exit_code == 0
     assert (folder / "README.md").read_text() == "mine"
     assert (folder / "index.md").read_bytes() == b"new"
@@ -50,7 +50,7 @@ def test_other_files_of_the_folder_are_left_alone(made, run, monkeypatch):
 def test_a_number_that_differs_is_told_and_ends_with_1(run, tmp_path, monkeypatch):
     wrong = numbers.findings()[0]._replace(verdict="differs", computed=2.5)
     quick = {"index.md": b"new", "a.csv": b"1", "a.png": b"2", "a.svg": b"3"}
-    monkeypatch.setattr("evenbreak.reports.reproduce.reproduction", lambda _: quick)
+    monkeypatch.setattr("evenbreak.source_text.reproduce.reproduction", lambda _: quick)
     monkeypatch.setattr(numbers, "findings", lambda: (wrong,))
     result = run("reproduce", "--out", str(tmp_path / "out"))
     assert result.exit_code == 1

@@ -9,11 +9,13 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.games import Race, Rack
-from evenbreak.handicaps.chart import CHARTS
-from evenbreak.handicaps.ladder import Ladder
-from evenbreak.handicaps.match_table import match_table
-from evenbreak.handicaps.opponents import NATURAL
-from evenbreak.handicaps.systems import FAMILIES, SYSTEMS, PlayedMatch, step_after, system_of
+from evenbreak.handicaps.charts.chart import CHARTS
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.opponents import NATURAL
+from evenbreak.handicaps.systems.catalogue import FAMILIES, SYSTEMS, system_of
+from evenbreak.handicaps.systems.match_table import match_table
+from evenbreak.handicaps.systems.newcomers import step_after
+from evenbreak.handicaps.systems.system import PlayedMatch
 from evenbreak.matches import final_scores, race_win_probability
 
 systems = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)

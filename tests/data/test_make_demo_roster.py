@@ -2,9 +2,8 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
-DATA = Path(__file__).resolve().parents[2] / "data"
+from places import DATA
 
 
 def test_script_makes_the_committed_bytes(tmp_path):

@@ -3,9 +3,8 @@
 import subprocess
 import sys
 from collections import Counter
-from pathlib import Path
 
-DATA = Path(__file__).resolve().parents[2] / "data"
+from places import DATA
 
 
 def test_script_makes_the_committed_bytes(tmp_path):

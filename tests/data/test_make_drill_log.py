@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.reports import read_drill_log
-
-DATA = Path(__file__).resolve().parents[2] / "data"
+from evenbreak.files.drill_log import read_drill_log
+from places import DATA
 
 
 def test_script_makes_the_committed_bytes(tmp_path: Path) -> None:

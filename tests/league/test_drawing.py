@@ -5,7 +5,7 @@ import pytest
 from scipy.special import chdtrc
 
 from evenbreak.handicaps import chart, system_of
-from evenbreak.handicaps.match_table import match_table
+from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.league.drawing import draw_scores, draw_winners, play_racks, random_bits
 from evenbreak.league.lookup import lookup_of
 

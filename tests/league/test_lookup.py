@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.handicaps import chart, system_of
-from evenbreak.handicaps.match_table import match_table
+from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.league.lookup import lookup_of
 
 TABLE = match_table(system_of("npl"), chart("npl_10"), widest=20)

@@ -12,8 +12,8 @@ from scipy.special import chdtrc
 from evenbreak.errors import AccuracyError
 from evenbreak.games import Race, Rack
 from evenbreak.handicaps import chart, system_of
-from evenbreak.handicaps.match_table import match_table
-from evenbreak.handicaps.systems import PlayedMatch
+from evenbreak.handicaps.systems.match_table import match_table
+from evenbreak.handicaps.systems.system import PlayedMatch
 from evenbreak.league import (
     FixedSchedule,
     LeaguePlayers,
@@ -23,7 +23,7 @@ from evenbreak.league import (
     Tally,
     run_chunk,
 )
-from evenbreak.league.parts import parts_of
+from evenbreak.league.batches import parts_of
 from evenbreak.league.play import _Chunk
 from evenbreak.matches import final_scores
 

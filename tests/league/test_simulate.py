@@ -15,7 +15,7 @@ from evenbreak.league import (
     run_chunk,
     simulate,
 )
-from evenbreak.league.parts import Parts, parts_of
+from evenbreak.league.batches import Parts, parts_of
 from evenbreak.league.simulate import _Work
 
 SEASON = Season(

@@ -1,5 +1,4 @@
 import csv
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,8 +9,9 @@ from evenbreak.chains import chain_of, sensitivity, stochastic_limit
 from evenbreak.games import Drill
 from evenbreak.practice import drill_statistics
 from evenbreak.practice.levels import level_gains, level_laws
+from places import SHARED
 
-NUMBERS = Path(__file__).resolve().parents[3] / "shared" / "seed" / "section5_numbers.csv"
+NUMBERS = SHARED / "seed" / "section5_numbers.csv"
 
 chances = st.floats(0.01, 0.99)
 drills = st.lists(chances, min_size=1, max_size=9)

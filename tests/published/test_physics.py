@@ -4,21 +4,21 @@ import csv
 import math
 from collections import Counter
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
 from evenbreak.physics import collide, gearing_side, gearing_tip, roll_side
-from evenbreak.reports.physics.numbers import (
+from evenbreak.source_text.physics.numbers import (
     ANSWERS,
     compute,
     physics_findings,
     place_of,
     verdict_of,
 )
-from evenbreak.reports.published import PublishedNumber, physics_errata, physics_numbers
+from evenbreak.source_text.published import PublishedNumber, physics_errata, physics_numbers
+from places import SHARED
 
-SEED = Path(__file__).resolve().parents[3] / "shared" / "seed"
+SEED = SHARED / "seed"
 NUMBERS = physics_numbers()
 FOUND = {finding.published[:3]: finding for finding in physics_findings()}
 MU = 4 / 72

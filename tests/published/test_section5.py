@@ -6,28 +6,28 @@ from collections import Counter
 from decimal import Decimal
 from fractions import Fraction
 from math import comb
-from pathlib import Path
 from statistics import NormalDist, mean, pstdev
 
 import pytest
 
-from evenbreak.reports.published import (
+from evenbreak.source_text.published import (
     PublishedNumber,
     errata,
     further_numbers,
     p5_6_tables,
     published_numbers,
 )
-from evenbreak.reports.section5.index import slips_of
-from evenbreak.reports.section5.numbers import (
+from evenbreak.source_text.section5.index import slips_of
+from evenbreak.source_text.section5.numbers import (
     ANSWERS,
     compute,
     deciding_tolerance,
     findings,
     verdict_of,
 )
+from places import SHARED
 
-SEED = Path(__file__).resolve().parents[3] / "shared" / "seed" / "section5_numbers.csv"
+SEED = SHARED / "seed" / "section5_numbers.csv"
 NUMBERS = [*published_numbers(), *further_numbers()]
 
 

@@ -2,7 +2,6 @@
 
 import csv
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,8 +11,9 @@ from hypothesis import strategies as st
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings import posterior as posterior_module
+from places import SHARED
 
-SEASON = Path(__file__).parents[3] / "shared" / "data" / "snooker_2016_17_results.csv"
+SEASON = SHARED / "data" / "snooker_2016_17_results.csv"
 
 
 def slow_fit(results, prior_sd):

@@ -1,15 +1,15 @@
 """Anchors, and the uncertainty of differences, against the whole inverse."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
+from evenbreak.files.results import read_results
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings import covariance as covariance_module
-from evenbreak.reports import read_results
+from places import DATA
 
 NAMES = tuple("ABCDEFGH")
 
@@ -143,7 +143,7 @@ def test_quasi_errors_do_not_depend_on_the_anchor():
 
 @pytest.mark.parametrize("options", [{}, {"prior_sd": 0.35}, {"half_life": 60}])
 def test_quasi_errors_tell_every_difference_of_the_demo_league_closely(options):
-    path = Path(__file__).resolve().parents[2] / "data" / "demo_league.csv"
+    path = DATA / "demo_league.csv"
     ratings = fit(read_results(path).results, **options)
     quasi, true = pairs_of(ratings)
     assert np.abs(np.sqrt(quasi / true) - 1).max() < 0.05

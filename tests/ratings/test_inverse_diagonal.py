@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy import sparse
 
 from evenbreak.errors import AccuracyError
-from evenbreak.ratings.fronts import fronts_of
+from evenbreak.ratings.elimination_fronts import fronts_of
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 
 

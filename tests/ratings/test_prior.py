@@ -1,15 +1,15 @@
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
+from evenbreak.files.results import read_results
 from evenbreak.ratings import Results, best_prior, fit
 from evenbreak.ratings.prior import WIDTHS
-from evenbreak.reports.read_results import read_results
+from places import SHARED
 
-SEASON = Path(__file__).parents[3] / "shared" / "data" / "snooker_2016_17_results.csv"
+SEASON = SHARED / "data" / "snooker_2016_17_results.csv"
 
 
 def season(spread, rng, players=30, days=40, a_day=12):

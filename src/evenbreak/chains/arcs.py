@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     Places: TypeAlias = NDArray[np.integer[Any]]
     """Positions of states, or numbers of classes."""
 
-__all__ = ["Arcs", "arcs_of", "reachable"]
-
 
 @dataclass(frozen=True, eq=False)
 class Arcs:

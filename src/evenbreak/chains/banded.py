@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.arcs import Places
 
-__all__ = ["BandedElimination", "band_order"]
-
 _PANEL = 96
 # Products smaller than this are not spread over threads by BLAS; for small windows it would
 # cost more to wake the threads than to do the work.

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.arcs import Places
 
-__all__ = ["Factors", "eliminate_stack", "stacks"]
-
 _ENTRIES = 2_000_000
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.chains.arcs import Arcs, arcs_of
-from evenbreak.chains.line import Line, line_of
+from evenbreak.chains.birth_death import Line, line_of
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
@@ -22,8 +22,6 @@ from evenbreak.errors import ChainError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from scipy.sparse import csc_array
-
-__all__ = ["Chain", "check_sums"]
 
 _SUM_TOLERANCE = 1e-9
 

@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
-__all__ = ["DENSE", "EPS", "TOLERANCE", "UnitPairs", "leading_pairs", "no_basis"]
-
 DENSE = 1000
 """Up to this many states LAPACK finds all eigenvalues at once."""
 TOLERANCE = 1e-8

@@ -18,8 +18,6 @@ from typing import Any
 
 from evenbreak.errors import AccuracyError
 
-__all__ = ["Elimination"]
-
 
 class Elimination:
     """(I - T) factored, where T holds the arcs of transient states among themselves.

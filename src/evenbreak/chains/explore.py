@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     import networkx as nx
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["chain_from_arrays", "chain_of"]
-
 
 def chain_of(
     source: Game | nx.DiGraph[Any] | Iterable[tuple[Any, Any, float]],

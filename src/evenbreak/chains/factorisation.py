@@ -24,18 +24,16 @@ from scipy.sparse import csc_array, csgraph
 
 from evenbreak.chains.arcs import arcs_of
 from evenbreak.chains.banded import BandedElimination, band_order
-from evenbreak.chains.flow import Flow
-from evenbreak.chains.path import PathElimination
+from evenbreak.chains.decimal_elimination import WideElimination
+from evenbreak.chains.line_elimination import PathElimination
 from evenbreak.chains.sparse_lu import SparseFactorisation
 from evenbreak.chains.structure import Structure, structure_of
-from evenbreak.chains.wide import WideElimination
+from evenbreak.chains.triangular_solve import Flow
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Arcs, Places
-
-__all__ = ["Factorisation", "path_order"]
 
 SMALL = 64
 _MOST_ENTRIES = 40_000_000

@@ -17,10 +17,10 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.arcs import reachable
+from evenbreak.chains.birth_death import line_law
+from evenbreak.chains.decimal_elimination import wide_law
 from evenbreak.chains.factorisation import Factorisation, path_order
-from evenbreak.chains.line import line_law
 from evenbreak.chains.transient import TransientPart
-from evenbreak.chains.wide import wide_law
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
@@ -28,16 +28,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.arcs import Arcs, Places
     from evenbreak.chains.chain import Chain
-
-__all__ = [
-    "Limit",
-    "absorption",
-    "expected_visits",
-    "largest",
-    "limit_matrix",
-    "stationary_laws",
-    "stochastic_limit",
-]
 
 _COLUMNS = 64
 _SHOWN = 5

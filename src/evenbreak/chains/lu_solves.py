@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
     Wide = NDArray[np.longdouble]
 
-__all__ = ["LUSolves"]
-
 _WIDE_EPS = np.finfo(np.longdouble).eps
 _FLOOR = 1e-3
 

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.chain import Chain
 
-__all__ = ["mixing_time", "spectral_gap"]
-
 
 def spectral_gap(chain: Chain) -> float:
     """Return 1 minus the largest modulus of an eigenvalue off the unit circle.

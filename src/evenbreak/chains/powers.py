@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.chain import Chain
 
-__all__ = ["evened", "propagate"]
-
 MOST_APPLIED = 4_000_000_000
 """More steps than this are refused: roundings of 2^-52 add up to 1e-6."""
 _SQUARED, _CALL = 500, 5000

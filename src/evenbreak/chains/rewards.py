@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.chain import Chain
 
-__all__ = ["long_run_reward", "total_reward"]
-
 
 def long_run_reward(
     chain: Chain,

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.arcs import Places
 
-__all__ = ["prefix_products", "shares"]
-
 _BLOCK = 32
 # 32 factors above 2^-30 stay above 2^-960, and so do 900 significands.
 _SMALL_FACTOR = 2.0**-30

@@ -34,8 +34,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.chain import Chain
 
-__all__ = ["Sensitivity", "sensitivity"]
-
 
 @dataclass(frozen=True, eq=False)
 class _Slopes:

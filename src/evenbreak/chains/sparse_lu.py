@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 
     Wide = NDArray[np.longdouble]
 
-__all__ = ["SparseFactorisation"]
-
 GUARANTEED = 1e-12
 _USABLE = 1e-6
 _ROUNDS = 6

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.chain import Chain
 
-__all__ = ["Spectrum", "spectrum"]
-
 MOST_ENTRIES = 20_000_000
 """More entries of vectors than this (k times n) are refused: they fill the memory."""
 LEADING = 6

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.arcs import Arcs, Places
 
-__all__ = ["Structure", "structure_of"]
-
 
 @dataclass(frozen=True, eq=False)
 class Structure:

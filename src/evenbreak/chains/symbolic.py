@@ -20,8 +20,6 @@ from evenbreak.errors import ChainError
 if TYPE_CHECKING:
     import sympy  # type: ignore[import-untyped]
 
-__all__ = ["symbolic_limit"]
-
 Arc: TypeAlias = tuple[Hashable, Hashable, Any]
 
 

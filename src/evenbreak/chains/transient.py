@@ -19,17 +19,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.chains.arcs import reachable
+from evenbreak.chains.decimal_elimination import rows_of, wide_solve
 from evenbreak.chains.elimination import Elimination
 from evenbreak.chains.factorisation import Factorisation
-from evenbreak.chains.wide import rows_of, wide_solve
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Arcs, Places
-
-__all__ = ["TransientPart"]
 
 _FEW_STATES, _FEW_ARCS = 100, 300
 

@@ -10,9 +10,6 @@ import gc
 import os
 import sys
 
-__all__ = ["main"]
-
-
 INTERRUPTED = 130
 
 _code: object = 0
@@ -26,7 +23,7 @@ def main() -> None:
     # several times over, and once more when all is done while a person waits.
     gc.set_threshold(100_000)
     try:
-        from evenbreak.cli.base import program
+        from evenbreak.cli.program import program
 
         program()
     except KeyboardInterrupt:  # before the program is there to take it

@@ -7,10 +7,8 @@ from collections.abc import Iterable
 
 import click
 
-from evenbreak.cli.options import refuse
-from evenbreak.cli.output import say
-
-__all__ = ["reproduce"]
+from evenbreak.cli.kit.options import refuse
+from evenbreak.cli.kit.output import say
 
 EXAMPLES = """\b
 Examples:
@@ -18,7 +16,7 @@ Examples:
 """
 
 
-@click.command(epilog=EXAMPLES)
+@click.command("reproduce", epilog=EXAMPLES)
 @click.option(
     "--out",
     required=True,
@@ -27,7 +25,7 @@ Examples:
     help="Where the files go; made if it is not there.",
 )
 @click.pass_context
-def reproduce(ctx: click.Context, out: str) -> None:
+def command(ctx: click.Context, out: str) -> None:
     """Write every table, figure and number of the source text, computed anew.
 
     Begin with DIR/index.md for section 5, statistics, or DIR/physics.md for sections 1 to
@@ -38,10 +36,10 @@ def reproduce(ctx: click.Context, out: str) -> None:
     """
     if not out.strip():
         refuse("--out is empty; name a folder, or . for this one")
-    from evenbreak.reports.physics.numbers import physics_findings
-    from evenbreak.reports.reproduce import differing, reproduction
-    from evenbreak.reports.section5.numbers import findings
-    from evenbreak.reports.write_files import check_folder, write_files
+    from evenbreak.files.folder import check_folder, write_files
+    from evenbreak.source_text.physics.numbers import physics_findings
+    from evenbreak.source_text.reproduce import differing, reproduction
+    from evenbreak.source_text.section5.numbers import findings
 
     check_folder(out)
     files = reproduction(say)

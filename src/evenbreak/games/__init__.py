@@ -3,27 +3,6 @@
 Nothing here solves anything; `evenbreak.chains` and `evenbreak.matches` do.
 """
 
-from evenbreak._lazy import attach
+import lazy_loader
 
-__getattr__, __dir__, __all__ = attach(
-    __name__,
-    {
-        "rack": ["Rack"],
-        "breaks": [
-            "BREAK_FORMATS",
-            "BreakFormat",
-            "alternate_breaks",
-            "loser_breaks",
-            "player_1_breaks",
-            "player_2_breaks",
-            "winner_breaks",
-        ],
-        "match": ["Match"],
-        "race": ["Race"],
-        "ahead": ["Ahead"],
-        "one_ball": ["OneBall", "OneBallLookAhead"],
-        "series": ["Series"],
-        "drill": ["Drill"],
-        "catalogue": ["CATALOGUE"],
-    },
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -6,8 +6,6 @@ from dataclasses import dataclass
 
 from evenbreak.games.match import Match, Score
 
-__all__ = ["Ahead"]
-
 
 @dataclass(frozen=True)
 class Ahead(Match):

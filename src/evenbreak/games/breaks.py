@@ -12,16 +12,6 @@ from typing import Any, TypeAlias
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 
-__all__ = [
-    "BREAK_FORMATS",
-    "BreakFormat",
-    "alternate_breaks",
-    "loser_breaks",
-    "player_1_breaks",
-    "player_2_breaks",
-    "winner_breaks",
-]
-
 BreakFormat: TypeAlias = Callable[[int, int], int]
 
 

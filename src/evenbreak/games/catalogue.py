@@ -11,8 +11,6 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.games.series import Series
 
-__all__ = ["CATALOGUE"]
-
 _BREAKING = Rack(0.6, 0.55)
 
 CATALOGUE: dict[str, Game] = {

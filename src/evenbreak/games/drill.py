@@ -7,8 +7,6 @@ from dataclasses import dataclass
 
 from evenbreak.checks import number_probabilities, number_probability, whole
 
-__all__ = ["Drill"]
-
 
 @dataclass(frozen=True)
 class Drill:

@@ -16,8 +16,6 @@ from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
 
-__all__ = ["Match"]
-
 Score: TypeAlias = tuple[int, int]
 
 

@@ -7,8 +7,6 @@ from dataclasses import KW_ONLY, dataclass
 
 from evenbreak.checks import number_probabilities, number_probability
 
-__all__ = ["OneBall", "OneBallLookAhead"]
-
 
 @dataclass(frozen=True)
 class OneBall:

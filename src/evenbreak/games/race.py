@@ -12,8 +12,6 @@ from evenbreak.games.rack import Rack
 if TYPE_CHECKING:
     from evenbreak.game import ArcArrays
 
-__all__ = ["Race"]
-
 
 @dataclass(frozen=True)
 class Race(Match):

@@ -20,8 +20,6 @@ from evenbreak.games.rack import Rack
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["ScoreStates", "race_arcs"]
-
 
 class ScoreStates(Sequence[tuple[int, ...]]):
     """States (a, b) or (a, b, breaker) that are made when asked for.

@@ -8,8 +8,6 @@ from typing import Any
 from evenbreak.checks import one_of, probability
 from evenbreak.errors import InputError
 
-__all__ = ["Rack"]
-
 
 @dataclass(frozen=True)
 class Rack:

@@ -10,8 +10,6 @@ from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
 
-__all__ = ["Series"]
-
 
 @dataclass(frozen=True)
 class Series:

@@ -4,24 +4,6 @@
 keeps what came of them.
 """
 
-from evenbreak._lazy import attach
+import lazy_loader
 
-__getattr__, __dir__, __all__ = attach(
-    __name__,
-    {
-        "dump_cycle": ["DumpCycle", "best_cycle", "dump_cycle"],
-        "nights": ["Night", "nights_of", "played_nights"],
-        "on_dask": ["DaskExecutor"],
-        "one_season": ["PlayedSeason", "season_matches"],
-        "play": ["run_chunk"],
-        "players": ["ESTABLISHED", "LeaguePlayers"],
-        "reestimate": ["Reestimated", "reestimate"],
-        "sandbag": ["DumpRow", "Sandbagging", "entering_low", "sandbagging"],
-        "schedule": ["FixedSchedule", "RandomPairing", "RoundRobin", "Schedule"],
-        "season": ["Season"],
-        "simulate": ["simulate"],
-        "tally": ["Tally"],
-        "watch": ["Watched", "watch"],
-        "watch_power": ["WatchPower", "watch_power"],
-    },
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -12,8 +12,6 @@ from evenbreak.league.tally import FIFTHS, WEEK_COLUMNS, Tally, fifths_of
 if TYPE_CHECKING:
     from evenbreak.league.season import Season
 
-__all__ = ["ALONE", "Counting", "Ended"]
-
 _DOUBLINGS = 4.0
 """How far rating errors and moves are told apart: odds of 16 to 1."""
 

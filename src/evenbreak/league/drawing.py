@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 
 from evenbreak.league.lookup import Lookup
 
-__all__ = ["draw_scores", "draw_winners", "play_racks", "random_bits"]
-
 Score = NDArray[np.int8]
 
 

@@ -19,10 +19,8 @@ from numpy.typing import NDArray
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.ladder import Ladder
+from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.league.sandbag import at_the_end, dumped_matrix, earnest_matrix, start_law
-
-__all__ = ["DumpCycle", "best_cycle", "dump_cycle"]
 
 Floats = NDArray[np.float64]
 

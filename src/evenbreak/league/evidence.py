@@ -31,22 +31,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import AccuracyError
-from evenbreak.handicaps.fluctuation import difference_law
+from evenbreak.handicaps.ladders.form import difference_law
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.stats.summary import Distribution
-
-__all__ = [
-    "DEPTHS",
-    "FARTHEST",
-    "GAINS",
-    "HONEST",
-    "SHARES",
-    "SHARES_MARKED",
-    "Evidence",
-    "Likelihood",
-    "Result",
-]
 
 Floats = NDArray[np.float64]
 _HELD = ("drifting", "steady", "other")

@@ -23,8 +23,6 @@ from evenbreak.errors import WorkerError
 from evenbreak.league.on_dask import DaskExecutor
 from evenbreak.league.processes import interrupts_wait, worker_processes
 
-__all__ = ["in_order"]
-
 Shared = TypeVar("Shared")
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")

@@ -14,9 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.handicaps.match_table import MatchTable
-
-__all__ = ["CLASSES", "Lookup", "lookup_of"]
+from evenbreak.handicaps.systems.match_table import MatchTable
 
 CLASSES = 3
 """What is noted of a final score: hill-hill, shutout, games."""

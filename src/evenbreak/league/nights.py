@@ -9,13 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.chart import Chart
-from evenbreak.handicaps.moves import Moves, apply_results, night_problems
-from evenbreak.handicaps.systems import System
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.systems.rating_changes import Moves, apply_results, night_problems
+from evenbreak.handicaps.systems.system import System
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
-
-__all__ = ["Night", "nights_of", "played_nights"]
 
 
 class Night(NamedTuple):

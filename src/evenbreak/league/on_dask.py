@@ -21,8 +21,6 @@ from evenbreak.errors import InputError, WorkerError
 if TYPE_CHECKING:
     import distributed
 
-__all__ = ["DaskExecutor"]
-
 Value = TypeVar("Value")
 
 _PATIENCE = 8.0

@@ -16,12 +16,10 @@ from numpy.typing import NDArray
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.systems import PlayedMatch, UpdateRule
+from evenbreak.handicaps.systems.system import PlayedMatch, UpdateRule
 from evenbreak.league.schedule import Round
 from evenbreak.league.season import Season, draws_opponents
 from evenbreak.ratings.results import Results
-
-__all__ = ["FIRST_NIGHT", "PlayedSeason", "season_matches"]
 
 FIRST_NIGHT = np.datetime64("2025-01-07")
 """The date of week 1 where nobody says another."""

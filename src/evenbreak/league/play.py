@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import AccuracyError
-from evenbreak.handicaps.systems import step_after
+from evenbreak.handicaps.systems.newcomers import step_after
 from evenbreak.league.counting import Counting, Ended
 from evenbreak.league.drawing import draw_scores, draw_winners, play_racks, random_bits
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, Round, RoundRobin
@@ -32,8 +32,6 @@ from evenbreak.league.tally import Tally
 if TYPE_CHECKING:
     from evenbreak.league.lookup import Lookup
     from evenbreak.league.players import LeaguePlayers
-
-__all__ = ["run_chunk"]
 
 _BLOCK = 1 << 15
 """Matches that are played at a time."""

@@ -12,8 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["ESTABLISHED", "LeaguePlayers"]
-
 Floats = NDArray[np.float64]
 Whole = NDArray[np.int64]
 

@@ -25,8 +25,6 @@ from multiprocessing.connection import Connection
 from threading import Lock, Thread, current_thread, main_thread
 from typing import Any
 
-__all__ = ["interrupts_wait", "worker_processes"]
-
 _kept: tuple[Callable[[Any, Any], Any], Any]
 """What a worker works with."""
 

@@ -16,9 +16,9 @@ import numpy as np
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.chart import Chart
-from evenbreak.handicaps.system_comparison import SystemRow
-from evenbreak.handicaps.unfairness import CLEAR_FAVOURITE
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.ladders.comparison import SystemRow
+from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.results import Results
@@ -27,8 +27,6 @@ from evenbreak.stats.summary import Distribution
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
-
-__all__ = ["Reestimated", "reestimate"]
 
 _FIRST_NIGHT = np.datetime64("2001-01-01")
 _NEAR = 1.0 / 6.0

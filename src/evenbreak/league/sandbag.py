@@ -26,12 +26,10 @@ from numpy.typing import NDArray
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.ladder import Ladder
-from evenbreak.handicaps.ladder_chain import move_matrix
-from evenbreak.handicaps.match_table import match_table
+from evenbreak.handicaps.ladders.error_chain import move_matrix
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.stats.summary import Distribution
-
-__all__ = ["DumpRow", "Sandbagging", "entering_low", "most_dumped", "sandbagging"]
 
 Floats = NDArray[np.float64]
 

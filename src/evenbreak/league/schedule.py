@@ -18,8 +18,6 @@ from numpy.typing import ArrayLike, NDArray
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 
-__all__ = ["FixedSchedule", "RandomPairing", "Round", "RoundRobin", "Schedule", "rounds_of"]
-
 Round = tuple[NDArray[np.intp], NDArray[np.intp]]
 """Who meets whom at one time: two arrays of positions, no position twice."""
 

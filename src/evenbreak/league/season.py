@@ -11,16 +11,15 @@ from numpy.typing import NDArray
 
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.chart import Chart
-from evenbreak.handicaps.chart import chart as printed_chart
-from evenbreak.handicaps.match_table import MatchTable, match_table
-from evenbreak.handicaps.systems import System, system_of
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart import chart as printed_chart
+from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.match_table import MatchTable, match_table
+from evenbreak.handicaps.systems.system import System
 from evenbreak.league.lookup import Lookup, lookup_of
 from evenbreak.league.players import LeaguePlayers
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin, Schedule
 from evenbreak.league.tally import fifths_of
-
-__all__ = ["Season", "draws_opponents"]
 
 _DOUBLINGS = 3.0
 """How far moves are told by rating difference: to where the odds of a game are 8 to 1."""

@@ -22,13 +22,11 @@ from typing import NamedTuple
 import numpy as np
 
 from evenbreak.checks import whole
+from evenbreak.league.batches import Parts, parts_of
 from evenbreak.league.executors import in_order
-from evenbreak.league.parts import Parts, parts_of
 from evenbreak.league.play import run_chunk
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
-
-__all__ = ["simulate"]
 
 _BATCH = 64
 """Tallies that are added up before they are added to the rest: each sum copies what it has."""

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["FIFTHS", "GAP_COLUMNS", "PRODUCTS", "WEEK_COLUMNS", "Tally", "fifths_of"]
-
 Counts = NDArray[np.int64]
 Floats = NDArray[np.float64]
 

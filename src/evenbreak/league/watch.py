@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from evenbreak.checks import one_of
 from evenbreak.errors import AccuracyError, InputError
-from evenbreak.handicaps.systems import System
+from evenbreak.handicaps.systems.system import System
 from evenbreak.league.evidence import (
     DEPTHS,
     FARTHEST,
@@ -27,8 +27,6 @@ from evenbreak.league.evidence import (
 )
 from evenbreak.league.nights import Night
 from evenbreak.stats.summary import Distribution
-
-__all__ = ["Watched", "watch", "watch_player"]
 
 Floats = NDArray[np.float64]
 

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from evenbreak.checks import number_probability, one_of, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.fluctuation import deviation_grid, difference_law
-from evenbreak.handicaps.ladder import Ladder
-from evenbreak.handicaps.match_table import match_table
+from evenbreak.handicaps.ladders.form import deviation_grid, difference_law
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.league.evidence import (
     DEPTHS,
     FARTHEST,
@@ -25,8 +25,6 @@ from evenbreak.league.evidence import (
 )
 from evenbreak.league.sandbag import refuse_drift, start_law
 from evenbreak.league.watch import at_skills, drift_room, skill_prior
-
-__all__ = ["WatchPower", "watch_power"]
 
 Floats = NDArray[np.float64]
 

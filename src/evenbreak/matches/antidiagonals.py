@@ -16,8 +16,6 @@ from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.matches.parameters import shape_of
 
-__all__ = ["Endings", "race_endings"]
-
 # Parameters are taken in blocks whose masses stay in the processor's cache.
 _BLOCK = 1 << 16
 

@@ -26,8 +26,6 @@ from evenbreak.matches.formats import MatchFormat, match_format
 from evenbreak.matches.win import win_probability
 from evenbreak.matches.win_forms import Form, degree_of, product, win_forms
 
-__all__ = ["Crossing", "Crossings", "crossings", "even_probability", "rack_along"]
-
 _HIGHEST_DEGREE = 500
 """Of a polynomial that is solved exactly; it would take seconds beyond."""
 _P1 = expit(np.linspace(-14.0, 14.0, 2801))

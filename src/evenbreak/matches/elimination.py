@@ -13,8 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from typing import Any
 
-__all__ = ["NEVER", "Elimination", "ratio"]
-
 NEVER = "never"
 """Where a chain goes that can neither end nor leave a set of states."""
 

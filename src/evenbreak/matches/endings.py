@@ -20,8 +20,6 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import Endings, race_endings
 from evenbreak.matches.parameters import shape_of, with_rack
 
-__all__ = ["endings_of", "is_bounded"]
-
 _LONGEST = 100_000
 _MOST_CELLS = 20_000_000
 

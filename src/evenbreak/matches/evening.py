@@ -23,8 +23,6 @@ from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.matches.quantiles import quantile_of
 
-__all__ = ["Evening", "Length", "LengthLaw", "evening"]
-
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 

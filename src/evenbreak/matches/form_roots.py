@@ -13,8 +13,6 @@ from itertools import pairwise
 
 from evenbreak.matches.win_forms import Form, value_at
 
-__all__ = ["form_roots", "sign_at"]
-
 _FINEST = 48
 """Halvings after which zeros that still stand together are told as one."""
 _BITS = 64

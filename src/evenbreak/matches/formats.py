@@ -13,8 +13,6 @@ from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 
-__all__ = ["MatchFormat", "match_format"]
-
 _LONGEST = 1000
 _WAYS = (
     "9:5, '7:7 win by 2', 'ahead 5:3', '3:1 of 3:3' or 'best of 9', "

@@ -16,8 +16,6 @@ from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.parameters import at_score, broadcast, plain
 from evenbreak.matches.quantiles import TIE
 
-__all__ = ["MatchLength", "match_length"]
-
 
 @dataclass(frozen=True, eq=False)
 class MatchLength:

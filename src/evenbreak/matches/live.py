@@ -22,8 +22,6 @@ from evenbreak.matches.elimination import NEVER, Elimination
 from evenbreak.matches.parameters import checked_match, with_rack
 from evenbreak.matches.quantiles import TIE
 
-__all__ = ["LiveOdds", "Standing", "live_odds"]
-
 _LONGEST = 100_000
 """Racks after which a length that is not reached is given up."""
 

@@ -22,8 +22,6 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.elimination import NEVER, Elimination, ratio
 from evenbreak.matches.parameters import first_breaker
 
-__all__ = ["Outcome", "Outcomes", "outcomes_of", "unit_outcomes"]
-
 
 class Outcome(NamedTuple):
     """The chance of one outcome; mean and standard deviation of its racks, given it."""

@@ -12,16 +12,6 @@ from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
 
-__all__ = [
-    "at_score",
-    "broadcast",
-    "checked_match",
-    "first_breaker",
-    "plain",
-    "shape_of",
-    "with_rack",
-]
-
 AnyMatch = TypeVar("AnyMatch", bound=Match)
 
 

@@ -11,8 +11,6 @@ from collections.abc import Sequence
 
 from evenbreak.checks import number_probability
 
-__all__ = ["TIE", "quantile_of"]
-
 TIE = 1e-12
 
 

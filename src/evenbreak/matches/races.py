@@ -16,8 +16,6 @@ from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
 from evenbreak.matches.quantiles import quantile_of
 
-__all__ = ["RaceLaw", "next_breaks", "race_law"]
-
 
 class RaceLaw(NamedTuple):
     """Who wins a race and after how many racks, as one joint distribution.

@@ -8,8 +8,6 @@ from typing import Any
 from evenbreak.games.match import Match
 from evenbreak.matches.quantiles import quantile_of
 
-__all__ = ["length_quantiles"]
-
 _ROUNDING = 1e-9
 _PATIENCE = 200_000
 """Moves of mass after which numpy is loaded to go on with."""

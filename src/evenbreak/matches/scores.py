@@ -16,12 +16,6 @@ from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of, unit_outcomes
 from evenbreak.matches.parameters import at_score, broadcast, first_breaker, plain
 
-__all__ = [
-    "FinalScores",
-    "final_scores",
-    "hill_hill_probability",
-]
-
 _MOST_SETS = 10_000
 
 

@@ -10,8 +10,6 @@ from evenbreak.games.race import Race
 from evenbreak.matches.outcomes import unit_outcomes
 from evenbreak.matches.parameters import at_score, broadcast, first_breaker, plain
 
-__all__ = ["shutout_probability"]
-
 
 def shutout_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins and the other scores nothing from the start score on).

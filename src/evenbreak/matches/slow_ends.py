@@ -11,8 +11,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-__all__ = ["MOST_STATES", "quantiles_by_doubling"]
-
 MOST_STATES = 1_000
 """Beyond this many states the dense products take longer than playing rack by rack."""
 

@@ -31,8 +31,6 @@ from evenbreak.errors import InputError
 from evenbreak.matches.quantiles import quantile_of
 from evenbreak.stats.exact import exact
 
-__all__ = ["EvenPoints", "StraightPool", "StraightPoolOdds", "even_points", "straight_pool_odds"]
-
 _LONGEST = 10_000
 """The most innings, on average, that a player may need here."""
 

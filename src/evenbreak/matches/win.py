@@ -17,8 +17,6 @@ from evenbreak.matches.antidiagonals import race_endings
 from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.parameters import at_score, broadcast, plain
 
-__all__ = ["race_win_probability", "win_probability"]
-
 
 def win_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins the match).

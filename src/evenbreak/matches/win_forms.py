@@ -16,8 +16,6 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.formats import MatchFormat
 
-__all__ = ["Form", "WinForms", "degree_of", "product", "value_at", "win_forms"]
-
 Form = list[int]
 WinForms = tuple[Form, Form]
 

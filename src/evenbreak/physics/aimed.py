@@ -22,8 +22,6 @@ from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
 from evenbreak.physics.throw import BALL_FRICTION, throw_angle
 
-__all__ = ["AimedShot", "aimed_shot"]
-
 _THINNEST = 0.5 * math.pi - 1e-9
 """Short of a right angle, at which nothing is hit."""
 

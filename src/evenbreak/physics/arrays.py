@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["LARGEST", "Floats", "numbers", "plain", "positive", "together"]
-
 Floats = NDArray[np.float64]
 
 LARGEST = 1e50

@@ -24,8 +24,6 @@ from evenbreak.physics.objects import Ball
 from evenbreak.physics.throw import BALL_FRICTION, shot_of, slip_of, thrown
 from evenbreak.physics.units import GRAVITY
 
-__all__ = ["Collision", "Jump", "axis_tilt", "collide"]
-
 
 class Jump(NamedTuple):
     """A ball's short flight: seconds, and metres up and along."""

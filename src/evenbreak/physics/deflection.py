@@ -19,19 +19,6 @@ import numpy as np
 from evenbreak.physics.arrays import numbers, plain, positive
 from evenbreak.physics.throw import shot_of
 
-__all__ = [
-    "EnergyShares",
-    "deflection",
-    "deflection_slope",
-    "energy_after_hit",
-    "energy_in_roll",
-    "largest_deflection_cut",
-    "right_angle_cut",
-    "split_cut",
-    "split_roll_cut",
-    "unit_slope_cut",
-]
-
 
 class EnergyShares(NamedTuple):
     """The two balls' energies, over the energy M V_0^2 / 2 of the cue ball's motion before."""

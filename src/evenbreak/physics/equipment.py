@@ -10,8 +10,6 @@ from evenbreak.checks import one_of
 from evenbreak.physics.objects import Ball
 from evenbreak.physics.units import INCH, OUNCE
 
-__all__ = ["BALL_SETS", "LIQUIDS", "BallSet", "density_range", "floats_in", "volume_range"]
-
 
 class BallSet(NamedTuple):
     """The balls of a game as its rules have them.

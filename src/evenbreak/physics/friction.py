@@ -10,17 +10,6 @@ import numpy as np
 from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
 from evenbreak.physics.units import GRAVITY
 
-__all__ = [
-    "friction_of_incline",
-    "friction_of_stop",
-    "friction_of_throw",
-    "miscue_offset",
-    "sliding_distance",
-    "sliding_power",
-    "sliding_speed",
-    "tip_friction_of",
-]
-
 
 def friction_of_incline(angle: Any) -> Any:
     """Return the coefficient of a block that slides down an incline at a steady speed (P1.4).

@@ -20,8 +20,6 @@ from evenbreak.physics.pockets import pockets
 from evenbreak.physics.rolling import Energy, kinetic_energy
 from evenbreak.physics.slide import Slide
 
-__all__ = ["ENDINGS", "Leg", "Phase", "State", "leg_until", "on_table", "place_of", "time_to"]
-
 ENDINGS = ("rest", "hit", "cushion", "pocket")
 """How a leg can end."""
 

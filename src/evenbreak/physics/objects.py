@@ -9,8 +9,6 @@ from evenbreak.errors import InputError
 from evenbreak.physics.arrays import LARGEST
 from evenbreak.physics.units import GRAVITY, INCH, OUNCE
 
-__all__ = ["Ball", "Cloth", "Cue", "Table"]
-
 
 @dataclass(frozen=True)
 class Ball:

@@ -19,24 +19,6 @@ from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
 
-__all__ = [
-    "NATURAL_ROLL_OFFSET",
-    "ContactPoint",
-    "ball_speed_ratio",
-    "best_lag_offset",
-    "contact_for_later",
-    "effective_contact",
-    "gearing_tip",
-    "largest_roll_side",
-    "offset_for",
-    "roll_side",
-    "roll_speed_ratio",
-    "small_circle_point",
-    "spin_of_offset",
-    "strike_side",
-    "stun_offset",
-]
-
 NATURAL_ROLL_OFFSET = 0.4
 """The height above the centre, over R, at which a ball is struck into natural roll (P3.5)."""
 

@@ -19,8 +19,6 @@ from evenbreak.physics.pockets import Pocket
 from evenbreak.physics.strike import Strike
 from evenbreak.physics.throw import BALL_FRICTION
 
-__all__ = ["pocketed_shot"]
-
 _STEPS = 8
 """How many points of the mouth are tried on each side of its middle."""
 

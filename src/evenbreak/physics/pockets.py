@@ -14,8 +14,6 @@ from typing import NamedTuple
 from evenbreak.physics.objects import Table
 from evenbreak.physics.units import INCH
 
-__all__ = ["CORNER_MOUTH", "POCKET_NAMES", "SIDE_MOUTH", "Pocket", "pockets"]
-
 CORNER_MOUTH = 4.5 * INCH
 """Between the noses at a corner, in metres."""
 

@@ -17,17 +17,6 @@ from evenbreak.physics.arrays import numbers, plain, positive, together
 from evenbreak.physics.objects import Ball, Cloth
 from evenbreak.physics.units import GRAVITY, INCH
 
-__all__ = [
-    "MOON_GRAVITY",
-    "SHAPES",
-    "Energy",
-    "SpinStop",
-    "kinetic_energy",
-    "rolling_friction",
-    "rolling_time",
-    "spin_stop",
-]
-
 MOON_GRAVITY = 63.8 * INCH
 """The acceleration of gravity on the moon, m/s^2 (P2.5)."""
 

@@ -30,8 +30,6 @@ from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
 from evenbreak.physics.throw import BALL_FRICTION, FRICTION_LAWS
 
-__all__ = ["Shot", "one_number", "shot", "sound_strike", "spin_ratios", "travel_for"]
-
 _ROUNDING = 1e-12
 """By how much, in diameters, the distance of balls that touch may be off by reckoning it."""
 

@@ -26,16 +26,6 @@ from evenbreak.errors import InputError
 from evenbreak.physics.arrays import Floats, numbers, plain, together
 from evenbreak.physics.objects import Ball, Cloth
 
-__all__ = [
-    "Slide",
-    "drag_distance",
-    "parabola",
-    "roll_speed",
-    "roll_velocity",
-    "sliding_ball_speed",
-    "stun_distance",
-]
-
 
 def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
     """Return the speed of a sliding ball, from the speed of its rim now (P2.1).

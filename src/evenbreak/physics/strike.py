@@ -22,8 +22,6 @@ from evenbreak.physics.objects import Ball, Cue
 from evenbreak.physics.offset import ball_speed_ratio, spin_of_offset
 from evenbreak.physics.rolling import Energy, kinetic_energy
 
-__all__ = ["Strike", "strike", "strike_for_speed"]
-
 
 @dataclass(frozen=True, eq=False)
 class Strike:

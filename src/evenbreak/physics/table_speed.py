@@ -11,8 +11,6 @@ from evenbreak.physics.arrays import numbers, plain, positive, together
 from evenbreak.physics.objects import Ball, Cloth, Table
 from evenbreak.physics.units import GRAVITY
 
-__all__ = ["TABLE_SPEEDS", "lag_distance", "lag_speed", "roll_distance", "roll_time", "table_speed"]
-
 TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {
         "very slow": (50.0, 70.0),

@@ -27,18 +27,6 @@ from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import Floats, numbers, plain, together
 
-__all__ = [
-    "BALL_FRICTION",
-    "FRICTION_LAWS",
-    "Aim",
-    "aim",
-    "full_throw_cut",
-    "gearing_side",
-    "throw_angle",
-    "throw_factor",
-    "throw_sensitivity",
-]
-
 BALL_FRICTION = 4.0 / 72.0
 """The coefficient of friction between two balls that P1.6 measures."""
 

@@ -12,16 +12,6 @@ import numpy as np
 
 from evenbreak.physics.arrays import numbers, plain, positive, together
 
-__all__ = [
-    "CentreHit",
-    "best_stick_ratio",
-    "break_energy_share",
-    "centre_hit",
-    "energy_share",
-    "stroke_energy",
-    "stroke_speed",
-]
-
 
 class CentreHit(NamedTuple):
     """What a hit in the centre gives, each over the speed of the stick before it.

@@ -5,8 +5,6 @@ Multiply to come in, divide to go out: `9 * INCH` is metres, `length / INCH` is 
 
 import math
 
-__all__ = ["CENTIMETRE", "DEGREE", "FOOT", "GRAM", "GRAVITY", "INCH", "OUNCE"]
-
 INCH = 0.0254
 """Metres in an inch."""
 

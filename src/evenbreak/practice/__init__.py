@@ -3,31 +3,6 @@
 This room joins games, chains and statistics; it reads no files.
 """
 
-from evenbreak._lazy import attach
+import lazy_loader
 
-__getattr__, __dir__, __all__ = attach(
-    __name__,
-    {
-        "breaks": [
-            "BreakFormatValue",
-            "compare_break_formats",
-            "first_break_worth",
-            "long_run_sd",
-            "long_run_share",
-        ],
-        "drill_log": ["DrillLog"],
-        "drills": ["DrillStatistics", "drill_statistics"],
-        "log_analysis": ["LevelReport", "LogAnalysis", "analyse_log"],
-        "log_tests": ["PlayedAgainTest"],
-        "progressive_fit": ["ProgressiveFit", "fit_progressive"],
-        "shots": [
-            "RankedShot",
-            "Shot",
-            "break_even_p2",
-            "compare_shots",
-            "critical_p2",
-            "look_ahead_win",
-            "one_ball_win",
-        ],
-    },
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -11,8 +11,6 @@ from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
 
-__all__ = ["Breakers"]
-
 
 class Breakers(NamedTuple):
     """The two states of endless play, who breaks the rack, for arrays of chances.

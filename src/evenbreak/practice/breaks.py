@@ -25,14 +25,6 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.parameters import plain
 from evenbreak.practice.breakers import Breakers
 
-__all__ = [
-    "BreakFormatValue",
-    "compare_break_formats",
-    "first_break_worth",
-    "long_run_sd",
-    "long_run_share",
-]
-
 
 def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
     """Return the fraction of racks that player 1 wins in the long run; elementwise.

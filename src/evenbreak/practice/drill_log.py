@@ -14,8 +14,6 @@ from evenbreak.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["AFTER_MISS", "AFTER_START", "AFTER_SUCCESS", "MOST_LEVELS", "DrillLog"]
-
 MOST_LEVELS = 100
 """The most levels that the drill of a log may have."""
 

@@ -15,8 +15,6 @@ from evenbreak.stats.summary import Distribution
 if TYPE_CHECKING:
     from evenbreak.games.drill import Drill
 
-__all__ = ["DrillStatistics", "drill_statistics"]
-
 
 @dataclass(frozen=True)
 class DrillStatistics:

@@ -21,8 +21,6 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["MORE", "chances_seen", "level_gains", "level_laws", "level_lifts"]
-
 MORE = 0.05
 """The rise of a chance by which levels are compared: five more successes in a hundred."""
 

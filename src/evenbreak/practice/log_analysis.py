@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
     from evenbreak.practice.drill_log import DrillLog
 
-__all__ = ["LevelReport", "LogAnalysis", "analyse_log"]
-
 _CONFIDENCE = 0.95
 _QUANTILES = (0.5 - _CONFIDENCE / 2, 0.5, 0.5 + _CONFIDENCE / 2)
 

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
     from evenbreak.practice.drill_log import DrillLog
 
-__all__ = ["PlayedAgainTest", "difference_test", "memory_test", "model_test"]
-
 
 class PlayedAgainTest(NamedTuple):
     """A figure of a log beside the same figure of logs that chance plays.

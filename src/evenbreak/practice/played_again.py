@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from evenbreak.practice.drill_log import DrillLog
 
-__all__ = ["play_again"]
-
 _AT_ONCE = 500_000
 """Stretches that are played side by side, so that memory stays small."""
 

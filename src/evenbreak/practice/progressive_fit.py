@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
     from evenbreak.practice.drill_log import DrillLog
 
-__all__ = ["ProgressiveFit", "deviance", "fit_progressive", "likeliest_p"]
-
 _LOG_X = (-40.0, 8.0)
 """Between these natural logs of x the bisection looks; beyond them p is 1 or 0 in floats."""
 _HALVINGS = 60

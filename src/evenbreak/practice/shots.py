@@ -23,17 +23,6 @@ from evenbreak.errors import InputError
 from evenbreak.games.one_ball import OneBallLookAhead
 from evenbreak.matches.parameters import plain
 
-__all__ = [
-    "LOOK_AHEADS",
-    "RankedShot",
-    "Shot",
-    "break_even_p2",
-    "compare_shots",
-    "critical_p2",
-    "look_ahead_win",
-    "one_ball_win",
-]
-
 LOOK_AHEADS = ("infinite", "two shots")
 """What is supposed of the shots after the first two: the same for ever, or an even game."""
 

@@ -5,19 +5,6 @@
 from it.
 """
 
-from evenbreak._lazy import attach
+import lazy_loader
 
-__getattr__, __dir__, __all__ = attach(
-    __name__,
-    {
-        "scale": ["SCALES", "Scale", "scale_of"],
-        "results": ["Played", "Results"],
-        "roster": ["Roster"],
-        "consistency": ["Problem", "find_problems"],
-        "fit": ["Ratings", "fit"],
-        "prior": ["PriorChoice", "best_prior"],
-        "race_likelihood": ["RaceSlopes", "race_slopes"],
-        "validate": ["Validation", "validate"],
-        "walk_forward": ["Forecasts", "walk_forward"],
-    },
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -15,19 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import expit, ndtri, xlog1py, xlogy
 
-__all__ = [
-    "CONFIDENCE",
-    "CalibrationBin",
-    "Estimate",
-    "bootstrap_ratio",
-    "brier",
-    "calibration",
-    "log_loss",
-    "logistic_coefficient",
-    "no_favourites",
-    "with_error",
-]
-
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 

@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 
 from evenbreak.ratings.results import Results
 
-__all__ = ["Problem", "find_problems", "who_won"]
-
 Mask = NDArray[np.bool_]
 _Finding = tuple[Mask, str, Callable[[int], str]]
 

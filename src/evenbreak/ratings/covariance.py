@@ -22,8 +22,6 @@ from scipy.sparse.linalg import LinearOperator, cg
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 
-__all__ = ["Curvature"]
-
 Floats = NDArray[np.float64]
 
 _DENSE_UP_TO = 2000

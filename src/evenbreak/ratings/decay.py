@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 
-__all__ = ["day_of", "match_weights", "until"]
-
 
 def day_of(value: Any, name: str = "as_of") -> np.datetime64:
     """Return a day: a date, a `numpy.datetime64`, or text such as '2026-01-31'.

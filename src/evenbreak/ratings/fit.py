@@ -19,8 +19,6 @@ from evenbreak.ratings.posterior import PairCounts, count_pairs, find_mode
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
 
-__all__ = ["BREAK_SD", "NARROWEST", "PRIOR_SD", "WIDEST", "Ratings", "fit"]
-
 PRIOR_SD = math.log(2.0)
 """Default standard deviation of the prior, in natural log-odds: one doubling of the odds.
 

@@ -16,8 +16,6 @@ from evenbreak.ratings.mixed_posterior import Evidence
 from evenbreak.ratings.posterior import PairCounts, curvature
 from evenbreak.ratings.scale import Scale
 
-__all__ = ["Ratings"]
-
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 

@@ -17,10 +17,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import lapack
 
-from evenbreak.ratings.filled_in import filled_in_diagonal, not_definite
-from evenbreak.ratings.fronts import Front, fronts_of
-
-__all__ = ["inverse_diagonal"]
+from evenbreak.ratings.approximate_diagonal import filled_in_diagonal, not_definite
+from evenbreak.ratings.elimination_fronts import Front, fronts_of
 
 Floats = NDArray[np.float64]
 

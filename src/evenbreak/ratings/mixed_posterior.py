@@ -24,13 +24,11 @@ from scipy.special import expit
 
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.covariance import Curvature
+from evenbreak.ratings.own_break_wins import Splits, stacked
 from evenbreak.ratings.posterior import GRADIENT_TOLERANCE
 from evenbreak.ratings.race_likelihood import race_slopes
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.splits import Splits, stacked
 from evenbreak.ratings.who_broke import count_broken
-
-__all__ = ["Evidence", "MixedMode", "evidence_of", "find_mixed_mode"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]

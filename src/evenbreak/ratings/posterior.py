@@ -28,8 +28,6 @@ from scipy.special import expit
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.covariance import Curvature
 
-__all__ = ["Mode", "PairCounts", "count_pairs", "curvature", "find_mode"]
-
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 

@@ -19,8 +19,6 @@ from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.mixed_posterior import evidence_of
 from evenbreak.ratings.results import Results
 
-__all__ = ["WIDTHS", "PriorChoice", "best_prior"]
-
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
 

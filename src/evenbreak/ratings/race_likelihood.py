@@ -20,8 +20,6 @@ from scipy.special import betainc, betaln, expit, hyp2f1, log_expit
 
 from evenbreak.errors import InputError
 
-__all__ = ["RaceSlopes", "race_slopes"]
-
 _FAR = 1e-200
 """Below such a chance W is not formed, so that neither it nor its logarithm underflows."""
 

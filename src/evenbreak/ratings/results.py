@@ -16,8 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["FORMATS", "Played", "Results"]
-
 FORMATS = ("", "winner", "loser", "alternate", "a", "b")
 """Break formats in the order of their codes in `Results.break_format`; 0 is not stated."""
 

@@ -13,8 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.errors import InputError
 
-__all__ = ["NOT_STATED", "Roster"]
-
 NOT_STATED = -1
 """The games or matches of a player of whom the list does not say how many he has played."""
 

@@ -12,8 +12,6 @@ from typing import Any
 
 from evenbreak.errors import InputError
 
-__all__ = ["SCALES", "Scale", "scale_of"]
-
 
 @dataclass(frozen=True)
 class Scale:

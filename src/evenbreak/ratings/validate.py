@@ -20,9 +20,9 @@ from evenbreak.ratings.calibration import (
     no_favourites,
 )
 from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.handicap_fairness import SpotFairness, spot_fairness
 from evenbreak.ratings.prior import WIDTHS
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.spots import SpotFairness, spot_fairness
 from evenbreak.ratings.walk_forward import Forecasts, walk_forward
 from evenbreak.ratings.within_matches import (
     Dispersion,
@@ -34,8 +34,6 @@ from evenbreak.ratings.within_matches import (
     side_advantage,
     streaks,
 )
-
-__all__ = ["PRIORS", "Scored", "Validation", "validate"]
 
 Floats = NDArray[np.float64]
 

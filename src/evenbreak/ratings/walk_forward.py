@@ -18,11 +18,9 @@ from scipy.special import expit
 
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
+from evenbreak.ratings.daily_refit import GrowingLeague
 from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.growing import GrowingLeague
 from evenbreak.ratings.results import Results
-
-__all__ = ["Forecasts", "even_races", "walk_forward"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

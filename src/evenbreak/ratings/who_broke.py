@@ -12,10 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
+from evenbreak.ratings.own_break_wins import Splits, split_of, stacked
 from evenbreak.ratings.results import FORMATS, Results
-from evenbreak.ratings.splits import Splits, split_of, stacked
-
-__all__ = ["Broken", "count_broken"]
 
 _A, _B = FORMATS.index("a"), FORMATS.index("b")
 
@@ -39,7 +37,7 @@ def count_broken(results: Results) -> Broken:
     Known it is in matches that one player broke throughout (break format a or b); rack by
     rack where `racks` and the break format are given, and for alternate breaks, and the
     first rack of all others, `first_break`; and in number where break format, `first_break`
-    and a race are given that one of the players reached (see `evenbreak.ratings.splits`).
+    and a race are given that one of the players reached (see `evenbreak.ratings.own_break_wins`).
 
     Parameters
     ----------

@@ -19,18 +19,6 @@ from evenbreak.ratings.calibration import Estimate, logistic_coefficient, with_e
 from evenbreak.ratings.results import FORMATS
 from evenbreak.ratings.walk_forward import NODES, Forecasts
 
-__all__ = [
-    "Dispersion",
-    "FirstBreaks",
-    "Streaks",
-    "break_advantage",
-    "dispersion",
-    "first_breaks",
-    "known_breaks",
-    "side_advantage",
-    "streaks",
-]
-
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 

@@ -13,8 +13,6 @@ from evenbreak.errors import InputError
 from evenbreak.stats.counts import CountLaw, whole_counts
 from evenbreak.stats.exact import exact
 
-__all__ = ["GamesWon", "ScoreRange", "coverage_within", "critical_value", "score_probability"]
-
 _NEAR = 1e-9
 """A range that comes nearer to a coverage than this leaves the decision to what is outside
 it, and that, where it comes as near relatively, to fractions."""

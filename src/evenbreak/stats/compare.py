@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["Comparison", "Effect", "Scores", "Significance", "compare"]
-
 
 class Scores(NamedTuple):
     """One list: number, mean and standard deviation (the sample's, n - 1) of its scores."""

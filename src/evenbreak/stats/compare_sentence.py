@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from evenbreak.stats.compare import Comparison, Scores
 
-__all__ = ["how_often", "sentence_of", "warnings_of"]
-
 FEW = 10
 """With fewer scores than this, how near to normal their law is matters."""
 

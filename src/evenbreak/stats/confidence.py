@@ -18,19 +18,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = [
-    "Luck",
-    "MeanInterval",
-    "Reading",
-    "checked_scores",
-    "mean_interval",
-    "open_share",
-    "sd_of",
-    "sd_of_mean",
-    "was_it_luck",
-]
-
-
 LARGEST = 1e9
 """The largest score, up or down: beyond it a slip of the pen is likelier than a score."""
 

@@ -12,8 +12,6 @@ from evenbreak.stats.exact import exact
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["CountLaw", "whole_counts"]
-
 _HALF = Fraction(1, 2)
 
 _NEAR = 1e-9

@@ -13,8 +13,6 @@ from typing import Any
 
 from evenbreak.errors import InputError
 
-__all__ = ["exact"]
-
 
 def exact(p: Any, name: str = "p") -> Fraction:
     """Return a probability as the fraction that was meant.

@@ -23,8 +23,6 @@ from evenbreak.stats.counts import CountLaw, whole_counts
 from evenbreak.stats.exact import exact
 from evenbreak.stats.runs import FairLine, checked_shots
 
-__all__ = ["InningsScore"]
-
 _NEAR = 1e-9
 """Chances that differ by less than this part of them leave the decision to fractions."""
 

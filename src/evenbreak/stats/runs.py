@@ -19,8 +19,6 @@ from evenbreak.errors import InputError
 from evenbreak.stats.counts import CountLaw, whole_counts
 from evenbreak.stats.exact import exact
 
-__all__ = ["FairLine", "RunLength", "checked_shots", "median_ratio_limit", "shot_chance"]
-
 _MOST = 100_000
 """The largest mean that is counted with; exact medians beyond would take minutes."""
 

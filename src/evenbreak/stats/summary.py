@@ -14,8 +14,6 @@ from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.stats.exact import exact
 
-__all__ = ["Distribution", "Moments", "merge"]
-
 Number = float | Fraction
 
 _EQUAL = 1e-12

@@ -7,8 +7,6 @@ from typing import Any, NamedTuple
 from evenbreak.errors import InputError
 from evenbreak.stats.confidence import checked_scores, open_share, sd_of
 
-__all__ = ["Trend", "trend"]
-
 
 class Trend(NamedTuple):
     """The slope of the line through scores, in points for each unit of time.

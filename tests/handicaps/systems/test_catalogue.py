@@ -1,7 +1,8 @@
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.systems import step_system, system_of
+from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.step import step_system
 
 
 @pytest.mark.parametrize(

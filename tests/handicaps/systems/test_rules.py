@@ -3,15 +3,13 @@
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.systems import (
-    PlayedMatch,
-    elo_system,
-    fixed_length_system,
-    margin_system,
-    step_after,
-    step_system,
-    system_of,
-)
+from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.elo import elo_system
+from evenbreak.handicaps.systems.fixed import fixed_length_system
+from evenbreak.handicaps.systems.margin import margin_system
+from evenbreak.handicaps.systems.newcomers import step_after
+from evenbreak.handicaps.systems.step import step_system
+from evenbreak.handicaps.systems.system import PlayedMatch
 
 
 def test_the_pool_league_moves_a_point_a_match_whatever_the_match_was():
@@ -56,8 +54,8 @@ def test_the_margin_is_nearly_fair_where_the_race_is():
     """The mean move at the game chance that makes each race even, beside a bare difference."""
     from scipy.special import betaincinv
 
-    from evenbreak.handicaps.chart import chart
-    from evenbreak.handicaps.match_table import match_table
+    from evenbreak.handicaps.charts.chart import chart
+    from evenbreak.handicaps.systems.match_table import match_table
 
     table = match_table(margin_system(2), chart("npl_10"))
     for place, (m, n) in enumerate(table.needs.tolist()):

@@ -15,8 +15,6 @@ from evenbreak.handicaps.systems.npl import NPL
 from evenbreak.handicaps.systems.step import step_system
 from evenbreak.handicaps.systems.system import System
 
-__all__ = ["FAMILIES", "SYSTEMS", "system_of"]
-
 _NUMBER = re.compile(r"[0-9]{1,9}")
 
 

@@ -14,11 +14,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.fixed_length import fixed_length_chart
+from evenbreak.handicaps.charts.fixed_length import fixed_length_chart
 from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
 from evenbreak.ratings.scale import SCALES
-
-__all__ = ["elo_system"]
 
 _SCALE = SCALES["elo"]
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from evenbreak.handicaps.fixed_length import fixed_length_chart
+from evenbreak.handicaps.charts.fixed_length import fixed_length_chart
 from evenbreak.handicaps.systems.npl import NPL
 from evenbreak.handicaps.systems.system import System
-
-__all__ = ["fixed_length_system"]
 
 
 def fixed_length_system(games: Any = 9) -> System:

@@ -19,8 +19,6 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.systems.npl import NPL
 from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
 
-__all__ = ["margin_system"]
-
 
 @dataclass(frozen=True)
 class _Margin:

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 
 from evenbreak.checks import whole
 
-__all__ = ["NEWCOMER_STEPS", "step_after"]
-
 NEWCOMER_STEPS = ((10, 3), (20, 2))
 """The National Pool League's: 3 points a match for 10 matches, 2 for the next 20, then 1.
 

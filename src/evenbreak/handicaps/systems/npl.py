@@ -5,12 +5,10 @@ Source: the text before Table 5.6.
 
 from __future__ import annotations
 
-from evenbreak.handicaps.chart import chart
+from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.systems.newcomers import NEWCOMER_STEPS, step_after
 from evenbreak.handicaps.systems.system import PlayedMatch, System
 from evenbreak.ratings.scale import SCALES
-
-__all__ = ["NPL"]
 
 
 def _a_point_a_match(match: PlayedMatch) -> tuple[int, int]:

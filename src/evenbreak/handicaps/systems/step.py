@@ -8,8 +8,6 @@ from typing import Any
 from evenbreak.handicaps.systems.npl import NPL
 from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
 
-__all__ = ["step_system"]
-
 
 @dataclass(frozen=True)
 class _Step:

@@ -12,10 +12,8 @@ from typing import Any, NamedTuple
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.chart import Chart, chart
+from evenbreak.handicaps.charts.chart import Chart, chart
 from evenbreak.ratings.scale import Scale
-
-__all__ = ["PlayedMatch", "System", "UpdateRule", "points_of"]
 
 
 class PlayedMatch(NamedTuple):

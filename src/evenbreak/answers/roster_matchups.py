@@ -1,0 +1,281 @@
+"""The races of rated players: by a chart, and the fairest that may be played."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.answers.fair_pairs import NOT_LINKED, RaceLimits
+from evenbreak.errors import InputError
+from evenbreak.files.problems import Problems, quoted
+from evenbreak.files.roster import RosterFile
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.uncertain import (
+    MOST_DOUBLINGS,
+    fairest_races,
+    length_given_ratings,
+    win_given_ratings,
+)
+from evenbreak.matches.evening import Length
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import Scale
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+FAIR_WITHIN = 0.1
+"""How far from 1/2 the chance of a fair race may be."""
+
+NEW = ("A is new", "B is new", "A and B are new")
+"""The notes on pairs with players who have no games yet."""
+
+
+def all_pairs(roster: Roster) -> Ints:
+    """Return all pairs of players as places in the roster, the stronger of the two first.
+
+    The pairs of the strongest player come first; players of one rating are in the order of
+    the list.
+
+    >>> all_pairs(Roster(["Ann", "Bo", "Cy"], [70, 92, 81])).tolist()
+    [[1, 2], [1, 0], [2, 0]]
+    """
+    order = np.argsort(-roster.rating, kind="stable")
+    return order[np.column_stack(np.triu_indices(len(roster), 1))]
+
+
+def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> None:
+    """Refuse a roster with ratings that are no levels of the chart, or errors beyond all bounds.
+
+    Raises
+    ------
+    DataError
+        with one line for each such player.
+    """
+    most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
+    problems = Problems(file.source)
+    problems.add_rows(
+        file.lines,
+        np.flatnonzero(roster.standard_error > most),
+        lambda place: (
+            f"{'quasi_error' if place in file.by_quasi else 'standard_error'} "
+            f"{roster.standard_error[place]:g} says nothing of a player; write {most:g} points "
+            "at most, or check --scale"
+        ),
+    )
+    if isinstance(chart, LevelChart):
+        levels = ", ".join(map(str, chart.levels))
+        problems.add_rows(
+            file.lines,
+            np.flatnonzero(~np.isin(_whole(roster.rating), chart.levels)),
+            lambda place: (
+                f"rating {roster.rating[place]:g} of {quoted(roster.players[place])} is no level "
+                f"of the chart {chart.name}; write one of {levels}"
+            ),
+        )
+    problems.raise_any()
+
+
+@dataclass(frozen=True, eq=False)
+class Races:
+    """The race of each pair, who wins it and how long it lasts.
+
+    `p_win` is P(A wins | the ratings and their errors), `plug_in` P(A wins | the ratings are
+    right); `mean` and `p90` are the mean length and the games within which 90 % of such races
+    end; `laws` is the law of each race's length.
+    """
+
+    m: Ints
+    n: Ints
+    p_win: Floats
+    plug_in: Floats
+    mean: Floats
+    p90: Ints
+    laws: Sequence[Length]
+
+    @classmethod
+    def of(cls, gap: Floats, error: Floats, m: Ints, n: Ints, scale: Scale) -> Races:
+        """Work out the races m:n of pairs with these differences and standard errors."""
+        mean, p90 = np.zeros(len(gap)), np.zeros(len(gap), dtype=np.int64)
+        laws: list[Length] = [Length([], [])] * len(gap)
+        for race in np.unique(np.column_stack([m, n]), axis=0).tolist():
+            of_race = np.flatnonzero((m == race[0]) & (n == race[1]))
+            length = length_given_ratings(gap[of_race], error[of_race], *race, scale=scale)
+            mean[of_race], p90[of_race] = length.mean, length.quantile(0.9)
+            for place, law in zip(of_race.tolist(), length.probability, strict=True):
+                laws[place] = Length(length.games, law)
+        return cls(
+            m,
+            n,
+            win_given_ratings(gap, error, m, n, scale=scale),
+            win_given_ratings(gap, 0.0, m, n, scale=scale),
+            mean,
+            p90,
+            laws,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class RosterMatchups:
+    """What pairs of players are offered.
+
+    Parameters
+    ----------
+    frame
+        a row for each pair, as `roster_matchups` describes it.
+    chart_laws, best_laws
+        the law of the length of each pair's race by the chart and of the fairest, without
+        the pairs that no chain of opponents links; None where there is no such race.
+    linked
+        which pairs those laws are for.
+    """
+
+    frame: pd.DataFrame
+    chart_laws: Sequence[Length] | None
+    best_laws: Sequence[Length] | None
+    linked: NDArray[np.bool_]
+
+
+def roster_matchups(
+    roster: Roster,
+    pairs: Ints,
+    *,
+    scale: Scale,
+    chart: Chart | LevelChart | None = None,
+    limits: RaceLimits | None = None,
+    minutes_per_game: float | None = None,
+) -> RosterMatchups:
+    """Return the races of pairs of players, and what each comes to.
+
+    Parameters
+    ----------
+    roster
+        how strong everybody is; new players filled in. A player whose error is not stated is
+        taken to be rated right.
+    pairs
+        places in the roster, shape (k, 2).
+    scale
+        what the points mean.
+    chart
+        the league's chart. It is asked with ratings that are rounded to whole points.
+    limits
+        among which races the fairest is sought.
+    minutes_per_game
+        how long a game takes; None: no minutes.
+
+    Returns
+    -------
+    RosterMatchups
+        its frame has player_a, player_b; difference of the ratings and difference_error, its
+        standard error (none where it is stated for neither), in points; p_game_a and
+        p_game_a_plug_in; with a chart the columns chart_race_a, chart_race_b, chart_p_win_a,
+        chart_p_win_a_plug_in, chart_unfairness, chart_mean_games, chart_games_p90; with limits
+        race_a, race_b, p_win_a, p_win_a_plug_in, mean_games, games_p90; with minutes also
+        mean_minutes and minutes_p90 of each; note. A chance is conditional on the ratings and
+        their errors, that of the race averaged over them; a plug-in chance on the ratings
+        being right. The unfairness is the distance of the chance from 1/2.
+
+    Raises
+    ------
+    InputError
+        if there is neither a chart nor limits, a player has no rating, or the chart has no
+        such level.
+    """
+    import pandas as pd
+
+    if chart is None and limits is None:
+        raise InputError("chart and limits are missing; give one of them at least")
+    if np.isnan(roster.rating).any():
+        raise InputError("roster has players without a rating; fill them in by with_starters")
+    a, b = pairs[:, 0], pairs[:, 1]
+    linked = _linked(roster, a, b)
+    a, b = a[linked], b[linked]
+    gap = roster.rating[a] - roster.rating[b]
+    known = np.nan_to_num(roster.standard_error)
+    error = np.hypot(known[a], known[b])
+    stated = ~np.isnan(roster.standard_error)
+    columns: dict[str, Any] = {
+        "difference": gap,
+        "difference_error": np.where(stated[a] | stated[b], error, np.nan),
+        "p_game_a": win_given_ratings(gap, error, 1, 1, scale=scale),
+        "p_game_a_plug_in": scale.win_probability(gap),
+    }
+    by_chart = best = None
+    if chart is not None:
+        by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
+        columns |= _columns("chart_", by_chart, minutes_per_game)
+    if limits is not None:
+        found = fairest_races(gap, error, games=limits.games, race_to=limits.race_to, scale=scale)
+        best = Races.of(gap, error, *found, scale)
+        columns |= _columns("", best, minutes_per_game)
+    everyone = {
+        "player_a": [roster.players[k] for k in pairs[:, 0].tolist()],
+        "player_b": [roster.players[k] for k in pairs[:, 1].tolist()],
+    }
+    rows = np.flatnonzero(linked)
+    frame = pd.DataFrame(columns, index=rows).reindex(np.arange(len(pairs)))
+    whole = [name for name in columns if name.endswith(("race_a", "race_b", "games_p90"))]
+    frame = frame.astype(dict.fromkeys(whole, "Int64"))
+    frame = pd.concat([pd.DataFrame(everyone, dtype=object), frame], axis=1)
+    frame["note"] = _notes(roster, pairs, linked, best)
+    laws = [None if races is None else races.laws for races in (by_chart, best)]
+    return RosterMatchups(frame, laws[0], laws[1], linked)
+
+
+def _linked(roster: Roster, a: Ints, b: Ints) -> NDArray[np.bool_]:
+    """Return whose ratings can be compared; of a new player the starter rating says what it can."""
+    group = np.where(roster.games == 0, 0, roster.component)
+    linked: NDArray[np.bool_] = (group[a] == group[b]) | (group[a] == 0) | (group[b] == 0)
+    return linked
+
+
+def _by_chart(chart: Chart | LevelChart, rating: Floats, a: Ints, b: Ints) -> tuple[Ints, Ints]:
+    points = _whole(rating)
+    if isinstance(chart, LevelChart):
+        return chart.races(points[a], points[b])
+    return chart.races(points[a] - points[b])
+
+
+def _whole(rating: Floats) -> Floats:
+    """Return ratings in whole points, halves upwards."""
+    rounded: Floats = np.floor(rating + 0.5)
+    return rounded
+
+
+def _columns(prefix: str, races: Races, minutes: float | None) -> dict[str, Any]:
+    columns: dict[str, Any] = {
+        "race_a": races.m,
+        "race_b": races.n,
+        "p_win_a": races.p_win,
+        "p_win_a_plug_in": races.plug_in,
+    }
+    if prefix:
+        columns["unfairness"] = np.abs(races.p_win - 0.5)
+    columns |= {"mean_games": races.mean, "games_p90": races.p90}
+    if minutes is not None:
+        columns |= {"mean_minutes": races.mean * minutes, "minutes_p90": races.p90 * minutes}
+    return {prefix + name: values for name, values in columns.items()}
+
+
+def _notes(roster: Roster, pairs: Ints, linked: NDArray[np.bool_], best: Races | None) -> list[str]:
+    """Return what to say of each pair: no link, no fair race, who is new."""
+    notes: list[list[str]] = [[] for _ in pairs]
+    for row in np.flatnonzero(~linked).tolist():
+        notes[row].append(NOT_LINKED)
+    if best is not None:
+        chances = np.full(len(pairs), 0.5)
+        chances[linked] = best.p_win
+        for row in np.flatnonzero(np.abs(chances - 0.5) > FAIR_WITHIN).tolist():
+            notes[row].append(f"no race allowed is fair: the nearest gives A {chances[row]:.2f}")
+    new = roster.games == 0
+    for row in np.flatnonzero(new[pairs].any(axis=1)).tolist():
+        a, b = new[pairs[row]]
+        notes[row].append(NEW[2] if a and b else NEW[0] if a else NEW[1])
+    return ["; ".join(note) for note in notes]

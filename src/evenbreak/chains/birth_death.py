@@ -1,0 +1,145 @@
+"""Chains whose states stand in a line: each moves to its neighbours only (birth and death).
+
+A closed stretch of the line has the stationary law
+
+    pi[i] / pi[a] = (up[a] ... up[i - 1]) / (down[a] ... down[i - 1]),
+
+and a stretch lo..hi that is left at both ends is left at the right end, from state s, with
+the probability of the gambler's ruin,
+
+    W = (g[lo] + ... + g[s]) / (g[lo] + ... + g[hi + 1]),
+    g[i] = (down[lo - 1] ... down[i - 2]) / (up[lo] ... up[i - 1]), g[lo] = 1,
+
+where up[i] is the arc from i to i + 1 and down[i] the arc from i + 1 to i. There are only
+products, quotients and sums of positive numbers, and the products keep their exponents
+apart, so that no span of decades costs digits.
+
+References: Feller, An Introduction to Probability Theory I, chapter XIV; Karlin and
+McGregor 1957.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.chains.scaled import prefix_products, shares
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from scipy.sparse import csc_array
+
+    from evenbreak.chains.arcs import Places
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A chain whose states stand in a line.
+
+    Parameters
+    ----------
+    up
+        shape (n - 1,): the arc from i to i + 1.
+    down
+        shape (n - 1,): the arc from i + 1 to i.
+    loops
+        shape (n,): the self-loops.
+    """
+
+    up: NDArray[np.float64]
+    down: NDArray[np.float64]
+    loops: NDArray[np.float64]
+
+    def limit(self, start: int) -> tuple[NDArray[np.float64], int]:
+        """Return the stochastic limit from the state `start`, and its period.
+
+        The limit has shape (n,); it is conditional on the start.
+        """
+        lo, hi = self._stretch(start)
+        if hi - lo + 1 == len(self.loops):
+            return line_law(self.up, self.down), 1 if self.loops.any() else 2
+        limit = np.zeros(len(self.loops))
+        # Beyond a cut there is no way back; the first arc missing outwards is the end.
+        left = lo > 0 and self.down[lo - 1] > 0.0
+        right = hi + 1 < len(limit) and self.up[hi] > 0.0
+        chance_left, chance_right = float(left), float(right)
+        if left and right:
+            chance_right, chance_left = self._exits(lo, start, hi)
+        period = 1
+        if not (left or right):
+            period = self._settle(limit, lo, hi, 1.0)
+        if left:
+            walls = np.flatnonzero(self.down[:lo] == 0.0)
+            first = int(walls[-1]) + 1 if len(walls) else 0
+            period = max(period, self._settle(limit, *self._stretch(first), chance_left))
+        if right:
+            walls = np.flatnonzero(self.up[hi:] == 0.0)
+            last = hi + int(walls[0]) if len(walls) else len(limit) - 1
+            period = max(period, self._settle(limit, *self._stretch(last), chance_right))
+        return limit, period
+
+    @cached_property
+    def _cuts(self) -> Places:
+        """Where two neighbours are of different classes: between i and i + 1."""
+        return np.flatnonzero((self.up == 0.0) | (self.down == 0.0))
+
+    def _stretch(self, state: int) -> tuple[int, int]:
+        """Return the first and the last state of the class of `state`."""
+        cuts = self._cuts
+        k = int(np.searchsorted(cuts, state))
+        lo = int(cuts[k - 1]) + 1 if k else 0
+        return lo, int(cuts[k]) if k < len(cuts) else len(self.loops) - 1
+
+    def _exits(self, lo: int, start: int, hi: int) -> tuple[float, float]:
+        """Return the chances to leave lo..hi at the right and at the left end."""
+        products = prefix_products(self.down[lo - 1 : hi], self.up[lo : hi + 1])
+        return shares(*products, start - lo + 1)
+
+    def _settle(self, limit: NDArray[np.float64], lo: int, hi: int, mass: float) -> int:
+        """Spread `mass` over the closed class lo..hi; return its period."""
+        law = line_law(self.up[lo:hi], self.down[lo:hi])
+        law *= mass
+        limit[lo : hi + 1] += law
+        return 1 if lo == hi or self.loops[lo : hi + 1].any() else 2
+
+
+def line_law(up: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the stationary law of a closed line; shape (n,) for n - 1 arcs each way.
+
+    >>> line_law(np.array([0.5, 0.5]), np.array([0.25, 0.5]))
+    array([0.2, 0.4, 0.4])
+    """
+    law, exponent = prefix_products(up, down)
+    np.ldexp(law, exponent, out=law)
+    law /= law.sum()
+    return law
+
+
+def line_of(matrix: csc_array) -> Line | None:
+    """Return the chain as a line, or None if its states do not stand in one as numbered."""
+    n = matrix.shape[0]
+    if n < 3 or matrix.nnz > 3 * n - 2:
+        return None
+    middle = matrix.indices[matrix.indptr[n // 2] : matrix.indptr[n // 2 + 1]]
+    if np.any(np.abs(middle - n // 2) > 1):
+        return None
+    if matrix.nnz == 3 * n - 2 and _is_full(matrix):
+        return Line(matrix.data[1::3], matrix.data[2::3], matrix.data[0::3])
+    up, down, loops = matrix.diagonal(-1), matrix.diagonal(1), matrix.diagonal()
+    stored = np.count_nonzero(up) + np.count_nonzero(down) + np.count_nonzero(loops)
+    return Line(up, down, loops) if stored == matrix.nnz else None
+
+
+def _is_full(matrix: csc_array) -> bool:
+    """Whether each state has its loop and both neighbours stored, in order: the data is a view."""
+    n = matrix.shape[0]
+    place = np.arange(n, dtype=matrix.indices.dtype)
+    return bool(
+        (matrix.indptr[1:-1] == 3 * place[1:] - 1).all()
+        and (matrix.indices[0::3] == place).all()
+        and (matrix.indices[1::3] == place[1:]).all()
+        and (matrix.indices[2::3] == place[:-1]).all()
+    )

@@ -1,0 +1,121 @@
+"""Elimination in decimal numbers of 40 digits and all but unbounded exponents.
+
+For long and narrow classes, in which the rounding errors of doubles add up. And the way
+out where a law spans more decades than floats do: some 300 below 1, beyond which
+intermediate results would vanish or overflow and take digits of the answer with them. It
+is slow (some microseconds an arc), and refuses what would take it longer than seconds.
+"""
+
+from __future__ import annotations
+
+import math
+from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.chains.elimination import Elimination
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Arcs
+
+_CONTEXT = Context(prec=40, Emax=MAX_EMAX, Emin=MIN_EMIN)
+_MOST_ARCS = 3e6
+
+
+def rows_of(arcs: Arcs) -> list[dict[int, float]]:
+    """Return the arcs as a dictionary for each source: target to chance."""
+    rows: list[dict[int, float]] = [{} for _ in range(arcs.size)]
+    for j, i, chance in zip(
+        arcs.sources.tolist(), arcs.targets.tolist(), arcs.chances.tolist(), strict=True
+    ):
+        rows[j][i] = chance
+    return rows
+
+
+class WideElimination:
+    """(I - T) factored in wide numbers; answers are floats, inf where they are beyond all floats.
+
+    Parameters
+    ----------
+    arcs
+        the arcs of m states among themselves.
+    leak
+        shape (m,): the probability to leave them, given the state.
+
+    Raises
+    ------
+    AccuracyError
+        if the elimination would take too long.
+    """
+
+    def __init__(self, arcs: Arcs, leak: NDArray[np.float64], most: float = math.inf) -> None:
+        with localcontext(_CONTEXT):
+            self._factor = _factor(arcs, leak, most)
+            self.pivots = _floats(self._factor.pivots)
+
+    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
+        return self._columns(b, self._factor.visits)
+
+    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
+        return self._columns(r, self._factor.values)
+
+    @staticmethod
+    def _columns(
+        b: NDArray[np.float64], solve: Callable[[list[Decimal]], list[Decimal]]
+    ) -> NDArray[np.float64]:
+        with localcontext(_CONTEXT):
+            columns = ([Decimal(value) for value in column] for column in b.T.tolist())
+            return np.array([_floats(solve(column)) for column in columns]).T
+
+
+def wide_solve(
+    arcs: Arcs, leak: NDArray[np.float64], b: NDArray[np.float64], *, transposed: bool
+) -> NDArray[np.float64]:
+    """Return (I - T)^-1 b, or (I - T)^-T b, for b >= 0 of shape (m, k); inf beyond all floats.
+
+    Raises
+    ------
+    AccuracyError
+        if the elimination would take too long.
+    """
+    factor = WideElimination(arcs, leak, _MOST_ARCS)
+    return factor.values(b) if transposed else factor.visits(b)
+
+
+def wide_law(arcs: Arcs) -> NDArray[np.float64]:
+    """Return the stationary law of one closed class, whose arcs these are; shape (m,).
+
+    Raises
+    ------
+    AccuracyError
+        if the elimination would take too long.
+    """
+    rest = np.arange(1, arcs.size)
+    inner, leak = arcs.among(rest)
+    with localcontext(_CONTEXT):
+        b = [Decimal(0)] * (arcs.size - 1)
+        for i, chance in zip(
+            arcs.targets[: arcs.indptr[1]].tolist(),
+            arcs.chances[: arcs.indptr[1]].tolist(),
+            strict=True,
+        ):
+            b[i - 1] = Decimal(chance)
+        law = [Decimal(1), *_factor(inner, leak, _MOST_ARCS).visits(b)]
+        total = sum(law)
+        return _floats([value / total for value in law])
+
+
+def _factor(arcs: Arcs, leak: NDArray[np.float64], most: float) -> Elimination:
+    rows = [{i: Decimal(chance) for i, chance in row.items()} for row in rows_of(arcs)]
+    return Elimination(rows, [Decimal(value) for value in leak.tolist()], most)
+
+
+def _floats(values: list[Decimal]) -> NDArray[np.float64]:
+    return np.array([float(value) for value in values])

@@ -1,0 +1,296 @@
+"""The steps that it takes to get somewhere: their distribution, mean and variance.
+
+With Q the states from which the target can be reached, h_j the chance to reach it from j
+and x_t = Q^t v, the passage time T has P(T > t and the target is reached) = h . x_t, hence
+
+    P(reached) = h . v,   E[T; reached] = sum_t h . x_t = u . v,   u = (I - Q)^-T h,
+
+two solves without subtraction. The variance is the sum of what each step adds to it,
+E sum_t (m(X_t+1) - m(X_t) + 1)^2 with m = u / h, the mean time left: a sum of squares
+under the chances given that the target is reached (Doob's transform), which loses no
+digits where the variance is small beside the squared mean (Kemeny & Snell 1960, ch. III).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from evenbreak.chains.arcs import reachable
+from evenbreak.chains.powers import evened
+from evenbreak.chains.transient import TransientPart
+from evenbreak.checks import one_of, probability, whole
+from evenbreak.errors import AccuracyError, ChainError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.chains.chain import Chain
+
+TIE = 1e-12
+"""A cumulative probability this near below q counts as q: sums of floats miss ties."""
+MOST_STEPS = 100_000
+"""A quantile further off than this is refused rather than waited for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Passage:
+    """How many steps it takes to reach a target, given the start.
+
+    Parameters
+    ----------
+    p_reached, p_never
+        the chances that the target is reached and that it never is.
+    mean, variance
+        of the number of steps; None unless the target must be reached.
+    mean_if_reached, variance_if_reached
+        of the number of steps, given that the target is reached; None where it cannot be.
+        The variance is inf where it is larger than any float.
+    certain
+        whether the target must be reached, by the graph: then `p_never` is exactly 0.
+    residual
+        None where these are right to about machine precision; else, after a large class
+        that only a sparse factorisation can solve, how far its equations are missed (see
+        `TransientPart.residual`).
+
+    Notes
+    -----
+    These come from linear solves, not from a truncated distribution. `distribution` and
+    `quantile` follow the chain step by step.
+    """
+
+    p_reached: float
+    p_never: float
+    mean_if_reached: float | None
+    variance_if_reached: float | None
+    certain: bool
+    residual: float | None
+    _at_once: float = field(repr=False)
+    _v: NDArray[np.float64] = field(repr=False)
+    _inside: csr_array = field(repr=False)
+    _leak: NDArray[np.float64] = field(repr=False)
+    _hope: NDArray[np.float64] = field(repr=False)
+
+    @property
+    def mean(self) -> float | None:
+        """The mean number of steps; None where the target may never be reached."""
+        return self.mean_if_reached if self.certain else None
+
+    @property
+    def variance(self) -> float | None:
+        """The variance of the number of steps; None where the target may never be reached."""
+        return self.variance_if_reached if self.certain else None
+
+    def distribution(
+        self, *, tail: float = 1e-12, max_steps: int = 100_000
+    ) -> tuple[NDArray[np.float64], float]:
+        """Return P(the target is reached in exactly t steps), t = 0, 1, ..., and the tail.
+
+        Parameters
+        ----------
+        tail
+            stop once the chance to reach the target later is no more than this.
+        max_steps
+            stop after this many steps at the latest.
+
+        Returns
+        -------
+        array, float
+            the probabilities, and the chance to reach the target later than they tell:
+            their sum, the tail and `p_never` make 1.
+        """
+        tail, max_steps = probability(tail, "tail"), whole(max_steps, "max_steps")
+        chances = []
+        left = 0.0
+        for t, chance, left in self._walk():
+            chances.append(chance)
+            if left <= tail or t == max_steps:
+                break
+        return np.array(chances), left
+
+    def quantile(self, q: float) -> int | None:
+        """Return the first t with P(reached within t steps) >= q; None where there is none.
+
+        What is within 1e-12 of q counts as q, so that ties do not hang on a rounding: of a
+        time without a largest value the quantile at 1 is that at 1 - 1e-12.
+
+        Raises
+        ------
+        InputError
+            if q is not a probability.
+        AccuracyError
+            if t would be more than 100,000.
+        """
+        q = probability(q, "q")
+        if q > self.p_reached + TIE:
+            return None
+        for t, _, left in self._walk():
+            if left <= self.p_reached - q + TIE:
+                return t
+            if t == MOST_STEPS:
+                break
+        raise AccuracyError(
+            f"the {q} quantile is beyond {MOST_STEPS} steps; "
+            f"the mean given that the target is reached is {self.mean_if_reached:.6g}"
+        )
+
+    def _walk(self) -> Iterator[tuple[int, float, float]]:
+        """Yield t, P(T = t) and P(t < T, and the target is reached), for t = 0, 1, ..."""
+        t, chance, x = 0, self._at_once, self._v
+        while True:
+            yield t, chance, float(self._hope @ x)
+            t, chance, x = t + 1, float(self._leak @ x), self._inside @ x
+
+
+def steps_to_absorption(
+    chain: Chain, start: Any = None, *, into: Literal["absorbing", "closed"] = "absorbing"
+) -> Passage:
+    """Return the number of steps until the chain is absorbed, given the start.
+
+    Parameters
+    ----------
+    chain, start
+        as in `propagate`.
+    into
+        'absorbing': it is absorbed in a state that is never left (a match is over). A
+        closed class of several states is then a way never to be absorbed. 'closed':
+        entry into any closed class counts, which always happens.
+
+    Raises
+    ------
+    InputError
+        if `into` is neither.
+    ChainError
+        if the start is not one.
+    AccuracyError
+        if a mean is larger than any float, or cannot be vouched for.
+
+    Notes
+    -----
+    Source: Kemeny & Snell, Finite Markov Chains, chapter III.
+
+    >>> from evenbreak.chains import chain_of
+    >>> two_ahead = chain_of([(0, 1, 0.5), (0, -1, 0.5), (1, 2, 0.5), (1, 0, 0.5),
+    ...                       (-1, 0, 0.5), (-1, -2, 0.5)])
+    >>> racks = steps_to_absorption(two_ahead, 0)
+    >>> racks.mean, racks.variance, racks.quantile(0.9), racks.p_never
+    (4.0, 8.0, 8, 0.0)
+    """
+    one_of(into, "into", ("absorbing", "closed"))
+    structure = chain.structure
+    ends = structure.recurrent
+    if into == "absorbing":
+        ends = ends & (np.diff(structure.offsets)[structure.label] == 1)
+    return _passage(chain, chain.density(start), ends)
+
+
+def first_passage(chain: Chain, start: Any, target: Any) -> Passage:
+    """Return the number of steps until the chain first visits a target, given the start.
+
+    Parameters
+    ----------
+    chain, start
+        as in `propagate`; a start of None is the chain's own.
+    target
+        a state, or a list or set of states. A start in the target counts as 0 steps.
+
+    Raises
+    ------
+    ChainError
+        if a state is unknown, or no target is given.
+    AccuracyError
+        if a mean is larger than any float, or cannot be vouched for.
+
+    >>> from evenbreak.chains import chain_of
+    >>> walk = chain_of([(1, 0, 0.25), (1, 2, 0.75), (2, 1, 1.0)])
+    >>> walk_to_0 = first_passage(walk, 2, 0)
+    >>> walk_to_0.p_reached, walk_to_0.mean
+    (1.0, 8.0)
+    """
+    targets = target if isinstance(target, (list, set, frozenset)) else [target]
+    if isinstance(target, Hashable) and target in chain.position:
+        targets = [target]
+    if not targets:
+        raise ChainError("no target is given; give a state or a list of states")
+    ends = np.zeros(len(chain), dtype=bool)
+    ends[[chain.index(state) for state in targets]] = True
+    return _passage(chain, chain.density(start), ends)
+
+
+def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> Passage:
+    n, arcs = len(chain), chain.arcs
+    before = ~ends[arcs.sources]
+    source, target, chance = arcs.sources[before], arcs.targets[before], arcs.chances[before]
+    met = reachable(n, source, target, v > 0.0) & ~ends
+    hopeful = met & reachable(n, target, source, ends)
+    lost = met & ~hopeful
+    states = np.flatnonzero(hopeful)
+    part = TransientPart(arcs, states)
+
+    arrive = hopeful[source] & ends[target]
+    leak = np.bincount(source[arrive], chance[arrive], n)[states].astype(np.float64)
+    visits = part.visits(v[states])
+    certain = not lost.any()
+    if certain:
+        p_reached, p_never, hope = 1.0, 0.0, np.ones(len(states), dtype=np.float64)
+    else:
+        p_reached, hope = float(v[ends].sum() + visits @ leak), part.values(leak)
+        vanish = hopeful[source] & lost[target]
+        flow = _spread(n, states, visits)[source[vanish]]
+        p_never = float(v[lost].sum() + flow @ chance[vanish])
+    mean = variance = None
+    if p_reached > 0.0:
+        left = np.divide(part.values(hope), hope, out=np.zeros_like(hope), where=hope > 0.0)
+        with np.errstate(over="ignore", invalid="ignore"):
+            mean = float(visits @ hope / p_reached)
+            variance = _variance(chain, v, ends, states, visits, hope, left, mean) / p_reached
+        if mean == np.inf:
+            raise AccuracyError("the mean number of steps is larger than any float")
+        # So many steps on average come from a state that is hard to leave: its mean squared.
+        variance = variance if np.isfinite(variance) else np.inf
+    M = evened(chain)
+    return Passage(
+        p_reached=p_reached,
+        p_never=p_never,
+        mean_if_reached=mean,
+        variance_if_reached=variance,
+        certain=certain,
+        residual=part.residual,
+        _at_once=float(v[ends].sum()),
+        _v=v[states],
+        _inside=csr_array(M[:, states][states]),
+        _leak=leak,
+        _hope=hope,
+    )
+
+
+def _variance(
+    chain: Chain,
+    v: NDArray[np.float64],
+    ends: NDArray[np.bool_],
+    states: NDArray[np.intp],
+    visits: NDArray[np.float64],
+    hope: NDArray[np.float64],
+    left: NDArray[np.float64],
+    mean: float,
+) -> float:
+    """Return P(reached) times the variance of the steps, given that the target is reached."""
+    n, arcs = len(chain), chain.arcs
+    flow, hope, left = (_spread(n, states, values) for values in (visits, hope, left))
+    hope[ends] = 1.0
+    i, j = arcs.targets, arcs.sources
+    begun = v * hope @ (left - mean) ** 2
+    moved = flow[j] * arcs.chances * hope[i] @ (left[i] - left[j] + 1.0) ** 2
+    stayed = flow * chain.matrix.diagonal() @ hope
+    return float(begun + moved + stayed)
+
+
+def _spread(n: int, states: NDArray[np.intp], values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return `values` of `states` as a vector over all n states, 0 elsewhere."""
+    spread = np.zeros(n)
+    spread[states] = values
+    return spread

@@ -1,0 +1,176 @@
+"""One forward substitution through the states alone in their class and the small classes.
+
+A state that is never met again is watched only when it moves: with P[i, j] the arc from j
+to i over the sum of all arcs out of j, the flow f through the states from a density b obeys
+
+    f[i] = b[i] + sum over j of P[i, j] f[j],
+
+upstream states first: a triangular system whose terms all have one sign, and the visits
+are f[j] over the sum of the arcs out of j. A small class of more than one state enters it
+with each state twice: as it is entered and as it is left, joined by the factors of
+`blocks`. So the whole is triangular, its size is at most twice the number of states, and
+both I - T and its transpose are solved in one call.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+from scipy.sparse.linalg import spsolve_triangular
+
+from evenbreak.chains.blocks import eliminate_stack, stacks
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Places
+
+
+class Flow:
+    """(I - T) factored for consecutive classes, all of them small.
+
+    Parameters
+    ----------
+    sources, targets, chances
+        the arcs among the states, which are numbered class by class, upstream first.
+    leak
+        shape (m,): the chance to leave for other states, given the state; only read where
+        a class has more than one state.
+    outflow
+        shape (m,): the chance to leave the state; only read where it is alone in its class.
+    offsets
+        shape (classes + 1,): the first state of each class, and m.
+    """
+
+    def __init__(
+        self,
+        sources: Places,
+        targets: Places,
+        chances: NDArray[np.float64],
+        leak: NDArray[np.float64],
+        outflow: NDArray[np.float64],
+        offsets: Places,
+    ) -> None:
+        m = int(offsets[-1])
+        sizes = np.diff(offsets)
+        self.pivots = outflow
+        self._unit = outflow
+        if len(sizes) == m:
+            self._enter = self._leave = None
+            self._system = _unit_lower(m, sources, targets, chances / outflow[sources])
+            return
+        label = np.repeat(np.arange(len(sizes)), sizes)
+        twice = sizes > 1
+        self.pivots = outflow.copy()
+        self._unit = np.where(twice[label], 1.0, outflow)
+        width = np.where(twice, 2 * sizes, 1)
+        begin = np.cumsum(width) - width
+        number = np.arange(m) - offsets[label]
+        self._enter = begin[label] + number
+        # Left in the opposite order: the last to be eliminated is the first to be known.
+        self._leave = np.where(twice[label], begin[label] + width[label] - 1 - number, self._enter)
+        inside = label[sources] == label[targets]
+        across = ~inside
+        columns = [self._leave[sources[across]]]
+        rows = [self._enter[targets[across]]]
+        entries = [chances[across] / self._unit[sources[across]]]
+        leaks = leak + np.bincount(sources[across], chances[across], m)
+        inner = _Inner(sources[inside], targets[inside], chances[inside], label)
+        for size, classes in stacks(sizes):
+            first = offsets[classes]
+            factors = eliminate_stack(inner.stack(classes, first, size, leaks), first)
+            states = (first[:, None] + np.arange(size)).reshape(-1)
+            self.pivots[states] = factors.pivot
+            columns += [self._enter[states], self._enter[factors.onward[0]]]
+            rows += [self._leave[states], self._enter[factors.onward[1]]]
+            entries += [1.0 / factors.pivot, factors.onward[2]]
+            columns.append(self._leave[factors.back[0]])
+            rows.append(self._leave[factors.back[1]])
+            entries.append(factors.back[2])
+        self._system = _unit_lower(
+            int(width.sum()), np.concatenate(columns), np.concatenate(rows), np.concatenate(entries)
+        )
+
+    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
+        flow = self._solve(self._system, b, self._enter, self._leave, lower=True)
+        return flow / self._unit[:, None]
+
+    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
+        given = r / self._unit[:, None]
+        return self._solve(self._system.T, given, self._leave, self._enter, lower=False)
+
+    @staticmethod
+    def _solve(
+        system: csc_array | csr_array,
+        given: NDArray[np.float64],
+        put: Places | None,
+        take: Places | None,
+        *,
+        lower: bool,
+    ) -> NDArray[np.float64]:
+        if put is not None:
+            known = np.zeros((system.shape[0], given.shape[1]))
+            known[put] = given
+        else:
+            known = given
+        x: NDArray[np.float64] = spsolve_triangular(
+            system, known, lower=lower, unit_diagonal=True, overwrite_A=True
+        )
+        return x if take is None else x[take]
+
+
+class _Inner:
+    """The arcs within classes, sorted by class, to be written into stacks."""
+
+    def __init__(
+        self,
+        sources: Places,
+        targets: Places,
+        chances: NDArray[np.float64],
+        label: Places,
+    ) -> None:
+        home = label[sources]
+        by_class = np.argsort(home, kind="stable")
+        self._sources, self._targets = sources[by_class], targets[by_class]
+        self._chances = chances[by_class]
+        self._begin = np.searchsorted(home[by_class], np.arange(label[-1] + 2))
+
+    def stack(
+        self,
+        classes: Places,
+        first: Places,
+        size: int,
+        leaks: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """Return the classes (all of `size` states) as one array, their leaks last."""
+        count = self._begin[classes + 1] - self._begin[classes]
+        layer = np.repeat(np.arange(len(classes)), count)
+        arcs = np.arange(count.sum()) + np.repeat(
+            self._begin[classes] - (np.cumsum(count) - count), count
+        )
+        W = np.zeros((len(classes), size + 1, size))
+        base = first[layer]
+        W[layer, self._targets[arcs] - base, self._sources[arcs] - base] = self._chances[arcs]
+        W[:, size] = leaks[first[:, None] + np.arange(size)]
+        return W
+
+
+def _unit_lower(
+    size: int,
+    columns: Places,
+    rows: Places,
+    entries: NDArray[np.float64],
+) -> csc_array:
+    """Return I - E for arcs that all lead forward, as SuperLU wants it: sorted, with ones."""
+    places = np.arange(size, dtype=np.int32)
+    return csc_array(
+        (
+            np.concatenate((np.ones(size), -entries)),
+            (np.concatenate((places, rows)), np.concatenate((places, columns))),
+        ),
+        shape=(size, size),
+    )

@@ -1,0 +1,81 @@
+"""What an error looks like from outside: lines on stderr and an exit code.
+
+Exit codes: 0 done, 1 failed, 2 usage, 3 bad data, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from collections.abc import Iterator
+
+import click
+
+from evenbreak.errors import DataError, EvenbreakError, InputError
+
+PROBLEMS_SHOWN = 20
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+FAILED, USAGE, BAD_DATA, INTERRUPTED = 1, 2, 3, 130
+
+
+def report_error(error: BaseException) -> int:
+    """Say on stderr what went wrong, a line for each problem, and return the exit code.
+
+    What is a fault of this program is raised again.
+    """
+    match error:
+        case click.ClickException():
+            error.show()
+            return error.exit_code
+        case _ if any(isinstance(one, click.Abort | KeyboardInterrupt) for one in _chain(error)):
+            # An interrupt inside an import comes out as whatever the import makes of it.
+            click.echo("Interrupted.", err=True)
+            return INTERRUPTED
+        case OSError(errno=errno.EPIPE):
+            # The reader has gone. What is still buffered must not fail again at exit.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return FAILED
+        case EvenbreakError() | OSError() | MemoryError() | OverflowError():
+            pass
+        case _:
+            raise error
+    for line in _lines(error):
+        click.echo(f"Error: {line}", err=True)
+    match error:
+        case DataError():
+            return BAD_DATA
+        case InputError():
+            return USAGE
+    return FAILED
+
+
+def _chain(error: BaseException | None) -> Iterator[BaseException]:
+    """Yield an error, what it arose from, what that arose from, ..."""
+    seen: set[int] = set()
+    while error is not None and id(error) not in seen:
+        seen.add(id(error))
+        yield error
+        error = error.__cause__ or error.__context__
+
+
+def _lines(error: BaseException) -> Iterator[str]:
+    match error:
+        case DataError():
+            yield from error.problems[:PROBLEMS_SHOWN]
+            hidden = len(error.problems) - PROBLEMS_SHOWN
+            if hidden > 0:
+                yield f"and {hidden:,} more problem{'s' if hidden > 1 else ''}"
+        case OSError(filename=None, errno=code) if code in NO_ROOM:
+            # Every file that is written is named in its error.
+            yield f"standard output: {error.strerror}"
+        case OSError(filename=None):
+            yield str(error.strerror or error)
+        case OSError():
+            yield f"{error.filename}: {error.strerror}"
+        case MemoryError():
+            yield "not enough memory for this question; ask a smaller one"
+        case OverflowError():
+            yield "the answer is beyond the largest number that a computer holds"
+        case _:
+            yield " ".join(str(error).split())

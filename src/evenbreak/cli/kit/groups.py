@@ -1,0 +1,67 @@
+"""Groups of commands that import a command only to run it."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import click
+
+
+class Entry(NamedTuple):
+    """Where a command lives, and its line in the help text.
+
+    Parameters
+    ----------
+    module
+        the module of `evenbreak.cli` whose `command` it is.
+    help
+        the line.
+    """
+
+    module: str
+    help: str
+
+
+class LazyGroup(click.Group):
+    """A click group that knows its commands by name and line of help, and imports them late.
+
+    Parameters
+    ----------
+    table
+        each command, in the order of the help text.
+    """
+
+    def __init__(self, *args: Any, table: Mapping[str, Entry], **options: Any) -> None:
+        super().__init__(*args, **options)
+        self._table = table
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
+        """Return the names of the commands, in the order of the help text."""
+        return list(self._table)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+        """Import and return a command, or None if there is none of that name."""
+        if cmd_name not in self._table:
+            return None
+        module = importlib.import_module(f"evenbreak.cli.{self._table[cmd_name].module}")
+        command: click.Command = module.command
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the command that the first word names, or say which it is nearest to."""
+        name = args[0]
+        if name not in self._table and not name.startswith("-"):
+            from difflib import get_close_matches
+
+            near = get_close_matches(name, self._table, n=1)
+            ctx.fail(f"No such command {name!r}." + (f" Did you mean {near[0]!r}?" if near else ""))
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        """Write the list of commands from the table, without importing any."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, entry.help) for name, entry in self._table.items()])

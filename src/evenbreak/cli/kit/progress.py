@@ -1,0 +1,74 @@
+"""A line on stderr that tells how far a long answer is."""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from typing import Self
+
+import click
+
+PATIENCE = 1.0
+"""Seconds without a word that nobody minds."""
+
+_PAUSE = 0.1
+"""Between two lines, in seconds."""
+
+
+class Progress:
+    """A line that counts, on a terminal only and only of what takes long.
+
+    Parameters
+    ----------
+    what
+        what is counted, such as 'charts designed'.
+
+    >>> with Progress("charts designed") as progress:
+    ...     progress(1)
+    >>> with Progress("seasons") as progress:
+    ...     progress(250, 1000)
+    """
+
+    def __init__(self, what: str) -> None:
+        self._what, self._shown = what, 0
+        self._begun = time.monotonic()
+        self._next = self._begun + PATIENCE
+
+    def __call__(self, count: int, total: int | None = None) -> None:
+        """Tell how many there are so far and, of a known total, how long the rest takes."""
+        now = time.monotonic()
+        if now < self._next or not sys.stderr.isatty():
+            return
+        self._next = now + _PAUSE
+        line = f"{count} {self._what} so far ..."
+        if total is not None:
+            line = f"{count:,} of {total:,} {self._what} ({100 * count // total}%)"
+            line += f", {_left(now - self._begun, count, total)} ..."
+        click.echo("\r" + line.ljust(self._shown), nl=False, err=True)
+        self._shown = len(line)
+
+    def __enter__(self) -> Self:
+        """Begin to wait."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Wipe the line out."""
+        if self._shown:
+            click.echo("\r" + " " * self._shown + "\r", nl=False, err=True)
+
+
+def _left(seconds: float, count: int, total: int) -> str:
+    """Say how long the rest takes, if it goes on as it went.
+
+    >>> _left(20.0, 250, 1000), _left(1200.0, 2, 16), _left(3.0, 0, 9)
+    ('about 60 s left', 'about 2 h 20 min left', 'time left not known yet')
+    """
+    if not count:
+        return "time left not known yet"
+    left = math.ceil(seconds / count * (total - count))
+    if left < 100:
+        return f"about {left} s left"
+    minutes = round(left / 60)
+    hours = f"{minutes // 60} h " if minutes >= 60 else ""
+    return f"about {hours}{minutes % 60} min left"

@@ -1,0 +1,1 @@
+"""`evenbreak ladder`: how far off ratings are in the long run."""

@@ -1,0 +1,1 @@
+"""A league: its results, ratings, races of a night, and whole seasons."""

@@ -1,0 +1,5 @@
+"""What is read and written: results, rosters, charts and logs; encodings; atomic writing."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

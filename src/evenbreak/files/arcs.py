@@ -1,0 +1,133 @@
+"""A chain of the user's own from a file of arcs: source, target, probability."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.files.cells import numbers
+from evenbreak.files.problems import quoted
+from evenbreak.files.text_table import Table, read_table
+
+COLUMNS = {
+    "source": ("from", "state", "source state"),
+    "target": ("to", "next", "next state", "target state"),
+    "probability": ("p", "prob", "chance"),
+}
+SUM_TOLERANCE = 1e-9
+
+
+class ArcsFile(NamedTuple):
+    """The arcs of a file, in the order of its rows.
+
+    `sources[k]` and `targets[k]` are positions in `states`, which come in the order in
+    which the file first names them; `probabilities[k]` is that of the target, given the
+    source.
+    """
+
+    states: list[str]
+    sources: NDArray[np.int64]
+    targets: NDArray[np.int64]
+    probabilities: NDArray[np.float64]
+    source: str
+    warnings: tuple[str, ...]
+
+
+def read_arcs(path: str | Path) -> ArcsFile:
+    r"""Read a chain from a CSV file of arcs; '-' is standard input.
+
+    The arcs out of a state, its self-loop included, must sum to 1 within 1e-9; a state
+    that is only a target absorbs.
+
+    Raises
+    ------
+    DataError
+        with all that is wrong in the file: missing columns, empty names, probabilities
+        that are none, arcs listed twice, sums that are not 1.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "arcs.csv"
+    ...     _ = path.write_text("source,target,probability\nS,W,0.6\nS,L,0.4\n")
+    ...     arcs = read_arcs(path)
+    >>> arcs.states, arcs.sources, arcs.targets, arcs.probabilities
+    (['S', 'W', 'L'], array([0, 0]), array([1, 2]), array([0.6, 0.4]))
+    """
+    table = read_table(path, COLUMNS)
+    whole = len(table.problems) == 0
+    p = numbers(table, "probability", remedy="write one from 0 to 1, such as 0.25").values
+    outside = np.flatnonzero((p < 0.0) | (p > 1.0))
+    table.problems.add_rows(table.lines, outside, lambda row: _outside(p[row]))
+    if all(column in table for column in COLUMNS):
+        if whole and not len(table):
+            table.problems.add(None, "holds no arcs; write a row for each arc below the header")
+        for column in ("source", "target"):
+            _refuse_empty(table, column)
+        states, sources, targets = _states(table)
+        _refuse_twice(table, states, sources, targets)
+        # A sum in which a number is wrong or missing would only repeat what is known.
+        if whole and ((p >= 0.0) & (p <= 1.0)).all():
+            _refuse_sums(table, states, sources, p)
+    table.problems.raise_any()
+    return ArcsFile(states, sources, targets, p, table.source, table.warnings)
+
+
+def _outside(p: float) -> str:
+    return f"probability {float(p)!r} is not from 0 to 1; write one that is"
+
+
+def _refuse_empty(table: Table, column: str) -> None:
+    distinct, codes = table.texts(column)
+    empty = np.flatnonzero(np.array([not text for text in distinct], dtype=bool)[codes])
+    table.problems.add_rows(table.lines, empty, lambda _: f"{column} is empty; name a state")
+
+
+def _states(table: Table) -> tuple[list[str], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the states as the file first names them, and the position of each arc's two."""
+    source, target = table.texts("source"), table.texts("target")
+    number = {text: code for code, text in enumerate(source.distinct)}
+    other = np.array(
+        [number.setdefault(text, len(number)) for text in target.distinct], dtype=np.int64
+    )
+    ends = np.column_stack([source.codes, other[target.codes]]).ravel()
+    met, first = np.unique(ends, return_index=True)
+    order = np.argsort(first)
+    names = list(number)
+    place = np.zeros(len(names), dtype=np.int64)
+    place[met[order]] = np.arange(len(met))
+    return [names[code] for code in met[order]], place[ends[::2]], place[ends[1::2]]
+
+
+def _refuse_twice(
+    table: Table, states: list[str], sources: NDArray[np.int64], targets: NDArray[np.int64]
+) -> None:
+    key = sources * len(states) + targets
+    _, first, which = np.unique(key, return_index=True, return_inverse=True)
+    again = np.flatnonzero(first[which] != np.arange(len(key)))
+    table.problems.add_rows(
+        table.lines,
+        again,
+        lambda row: (
+            f"the arc {quoted(states[sources[row]])} -> {quoted(states[targets[row]])} is in "
+            f"line {table.lines[first[which[row]]]} already; keep one of the two"
+        ),
+    )
+
+
+def _refuse_sums(
+    table: Table, states: list[str], sources: NDArray[np.int64], p: NDArray[np.float64]
+) -> None:
+    leaving, first = np.unique(sources, return_index=True)
+    sums = np.bincount(sources, weights=p, minlength=len(states))
+    wrong = np.sort(first[np.abs(sums[leaving] - 1.0) > SUM_TOLERANCE])
+    table.problems.add_rows(
+        table.lines,
+        wrong,
+        lambda row: (
+            f"the arcs out of {quoted(states[sources[row]])} sum to {sums[sources[row]]:.12g}, "
+            "not 1; add what is missing (a self-loop counts), or write more digits"
+        ),
+    )

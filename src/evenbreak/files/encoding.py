@@ -1,0 +1,69 @@
+"""The bytes of a file and how they are encoded, or why they cannot be text."""
+
+from __future__ import annotations
+
+import codecs
+import sys
+from pathlib import Path
+
+from evenbreak.errors import DataError
+from evenbreak.files.problems import printable
+
+MAGIC = {
+    b"PK\x03\x04": "a spreadsheet or a zip archive",
+    b"\xd0\xcf\x11\xe0": "an old Excel workbook",
+    b"%PDF": "a PDF document",
+    b"\xff\xfe": "UTF-16 text",
+    b"\xfe\xff": "UTF-16 text",
+}
+
+
+def content_of(path: str | Path) -> tuple[str, bytes]:
+    """Return what to call the file, and its bytes."""
+    if str(path) == "-":
+        if sys.stdin is None:
+            raise DataError(["stdin: is closed; name a file, or send one into the command"])
+        return "stdin", sys.stdin.buffer.read()
+    source = printable(str(path))
+    try:
+        return source, Path(path).read_bytes()
+    except FileNotFoundError:
+        raise DataError([f"{source}: there is no such file; check its name"]) from None
+    except IsADirectoryError:
+        raise DataError([f"{source}: is a folder; name a file in it"]) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise DataError([f"{source}: cannot be read ({reason}); check the file"]) from None
+
+
+def encoding_of(content: bytes, source: str) -> tuple[str, list[str]]:
+    """Return how a file is encoded, and a warning if that had to be guessed."""
+    for magic, kind in MAGIC.items():
+        if content.startswith(magic):
+            raise DataError([f"{source}: is {kind}; save it as CSV, in UTF-8"])
+    nul = content.find(b"\0")
+    if nul >= 0:
+        line = content.count(b"\n", 0, nul) + 1
+        raise DataError([f"{source}:{line}: holds a NUL byte; save the file as CSV, in UTF-8"])
+    try:
+        encoding, warnings = "utf-8-sig", []
+        text = content.decode(encoding)
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        try:
+            # After the mark of UTF-8 a byte that is not UTF-8 is damage, no other encoding.
+            encoding = "ascii" if content.startswith(codecs.BOM_UTF8) else "cp1252"
+            text = content.decode(encoding)
+        except UnicodeDecodeError as also:
+            line = content.count(b"\n", 0, also.start) + 1
+            raise DataError(
+                [f"{source}:{line}: is neither UTF-8 nor Windows-1252 text; save it as UTF-8"]
+            ) from None
+        warnings = [
+            f"{source}:{line}: is not UTF-8; read as Windows-1252, so look at the accents in names"
+        ]
+    if not text.strip():
+        raise DataError(
+            [f"{source}: is empty; write a header line and one line for each row below it"]
+        )
+    return encoding, warnings

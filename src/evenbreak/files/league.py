@@ -1,0 +1,174 @@
+"""From a roster with what a simulation needs besides to the players of a season."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.errors import DataError, InputError
+from evenbreak.files.cells import numbers, whole_numbers
+from evenbreak.files.problems import Problems
+from evenbreak.files.roster import (
+    LARGEST,
+    LEAGUE,
+    OPTIONAL,
+    REQUIRED,
+    WRITTEN,
+    roster_of,
+)
+from evenbreak.files.schedule import LAST_WEEK
+from evenbreak.files.text_table import Table, read_table
+from evenbreak.league.players import ESTABLISHED, LeaguePlayers
+from evenbreak.ratings.roster import NOT_STATED, Roster
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+FARTHEST = 10_000
+"""The largest rating or skill that is simulated, in points."""
+
+LARGEST_SD = 1_000
+"""The largest standard deviation, or drift a week, that is simulated, in points."""
+
+
+@dataclass(frozen=True, eq=False)
+class LeagueFile:
+    """What a league's roster says.
+
+    Parameters
+    ----------
+    players
+        as `Season` takes them, in the order of the file; ratings in whole points.
+    roster
+        the same players as a list of ratings.
+    source
+        what the file is called in messages.
+    warnings
+        what a person should look at although the file can be used, a line each.
+    guessed
+        how many players have a skill that is drawn, from rating and standard error.
+    exact
+        how many are taken to be rated rightly, for want of a skill and a standard error.
+    """
+
+    players: LeaguePlayers
+    roster: Roster
+    source: str
+    warnings: tuple[str, ...]
+    guessed: int
+    exact: int
+
+
+def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
+    r"""Read the roster of a season from a CSV file; '-' is standard input.
+
+    The columns of a roster, and those of `LEAGUE`. A skill that is not stated is drawn anew
+    for each replica, from a normal law about the rating with the standard error; where that is
+    not stated either, the skill is the rating. Ratings are rounded to whole points, halves
+    upwards.
+
+    Parameters
+    ----------
+    path
+        the file.
+    day_sd
+        how far skills vary from day to day, in points, where the file does not say.
+
+    Raises
+    ------
+    DataError
+        with all that is wrong in the file: what `read_roster` tells, players without a
+        rating, cells out of range, somebody who leaves before he joins.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "club.csv"
+    ...     _ = path.write_text("player,rating,se,skill\nAnn,92.5,9,\nBo,71,9,75\nCy,60,,\n")
+    ...     club = read_league(path)
+    >>> club.players.rating, club.players.skill, club.players.skill_sd
+    (array([93, 71, 60]), array([92.5, 75. , 60. ]), array([9., 0., 0.]))
+    """
+    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **LEAGUE})
+    skill = _within(table, "skill", "points such as 85", -FARTHEST, FARTHEST)
+    days = _within(table, "day_sd", "points such as 5", 0, LARGEST_SD)
+    drift = _within(table, "drift", "points a week such as 0.1", -LARGEST_SD, LARGEST_SD)
+    absence = _within(table, "absence", "the chance to be absent, such as 0.1", 0, 1)
+    joins, leaves = _week(table, "joins"), _week(table, "leaves")
+    table.problems.add_rows(
+        table.lines,
+        np.flatnonzero((leaves > 0) & (leaves < joins)),
+        lambda row: f"leaves in week {leaves[row]}, before week {joins[row]}; correct one of them",
+    )
+    _check_ratings(table)
+    if len(table) == 1:
+        table.problems.add(None, "1 player is no league; write two or more")
+    file = roster_of(table, all_rated=True)
+    roster = file.roster
+    sd = np.where(np.isnan(skill), roster.standard_error, 0.0)
+    whole = np.floor(roster.rating + 0.5)
+    try:
+        players = LeaguePlayers.of(
+            whole.astype(np.int64),
+            names=roster.players,
+            skill=np.where(np.isnan(skill), roster.rating, skill),
+            skill_sd=np.nan_to_num(sd),
+            day_sd=np.where(np.isnan(days), day_sd, days),
+            drift=np.nan_to_num(drift),
+            joins=np.maximum(joins, 1),
+            leaves=leaves,
+            absence=np.nan_to_num(absence),
+            # Of whom the list does not say it, he is no newcomer.
+            played=np.where(roster.matches == NOT_STATED, ESTABLISHED, roster.matches),
+        )
+    except InputError as error:
+        raise DataError([f"{table.source}: {error}"]) from None
+    warnings = [*file.warnings]
+    rounded = int((whole != roster.rating).sum())
+    if rounded:
+        warnings.append(
+            f"{table.source}: {rounded:,} rating{'s are' if rounded > 1 else ' is'} rounded to "
+            "whole points, as charts need them"
+        )
+    return LeagueFile(
+        players, roster, table.source, tuple(warnings), int((sd > 0).sum()), int(np.isnan(sd).sum())
+    )
+
+
+def _check_ratings(table: Table) -> None:
+    """Note ratings that are too far out; what is no number `roster_of` tells."""
+    aside = replace(table, problems=Problems(table.source))
+    rating = numbers(aside, "rating", remedy="", may_be_empty=True).values
+    table.problems.add_rows(
+        table.lines,
+        np.flatnonzero((np.abs(rating) > FARTHEST) & (np.abs(rating) <= LARGEST)),
+        lambda row: (
+            f"rating {rating[row]:g} is not from {-FARTHEST:,} to {FARTHEST:,}, beyond which "
+            "nothing is simulated; take the same number of points from all ratings"
+        ),
+    )
+
+
+def _within(
+    table: Table, name: str, example: str, least: float, most: float
+) -> NDArray[np.float64]:
+    """Read a column of numbers from `least` to `most`, NaN where a cell is empty."""
+    remedy = f"write {example}, or leave it empty"
+    values: NDArray[np.float64] = numbers(table, name, remedy=remedy, may_be_empty=True).values
+    table.problems.add_rows(
+        table.lines,
+        np.flatnonzero((values < least) | (values > most)),
+        lambda row: f"{name} {values[row]:g} is not from {least:,} to {most:,}; {remedy}",
+    )
+    return values
+
+
+def _week(table: Table, name: str) -> NDArray[np.int64]:
+    """Read a column of weeks, 0 where a cell is empty."""
+    remedy = "write 1 for the first week, 2, ..., or leave it empty"
+    weeks: NDArray[np.int64] = whole_numbers(
+        table, name, at_least=0, at_most=LAST_WEEK, remedy=remedy, may_be_empty=True
+    ).values
+    return weeks

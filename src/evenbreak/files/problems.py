@@ -1,0 +1,96 @@
+"""All that is wrong with a file, gathered so that a person can mend it in one go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from evenbreak.errors import DataError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+LONGEST_QUOTE = 40
+
+
+def quoted(text: str) -> str:
+    r"""Return text as a message may quote it: short, on one line, harmless to a terminal.
+
+    >>> quoted("six\nhundred"), quoted("9" * 50)
+    ("'six\\nhundred'", "'9999999999999999999999999999999999999999'...")
+    """
+    return repr(text) if len(text) <= LONGEST_QUOTE else repr(text[:LONGEST_QUOTE]) + "..."
+
+
+def printable(text: str) -> str:
+    r"""Return text with all that does not print escaped, so that it stays on one line.
+
+    >>> printable("Zoë's\nfile\x1b.csv")
+    "Zoë's\\nfile\\x1b.csv"
+    """
+    return "".join(
+        letter if letter.isprintable() else letter.encode("unicode_escape").decode()
+        for letter in text
+    )
+
+
+class Problems:
+    """The problems of one file, told in the order of its lines.
+
+    Parameters
+    ----------
+    source
+        what the file is called in the messages.
+
+    >>> problems = Problems("players.csv")
+    >>> problems.add(7, "rating 'six' is not a number; write digits")
+    >>> problems.add(None, "there is no column 'player'; add it")
+    >>> problems.raise_any()
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.DataError: players.csv: there is no column 'player'; add it
+    players.csv:7: rating 'six' is not a number; write digits
+    """
+
+    def __init__(self, source: str) -> None:
+        self.source = source
+        self._found: list[tuple[int, str]] = []
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    def add(self, line: int | None, message: str) -> None:
+        """Note one problem: its line (None for the file as a whole), what and how to mend it."""
+        self._found.append((line or 0, message))
+
+    def add_rows(
+        self, lines: NDArray[np.int64], rows: NDArray[np.int64], message: Callable[[int], str]
+    ) -> None:
+        """Note a problem in each of `rows`.
+
+        Parameters
+        ----------
+        lines
+            the line of each row of the table.
+        rows
+            the rows at fault.
+        message
+            what is wrong in a row, and how to mend it.
+        """
+        self._found += [(int(lines[row]), message(int(row))) for row in rows]
+
+    def raise_any(self) -> None:
+        """Raise what was found, if anything was.
+
+        Raises
+        ------
+        DataError
+            with one line a problem, those of the file as a whole first.
+        """
+        if self._found:
+            # Stable: problems of one line stay in the order in which they were found.
+            ordered = sorted(self._found, key=lambda problem: problem[0])
+            raise DataError(
+                f"{self.source}{f':{line}' if line else ''}: {text}" for line, text in ordered
+            )

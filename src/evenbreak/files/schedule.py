@@ -1,0 +1,97 @@
+"""From a list of fixtures to `FixedSchedule`, with all its problems told at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.files.cells import whole_numbers
+from evenbreak.files.pairs import PAIRS, pairs_in
+from evenbreak.files.text_table import Table, read_table
+from evenbreak.league.schedule import FixedSchedule
+from evenbreak.ratings.roster import Roster
+
+WEEK = {"week": ("round", "night", "matchday", "week number")}
+"""The column of a schedule beside those of `PAIRS`, with its other names."""
+
+MOST_TOLD = 5
+"""Matches that are there twice and told one by one."""
+
+LAST_WEEK = 10_000
+"""The largest number of weeks that is taken for one."""
+
+
+@dataclass(frozen=True, eq=False)
+class ScheduleFile:
+    """What a list of fixtures says.
+
+    Parameters
+    ----------
+    schedule
+        who meets whom in which week.
+    source
+        what the file is called in messages.
+    warnings
+        what a person should look at although the file can be used, a line each.
+    """
+
+    schedule: FixedSchedule
+    source: str
+    warnings: tuple[str, ...]
+
+
+def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
+    r"""Read a schedule from a CSV file, a match a row; '-' is standard input.
+
+    Names are those of the roster, as `read_pairs` takes them; weeks count from 1, in any
+    order, and a player may have several matches in one.
+
+    Raises
+    ------
+    DataError
+        with all that is wrong in the file: missing columns, no rows, weeks that are no
+        whole numbers from 1 on, names that the roster does not have, a player against himself.
+
+    >>> import tempfile, pathlib
+    >>> club = Roster(["Ann", "Bo", "Cy"], [92, 71, 80])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "fixtures.csv"
+    ...     _ = path.write_text("week,player_a,player_b\n1,Cy,Ann\n2,bo,Cy\n")
+    ...     schedule = read_schedule(path, club).schedule
+    >>> schedule.weeks, schedule.a, schedule.b
+    (2, array([2, 1]), array([0, 2]))
+    """
+    table = read_table(path, {**WEEK, **PAIRS})
+    if not len(table) and not len(table.problems):
+        table.problems.add(None, "has no matches below its header; write one line for each")
+    week = whole_numbers(
+        table, "week", at_least=1, at_most=LAST_WEEK, remedy="write 1 for the first week, 2, ..."
+    ).values
+    pairs = pairs_in(table, roster)
+    table.problems.raise_any()
+    warnings = *table.warnings, *_twice(table, week, pairs)
+    return ScheduleFile(FixedSchedule(week, *pairs.T), table.source, warnings)
+
+
+def _twice(table: Table, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> Iterator[str]:
+    """Yield a line for each match that another line of the same week has too, up to a few."""
+    _, first, same = np.unique(
+        np.column_stack([week, np.sort(pairs, axis=1)]),
+        axis=0,
+        return_index=True,
+        return_inverse=True,
+    )
+    earlier = first[same.ravel()]
+    again = np.flatnonzero(earlier != np.arange(len(week)))
+    for row in again[:MOST_TOLD].tolist():
+        yield (
+            f"{table.source}:{table.lines[row]}: the same two meet in week {week[row]} as in line "
+            f"{table.lines[earlier[row]]}; both matches are played"
+        )
+    if len(again) > MOST_TOLD:
+        more = len(again) - MOST_TOLD
+        yield f"{table.source}: and {more:,} more such match{'es' if more > 1 else ''}"

@@ -1,0 +1,286 @@
+"""The audit of a chart: how fair its races are, and which scale and which tilt it was made for.
+
+A race m:n is even at one game probability only, and on a scale of s points a doubling of the
+odds that is the gap of s·e points, where e = log2(p / (1 - p)) at W(p; m, n) = 1/2. A chart
+cuts between two races somewhere from the gap at which the first is even to the gap at which
+the second is: with tilt t at s·((1 - t)·e_k + t·e_(k-1)). So tilt 0 makes each race even where
+its band begins, 1/2 in its middle (at each cut both races are about equally unfair, one to
+either player), 1 where it ends. The cuts are linear in s and s·t: least squares gives both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import betaincinv
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow
+from evenbreak.matches.parameters import plain
+from evenbreak.matches.win import race_win_probability
+from evenbreak.ratings.scale import Scale, scale_of
+
+
+@dataclass(frozen=True)
+class ChartFit:
+    """A scale with the tilt that fits a chart best.
+
+    Parameters
+    ----------
+    points_per_doubling
+        the rating points that double the odds of a game.
+    tilt
+        where in its band a race is even: 0 where it begins, 1/2 in its middle, 1 where it
+        ends. Of tilt 0 the stronger player is never the underdog, of tilt 1 the weaker.
+    misfit
+        how far the chart's cuts lie from those of scale and tilt, root mean square, in
+        points; rounding to whole points alone makes 0.29.
+    """
+
+    points_per_doubling: float
+    tilt: float
+    misfit: float
+
+
+@dataclass(frozen=True)
+class AuditRow:
+    """What one row of a chart is worth.
+
+    Parameters
+    ----------
+    difference_from, difference_to, stronger_needs, weaker_needs
+        the row; `difference_to` is None where it has no end.
+    p_win_low, p_win_middle, p_win_high
+        P(the stronger player wins the race | the ratings are right and the difference is
+        the row's first, that in its middle, its last); None where the row has no end.
+    even_difference
+        the difference in points at which the race is even.
+    even_place
+        where in its band that is: 0 where the band begins (half a point before its first
+        whole point), 1 where it ends; outside the band below 0 or above 1. None for a row
+        that begins at 0 or has no end.
+    unfairness
+        the largest `|P - 1/2|` of the band's ends.
+    monotone
+        whether the race is harder for the stronger player than those of all earlier rows.
+    """
+
+    difference_from: int
+    difference_to: int | None
+    stronger_needs: int
+    weaker_needs: int
+    p_win_low: float
+    p_win_middle: float | None
+    p_win_high: float | None
+    even_difference: float
+    even_place: float | None
+    unfairness: float
+    monotone: bool
+
+
+@dataclass(frozen=True)
+class ChartAudit:
+    """How fair a chart is, row by row, and what scale and tilt fit it.
+
+    Parameters
+    ----------
+    name
+        what the chart is called.
+    scale
+        the scale on which the chances are worked out.
+    fit
+        that scale with the tilt that fits the chart best on it; None where the chart has
+        a single row.
+    best_fit
+        the scale and the tilt that fit the chart best together; None where its cuts do not
+        tell them.
+    rows
+        the rows by where they begin.
+    gaps, overlaps
+        the differences (first, last) in no row, and in more than one; the last is None
+        where there is no end.
+    """
+
+    name: str
+    scale: Scale
+    fit: ChartFit | None
+    best_fit: ChartFit | None
+    rows: tuple[AuditRow, ...]
+    gaps: tuple[tuple[int, int | None], ...]
+    overlaps: tuple[tuple[int, int | None], ...]
+
+    @property
+    def worst(self) -> AuditRow:
+        """The most unfair row, the first of equals."""
+        return max(self.rows, key=lambda row: row.unfairness)
+
+
+def audit(chart: Chart | ChartDraft, *, scale: Any = None) -> ChartAudit:
+    """Return how fair a chart of rating differences is, and the scale and tilt that fit it.
+
+    Parameters
+    ----------
+    chart
+        the chart, or its rows as a `ChartDraft` where they have gaps or overlaps.
+    scale
+        what the ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the
+        odds; None for the scale that fits the chart best.
+
+    Raises
+    ------
+    InputError
+        if the chart has no rows or a row ends before it begins, or if no scale is given and
+        the chart does not tell one (it has fewer than three rows, or its races do not get
+        harder).
+
+    Notes
+    -----
+    Source: Table 5.6 and the two equations before it; the gap at which a race is even, P5.5.
+
+    >>> from evenbreak.handicaps import chart
+    >>> report = audit(chart("npl_10"))
+    >>> round(report.best_fit.points_per_doubling, 1), round(report.best_fit.tilt, 2)
+    (30.1, 0.49)
+    >>> row = audit(chart("fargo_r6_hot"), scale="fargo").rows[3]
+    >>> row.stronger_needs, row.weaker_needs, round(row.even_difference, 2)
+    (7, 4, 86.09)
+    """
+    rows = _in_order(chart)
+    even = even_doublings([row.stronger_needs for row in rows], [row.weaker_needs for row in rows])
+    cuts = np.array([row.difference_from - 0.5 for row in rows[1:]])
+    best = _best_fit(even, cuts)
+    if scale is None and best is None:
+        raise InputError(
+            f"scale is missing, and chart {chart.name!r} does not tell one; give npl, fargo, "
+            "elo, or the points that double the odds"
+        )
+    used = _fitted(best) if best and scale is None else scale_of(scale)
+    return ChartAudit(
+        chart.name,
+        used,
+        best if scale is None else _fit_on(used.points_per_doubling, even, cuts),
+        best,
+        tuple(_audited(rows, even, used)),
+        *_gaps_and_overlaps(rows),
+    )
+
+
+def even_doublings(m: ArrayLike, n: ArrayLike) -> Any:
+    """Return how often the odds of a game must double to make the race m:n even, elementwise.
+
+    Times the points that double the odds, that is the rating difference at which the race is
+    even: positive where player 1 needs more games.
+
+    Parameters
+    ----------
+    m, n
+        the games that player 1 and player 2 need, 1 or more.
+
+    Notes
+    -----
+    Source: P5.5, solved for p at W(p; m, n) = 1/2. Both p and 1 - p are found by inverting
+    the incomplete beta function, so that neither loses digits.
+
+    >>> round(100.0 * even_doublings(7, 4), 2)
+    86.09
+    """
+    mine, theirs = np.asarray(m, dtype=float), np.asarray(n, dtype=float)
+    odds = np.asarray(betaincinv(mine, theirs, 0.5)) / betaincinv(theirs, mine, 0.5)
+    return plain(np.log2(odds), odds.shape)
+
+
+def _in_order(chart: Chart | ChartDraft) -> list[ChartRow]:
+    rows = sorted(chart.rows, key=lambda row: row.difference_from)
+    if not rows:
+        raise InputError(f"chart {chart.name!r} has no rows; give one for each span of differences")
+    for row in rows:
+        if row.difference_to is not None and row.difference_to < row.difference_from:
+            raise InputError(
+                f"a row goes from {row.difference_from} to {row.difference_to}; "
+                "let it end where it begins or later"
+            )
+    return rows
+
+
+def _best_fit(even: NDArray[np.float64], cuts: NDArray[np.float64]) -> ChartFit | None:
+    """Return the scale and the tilt whose cuts come nearest, by least squares."""
+    columns = np.column_stack([even[1:], -np.diff(even)])
+    (points, tilted), _, rank, _ = np.linalg.lstsq(columns, cuts)
+    if rank < 2 or not points > 0.0:
+        return None
+    return ChartFit(
+        float(points),
+        float(tilted / points),
+        float(np.sqrt(np.mean((columns @ (points, tilted) - cuts) ** 2))),
+    )
+
+
+def _fitted(fit: ChartFit) -> Scale:
+    """Return the scale of a fit, which may be as odd as the chart."""
+    return Scale(f"{fit.points_per_doubling:.4g} points", fit.points_per_doubling)
+
+
+def _fit_on(points: float, even: NDArray[np.float64], cuts: NDArray[np.float64]) -> ChartFit | None:
+    """Return a scale with the tilt whose cuts come nearest."""
+    step = points * np.diff(even)
+    if not step.any():
+        return None
+    above = points * even[1:] - cuts
+    tilt = float(step @ above / (step @ step))
+    return ChartFit(points, tilt, float(np.sqrt(np.mean((above - tilt * step) ** 2))))
+
+
+def _audited(
+    rows: Sequence[ChartRow], even: NDArray[np.float64], scale: Scale
+) -> Iterator[AuditRow]:
+    first = np.array([row.difference_from for row in rows], dtype=float)
+    last = np.array([row.difference_to for row in rows], dtype=float)  # None becomes NaN
+    ends = np.isfinite(last)
+    differences = np.array([first, (first + last) / 2.0, last])
+    games = np.array([row[2:] for row in rows])
+    p = scale.win_probability(np.where(ends, differences, first))
+    wins = race_win_probability(p, games[:, 0], games[:, 1])
+    unfairness = np.abs(wins - 0.5).max(axis=0)
+    points = even * scale.points_per_doubling
+    highest = np.maximum.accumulate(even)
+    for k, row in enumerate(rows):
+        low, middle, high = wins[:, k].tolist()
+        inside = row.difference_from > 0 and bool(ends[k])
+        yield AuditRow(
+            *row,
+            p_win_low=low,
+            p_win_middle=middle if ends[k] else None,
+            p_win_high=high if ends[k] else None,
+            even_difference=float(points[k]),
+            even_place=float((points[k] - first[k] + 0.5) / (last[k] - first[k] + 1.0))
+            if inside
+            else None,
+            unfairness=float(unfairness[k]),
+            monotone=k == 0 or bool(even[k] > highest[k - 1]),
+        )
+
+
+Spans = tuple[tuple[int, int | None], ...]
+
+
+def _gaps_and_overlaps(rows: Sequence[ChartRow]) -> tuple[Spans, Spans]:
+    gaps: list[tuple[int, int | None]] = []
+    overlaps: list[tuple[int, int | None]] = []
+    free: int | None = 0  # the first difference above all rows so far; None: there is none
+    for first, last, _, _ in rows:
+        if free is not None and first > free:
+            gaps.append((free, first - 1))
+        elif free is None or first < free:
+            before = None if free is None else free - 1
+            ends = [end for end in (last, before) if end is not None]
+            overlaps.append((first, min(ends, default=None)))
+        if free is not None:
+            free = None if last is None else max(free, last + 1)
+    if free is not None:
+        gaps.append((free, None))
+    return tuple(gaps), tuple(overlaps)

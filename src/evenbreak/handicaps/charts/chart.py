@@ -1,0 +1,200 @@
+"""Charts: how far apart two ratings are says which race is played."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.rows import ChartRow, row_faults
+
+CHARTS = ("fargo_r6_hot", "npl_8", "npl_10", "npl_12", "npl_20")
+"""The charts that come with the package, by name."""
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A chart of races by rating difference, as a league prints it.
+
+    Parameters
+    ----------
+    name
+        what the chart is called.
+    rows
+        the rows in the order of the differences, each a `ChartRow` or its four values.
+        The first begins at 0 and is an even race, since of two equal ratings neither is
+        the stronger; each next one begins where the last one ended; the last has no end.
+
+    Raises
+    ------
+    InputError
+        if a row breaks these rules, or the stronger player needs fewer games in it than
+        the weaker; it says which.
+
+    Notes
+    -----
+    Source: Table 5.6.
+
+    >>> short = Chart("short", [(0, 9, 3, 3), (10, 19, 4, 3), (20, None, 4, 2)])
+    >>> short.race(12), short.race(-12), short.race(500)
+    ((4, 3), (3, 4), (4, 2))
+    """
+
+    name: str
+    rows: Sequence[ChartRow]
+
+    def __post_init__(self) -> None:
+        rows = [_checked(row, f"row {i}") for i, row in enumerate(_rows(self.rows), 1)]
+        if not rows:
+            raise InputError("rows is empty; give a row for each span of differences")
+        for _, fault in row_faults(rows):
+            raise InputError(fault)
+        object.__setattr__(self, "rows", tuple(rows))
+
+    def race(self, difference: Any) -> tuple[int, int]:
+        """Return (m, n): the games that player 1 and player 2 need.
+
+        Parameters
+        ----------
+        difference
+            rating of player 1 minus rating of player 2, in whole points; where it is
+            negative, player 2 is the stronger and the race is turned round.
+
+        Raises
+        ------
+        InputError
+            if the difference is not a whole number. A chart has no row between 5 and 6,
+            and rounding two ratings first is not the same as rounding their difference,
+            so that is left to whoever knows which the league does.
+
+        >>> chart("npl_10").race(5), chart("npl_10").race(6), chart("npl_10").race(-6)
+        ((5, 5), (5, 4), (4, 5))
+        >>> chart("npl_10").race(5.5)
+        Traceback (most recent call last):
+        ...
+        evenbreak.errors.InputError: difference is 5.5; give whole points (round the two
+        ratings before you subtract)
+        """
+        points = _whole_points(difference)
+        row = next(row for row in reversed(self.rows) if row.difference_from <= abs(points))
+        needs = row.stronger_needs, row.weaker_needs
+        return needs if points >= 0 else needs[::-1]
+
+    def races(self, differences: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return (m, n), two arrays: the games that player 1 and player 2 need, elementwise.
+
+        Parameters
+        ----------
+        differences
+            rating of player 1 minus rating of player 2, in whole points, of any shape.
+
+        Raises
+        ------
+        InputError
+            if a difference is not a whole number.
+
+        >>> m, n = chart("npl_10").races([5, 6, -6])
+        >>> m, n
+        (array([5, 5, 4]), array([5, 4, 5]))
+        """
+        points = _array_of_points(differences)
+        needs = np.array([row[2:] for row in self.rows])
+        starts = [row.difference_from for row in self.rows]
+        place = np.searchsorted(starts, np.abs(points), side="right") - 1
+        stronger, weaker = needs[place, 0], needs[place, 1]
+        ahead = points >= 0.0
+        return np.where(ahead, stronger, weaker), np.where(ahead, weaker, stronger)
+
+
+def _rows(rows: Iterable[Iterable[Any]]) -> list[ChartRow]:
+    try:
+        return [ChartRow(*row) for row in rows]
+    except TypeError:
+        raise InputError(
+            f"rows is {rows!r}; give rows of four: difference_from, difference_to, "
+            "stronger_needs, weaker_needs"
+        ) from None
+
+
+def _checked(row: ChartRow, name: str) -> ChartRow:
+    """Return a row with its numbers as ints, or refuse it."""
+    last = row.difference_to
+    return ChartRow(
+        whole(row.difference_from, f"difference_from of {name}"),
+        None if last is None else whole(last, f"difference_to of {name}"),
+        whole(row.stronger_needs, f"stronger_needs of {name}", at_least=1),
+        whole(row.weaker_needs, f"weaker_needs of {name}", at_least=1),
+    )
+
+
+def _whole_points(difference: Any) -> int:
+    try:
+        points = int(difference)
+        right = bool(points == difference) and not isinstance(difference, str | bytes)
+    except (TypeError, ValueError, OverflowError):
+        right = False
+    if not right:
+        raise InputError(
+            f"difference is {difference!r}; give whole points (round the two ratings before "
+            "you subtract)"
+        )
+    return points
+
+
+def _array_of_points(differences: ArrayLike) -> NDArray[np.float64]:
+    try:
+        array = np.asarray(differences)
+        points = array.astype(float) if array.dtype.kind in "iuf" else np.array(np.nan)
+    except ValueError:  # rows of different lengths
+        points = np.array(np.nan)
+    wrong = ~(np.isfinite(points) & (points == np.floor(points)))
+    if wrong.any():
+        held = f"hold {points[wrong].flat[0]:g}" if points.ndim else f"are {differences!r}"
+        raise InputError(
+            f"differences {held}; give whole points (round the ratings before you subtract)"
+        )
+    return points
+
+
+def chart(name: str) -> Chart:
+    """Return a chart that comes with the package, by its name in `CHARTS`.
+
+    `npl_8`, `npl_10`, `npl_12` and `npl_20` are the National Pool League's charts, short
+    to very long; `fargo_r6_hot` is a chart of races to 6 and more for Fargo ratings, of which
+    100 points double the odds.
+
+    Raises
+    ------
+    InputError
+        if no chart has this name.
+
+    Notes
+    -----
+    Source: Table 5.6 (National Pool League); the chart "R6 Hot" as leagues print it (Fargo).
+
+    >>> chart("npl_8").rows[1]
+    ChartRow(difference_from=7, difference_to=18, stronger_needs=4, weaker_needs=3)
+    """
+    if name not in CHARTS:
+        raise InputError(f"chart is {name!r}; give one of {', '.join(CHARTS)}")
+    return _read(name)
+
+
+@cache
+def _read(name: str) -> Chart:
+    text = (
+        files("evenbreak.handicaps.charts").joinpath("catalogue", f"{name}.csv").read_text("utf-8")
+    )
+    rows = [
+        ChartRow(int(start), int(end) if end else None, int(stronger), int(weaker))
+        for start, end, stronger, weaker in list(csv.reader(text.splitlines()))[1:]
+    ]
+    return Chart(name, rows)

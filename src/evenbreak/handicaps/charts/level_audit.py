@@ -1,0 +1,168 @@
+"""The audit of a chart of skill levels: the ratings that it takes the levels for, and how well.
+
+The race of two levels is even at one gap in strength. If the chart were consistent, each level
+would have one rating, and every one of those gaps would be the difference of two ratings; least
+squares finds the ratings that come nearest to that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.handicaps.charts.audit import even_doublings
+from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.matches.win import race_win_probability
+from evenbreak.ratings.scale import Scale, scale_of
+
+
+@dataclass(frozen=True)
+class LevelCell:
+    """What the race of two skill levels is worth.
+
+    Parameters
+    ----------
+    level, opponent_level, needs, opponent_needs
+        the two levels, the higher first, and the games that each needs.
+    p_win_low, p_win_middle, p_win_high
+        P(the player of the higher level wins | the ratings of the two are as near to each
+        other as the levels allow, in the middle of the levels, as far apart as the levels
+        allow). Of two players of one level, the stronger is meant.
+    even_difference
+        the difference in points at which the race is even.
+    difference
+        the difference in points between the ratings of the two levels; what lies between
+        it and `even_difference` is what the chart gives to one of the two.
+    unfairness
+        `|p_win_middle - 1/2|`; of two players of one level, 0.
+    monotone
+        whether the race is harder for the higher level than that against the next higher
+        opponent, and than that of the next lower level against the same opponent.
+    """
+
+    level: int
+    opponent_level: int
+    needs: int
+    opponent_needs: int
+    p_win_low: float
+    p_win_middle: float
+    p_win_high: float
+    even_difference: float
+    difference: float
+    unfairness: float
+    monotone: bool
+
+
+@dataclass(frozen=True)
+class LevelAudit:
+    """How fair a chart of skill levels is, and what it takes the levels for.
+
+    Parameters
+    ----------
+    name
+        what the chart is called.
+    scale
+        the scale of the ratings; the chart itself tells none.
+    levels, ratings
+        the skill levels, and the rating of the middle of each in points, the lowest 0.
+    misfit
+        how far the gaps of the chart lie from the differences of these ratings, root mean
+        square over the pairs of different levels, in points.
+    cells
+        the pairs of levels, the higher of the two first.
+    """
+
+    name: str
+    scale: Scale
+    levels: tuple[int, ...]
+    ratings: tuple[float, ...]
+    misfit: float
+    cells: tuple[LevelCell, ...]
+
+    @property
+    def worst(self) -> LevelCell:
+        """The most unfair pair of levels, the first of equals."""
+        return max(self.cells, key=lambda cell: cell.unfairness)
+
+
+def audit_levels(chart: LevelChart, *, scale: Any = "npl") -> LevelAudit:
+    """Return how fair a chart of skill levels is, and the ratings that fit it best.
+
+    A level is taken to reach half-way to the next ones, the lowest and the highest as far to
+    the outside as to the inside.
+
+    Parameters
+    ----------
+    chart
+        the chart.
+    scale
+        in which points to give the ratings: 'npl', 'fargo', 'elo', a `Scale` or the points
+        that double the odds. No chance depends on it.
+
+    Raises
+    ------
+    InputError
+        if there is no such scale.
+
+    Notes
+    -----
+    The gap at which a race is even: P5.5. Every pair of levels weighs the same.
+
+    >>> from evenbreak.handicaps import level_chart
+    >>> report = audit_levels(level_chart("apa_8ball"), scale="fargo")
+    >>> [round(rating) for rating in report.ratings]
+    [0, 44, 101, 149, 184, 223]
+    """
+    used = scale_of(scale)
+    needs = np.array(chart.needs)
+    even = even_doublings(needs, needs.T)
+    # With every pair there once, and even[j, i] = -even[i, j], the mean of a row is the
+    # least-squares rating of its level.
+    strength = even.mean(axis=1)
+    gaps = strength[:, None] - strength[None, :]
+    upper = np.triu_indices(len(strength), 1)
+    misfit = float(np.sqrt(np.mean((gaps - even)[upper] ** 2))) if len(upper[0]) else 0.0
+    points = used.points_per_doubling
+    return LevelAudit(
+        chart.name,
+        used,
+        tuple(chart.levels),
+        tuple((points * (strength - strength[0])).tolist()),
+        points * misfit,
+        tuple(_cells(chart, even, strength, used)),
+    )
+
+
+def _cells(
+    chart: LevelChart, even: NDArray[np.float64], strength: NDArray[np.float64], scale: Scale
+) -> Iterator[LevelCell]:
+    half = np.diff(strength) / 2.0
+    below, above = (np.r_[half[:1], half], np.r_[half, half[-1:]]) if len(half) else ([0.0],) * 2
+    low, high = strength - below, strength + above
+    points = scale.points_per_doubling
+    for i, level in enumerate(chart.levels):
+        for j, opponent in enumerate(chart.levels[: i + 1]):
+            own, other = chart.race(level, opponent)
+            gap = strength[i] - strength[j]
+            nearest, farthest = (low[i] - high[j] if i > j else 0.0), high[i] - low[j]
+            middle = gap if i > j else farthest / 2.0
+            p = scale.win_probability(points * np.array([nearest, middle, farthest]))
+            low_end, centre, high_end = race_win_probability(p, own, other).tolist()
+            easier = [even[k] for k in ((i - 1, j), (i, j + 1)) if i > j]
+            yield LevelCell(
+                level,
+                opponent,
+                own,
+                other,
+                p_win_low=low_end,
+                p_win_middle=centre,
+                p_win_high=high_end,
+                even_difference=float(points * even[i, j]),
+                difference=float(points * gap),
+                unfairness=abs(centre - 0.5) if i > j else 0.0,
+                monotone=all(even[i, j] > gap_before for gap_before in easier),
+            )

@@ -1,0 +1,186 @@
+"""What fairness costs in length: charts of which none is both fairer and shorter."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from itertools import count
+from typing import Any, NamedTuple
+
+from evenbreak.checks import one_of, whole
+from evenbreak.handicaps.charts.candidates import Candidates
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.cheapest_path import NoChartError
+from evenbreak.handicaps.charts.match_rules import play_of
+from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
+from evenbreak.handicaps.charts.race_limits import RaceLimits
+
+_TIE = 1e-9
+_STEP = 0.5
+"""Between the limits on the mean length, in games."""
+
+
+@dataclass(frozen=True)
+class ParetoChart:
+    """A chart among others, by unfairness and length.
+
+    Parameters
+    ----------
+    chart
+        the chart; a designed one is called by its limit ('games_p90 8' or 'mean_games 6.5'),
+        by 'fairest' where it has none, or by 'as npl_10' where it is no longer than that.
+    measure
+        how fair it is and how long.
+    beaten_by
+        the name of the fairest chart here that is no longer, by the mean and by the 90 %
+        length, and fairer, or as fair and shorter; None: nothing here beats it.
+    """
+
+    chart: Chart
+    measure: ChartMeasure
+    beaten_by: str | None
+
+
+def pareto(
+    play: Any,
+    limits: RaceLimits,
+    *,
+    beside: Sequence[Chart] = (),
+    criterion: str = "mean",
+    target: float = 0.5,
+    up_to: int | None = None,
+    rows: int | None = None,
+    watch: Callable[[int], object] | None = None,
+) -> list[ParetoChart]:
+    """Return what fairness costs in length: the fairest charts, by how long they may be.
+
+    Parameters
+    ----------
+    play, limits, target
+        as `design` takes them.
+    beside
+        printed charts to place among them. To each belongs 'as' its name: the fairest
+        chart that the limits allow and that is no longer.
+    criterion
+        'mean' or 'worst': which unfairness counts.
+    up_to
+        the last difference that counts; None for the last at which every chart beside still
+        favours the weaker (or, without one, the hardest allowed race).
+    rows
+        the most rows of a designed chart; None for any number.
+    watch
+        called after each chart designed, with how many there are so far.
+
+    Returns
+    -------
+    list of ParetoChart
+        by their mean length, the longest first: the fairest chart of all; the fairest by
+        each limit on the 90 % length; by limits on the mean length, half a game apart; and
+        the charts beside. Of the designed charts those are left out that another one beats.
+
+    Raises
+    ------
+    InputError
+        as `design` does.
+
+    >>> from evenbreak.handicaps import chart
+    >>> npl_8 = chart("npl_8")
+    >>> for one in pareto("npl", RaceLimits((5, 7), weaker_least=2), beside=[npl_8])[:4]:
+    ...     told = one.measure
+    ...     print(
+    ...         one.chart.name,
+    ...         round(told.mean_unfairness, 4),
+    ...         round(told.mean_games, 2),
+    ...         told.games_p90,
+    ...         one.beaten_by,
+    ...     )
+    npl_8 0.0306 5.1 7 fairest
+    fairest 0.0297 4.81 7 None
+    games_p90 6 0.0424 4.54 6 None
+    mean_games 4.5 0.0429 4.46 7 None
+    """
+    play = play_of(play)
+    criterion = one_of(criterion, "criterion", ("mean", "worst"))
+    if up_to is None and beside:
+        up_to = min(last_difference(chart, play) for chart in beside)
+    elif up_to is not None:
+        up_to = whole(up_to, "up_to", at_least=1)
+    candidates = Candidates(play, limits, up_to)
+    last = int(candidates.points[-1])
+
+    def measured(chart: Chart) -> _Measured:
+        return _Measured(chart, measure_chart(chart, play, up_to=last, target=target))
+
+    designed = count(1)
+
+    def fairest(name: str = "fairest", **most: Any) -> _Measured:
+        one = candidates.fairest(target=target, criterion=criterion, rows=rows, name=name, **most)
+        if watch is not None:
+            watch(next(designed))
+        return measured(one)
+
+    made = [fairest(), *_shorter_and_shorter(fairest)]
+    printed = [measured(chart) for chart in beside]
+    for one in printed:
+        with suppress(NoChartError):  # the limits allow none that is as short
+            told = one.measure
+            made.append(
+                fairest(
+                    f"as {one.chart.name}",
+                    mean_games=told.mean_games + _TIE,
+                    games_p90=told.games_p90,
+                )
+            )
+    every = [*printed, *_without_copies(made)]
+    placed = [
+        ParetoChart(one.chart, one.measure, _beaten_by(one, every, criterion)) for one in every
+    ]
+    kept = [one for k, one in enumerate(placed) if k < len(printed) or one.beaten_by is None]
+    return sorted(kept, key=lambda one: -one.measure.mean_games)
+
+
+class _Measured(NamedTuple):
+    chart: Chart
+    measure: ChartMeasure
+
+    def bad(self, criterion: str) -> tuple[float, float, int]:
+        """Return what should be small: unfairness, mean and 90 % length."""
+        told = self.measure
+        unfair = told.mean_unfairness if criterion == "mean" else told.worst_unfairness
+        return unfair, told.mean_games, told.games_p90
+
+
+def _shorter_and_shorter(fairest: Callable[..., _Measured]) -> Iterator[_Measured]:
+    """Yield the fairest charts under tighter and tighter limits, of either kind."""
+    longest = fairest().measure
+    with suppress(NoChartError):
+        games = longest.games_p90
+        while True:
+            games -= 1
+            yield (one := fairest(f"games_p90 {games}", games_p90=games))
+            games = min(games, one.measure.games_p90)
+    with suppress(NoChartError):
+        mean = longest.mean_games
+        while True:
+            most = _STEP * (math.ceil(mean / _STEP - _TIE) - 1)
+            yield (one := fairest(f"mean_games {most:g}", mean_games=most))
+            mean = min(most, one.measure.mean_games)
+
+
+def _without_copies(made: Sequence[_Measured]) -> list[_Measured]:
+    """Return the charts, the first of those with the same rows."""
+    return list({tuple(one.chart.rows): one for one in reversed(made)}.values())[::-1]
+
+
+def _beaten_by(one: _Measured, every: Sequence[_Measured], criterion: str) -> str | None:
+    """Return the name of the fairest chart that is nowhere worse and somewhere better."""
+    bad = one.bad(criterion)
+    better = [
+        (other.bad(criterion), other.chart.name)
+        for other in every
+        if all(a <= b + _TIE for a, b in zip(other.bad(criterion), bad, strict=True))
+        and any(a < b - _TIE for a, b in zip(other.bad(criterion), bad, strict=True))
+    ]
+    return min(better)[1] if better else None

@@ -1,0 +1,93 @@
+"""The chain of a ladder over all rating errors, whichever of them its start can reach.
+
+A ladder as a game begins at no error, and by steps of 3 it never comes to an error of 1. A
+newcomer may begin anywhere; so the chain here has every error from -widest to widest.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from evenbreak.chains import Chain, chain_from_arrays
+from evenbreak.errors import InputError
+from evenbreak.handicaps.ladders.error_walk import walk_matrix
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.handicaps.ladders.ladder import Ladder
+
+
+def move_matrix(ladder: Ladder, factor: int = 1) -> NDArray[np.float64]:
+    """Return P(error j after the match | error i before it), shape (errors, errors).
+
+    Rows are the errors before. Moves are multiplied by the factor of a newcomer. A move beyond
+    an end is not made.
+    """
+    if factor == 1 or not ladder.drift:
+        return walk_matrix(ladder.steps * factor, ladder.kernel)
+    # The factor is one of the match's moves, not of the skill that grows meanwhile.
+    steady = replace(ladder, drift=0.0)
+    shift, chance = -np.sign(ladder.drift), abs(ladder.drift)
+    grown = np.tile([1.0 - chance, chance], (len(ladder.errors), 1))
+    by_match = walk_matrix(steady.steps * factor, steady.kernel)
+    return np.asarray(by_match @ walk_matrix(np.array([0, int(shift)]), grown))
+
+
+def chain_of_errors(ladder: Ladder) -> Chain:
+    """Return the chain of a ladder, its states all errors in points in their order."""
+    matrix = move_matrix(ladder)
+    before, after = np.nonzero(matrix)
+    # Chances that add up to 1 may come out above it by a rounding.
+    chances = np.minimum(matrix[before, after], 1.0)
+    return chain_from_arrays(ladder.errors.tolist(), before, after, chances, start=0)
+
+
+def unit_of(ladder: Ladder) -> int:
+    """Return the number of points of which all moves that can happen are multiples."""
+    return math.gcd(*_moves(ladder))
+
+
+def period_of(ladder: Ladder) -> int:
+    """Return the period that the matches give the error, away from the ends.
+
+    An error comes back to itself only after a multiple of so many matches: 2 by moves of +-1 or
+    +-3, 3 by +2 and -1, 4 by +1 and -3, 1 by moves of one and two points either way. All moves
+    have the same remainder by the common divisor of their differences. A skill that drifts is
+    left out: it breaks the period, but by a seldom point only slowly.
+    """
+    if ladder.drift:
+        ladder = replace(ladder, drift=0.0, day_sd=0.0, match_sd=0.0)
+    moves = _moves(ladder)
+    unit = math.gcd(*moves)
+    return math.gcd(*(move - moves[0] for move in moves)) // unit if unit and moves[1:] else 1
+
+
+def _moves(ladder: Ladder) -> list[int]:
+    """Return the moves that can happen."""
+    return [int(move) for move in ladder.steps[(ladder.kernel > 0.0).any(axis=0)]]
+
+
+def error_on(widest: int, start: Any, what: str = "rating error") -> int:
+    """Return `start` as an int if it is a whole number from -widest to widest.
+
+    Raises
+    ------
+    InputError
+        if it is none.
+    """
+    try:
+        error = int(start)
+        right = bool(error == start) and not isinstance(start, str | bytes)
+    except (TypeError, ValueError, OverflowError):
+        right = False
+    if not right or abs(error) > widest:
+        raise InputError(
+            f"start is {start!r}; give a {what} in whole points from {-widest} to {widest}, or a "
+            "larger widest"
+        )
+    return error

@@ -1,0 +1,248 @@
+"""A rating error that moves with each match, as a game without an end, and its long-run law.
+
+A move that would take the error beyond the end of the line is not made: the error stays.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.chains.birth_death import line_law
+from evenbreak.checks import number_probabilities
+from evenbreak.errors import InputError
+from evenbreak.game import ArcArrays
+from evenbreak.stats.summary import Distribution
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+
+class ErrorWalk:
+    """What all ladders share: they are told by their moves and the chance of each at each error.
+
+    It is a game without an end: a state is the rating error in whole points, from -widest to
+    widest, and it begins at 0.
+    """
+
+    @property
+    @abstractmethod
+    def steps(self) -> NDArray[np.int64]:
+        """The moves that a match can bring, in points, from the lowest to the highest."""
+
+    @property
+    @abstractmethod
+    def kernel(self) -> NDArray[np.float64]:
+        """P(move | error before the match); shape (errors, steps), before the ends hold it."""
+
+    @property
+    def errors(self) -> NDArray[np.int64]:
+        """The rating errors, from -widest to widest."""
+        half = len(self.kernel) // 2
+        return np.arange(-half, half + 1)
+
+    @property
+    def start(self) -> int:
+        """No error."""
+        return 0
+
+    def moves(self, state: int) -> Mapping[int, float]:
+        """Return the probability of each next error, given the error `state`.
+
+        Raises
+        ------
+        InputError
+            if the state is beyond an end.
+        """
+        half = len(self.kernel) // 2
+        if not -half <= state <= half:
+            raise InputError(f"state is {state!r}; give a rating error from {-half} to {half}")
+        after: dict[int, float] = {}
+        for step, chance in zip(
+            self.steps.tolist(), self.kernel[state + half].tolist(), strict=True
+        ):
+            target = state + step if abs(state + step) <= half else state
+            after[target] = after.get(target, 0.0) + chance
+        return after
+
+    def winner(self, state: int) -> None:  # noqa: ARG002
+        """Return None: a ladder has no end."""
+        return
+
+    def arcs(self) -> ArcArrays | None:
+        """Return the arcs in the order of the errors; None where not every error is reached."""
+        steps, kernel = self.steps, self.kernel
+        # Beyond a certain win or loss there may be no way back to the start or out from it.
+        if math.gcd(*steps.tolist()) != 1 or not (kernel > 0.0).all() or np.abs(steps).max() > 1:
+            return None
+        chances = walk_matrix(steps, kernel)
+        sources, targets = np.nonzero(chances)
+        return ArcArrays(self.errors.tolist(), sources, targets, chances[sources, targets])
+
+    def law(self) -> Distribution:
+        """Return the law of the rating error in the long run: the stochastic limit.
+
+        Where all moves are multiples of a number g of points, no match takes an error from one
+        remainder by g to another. A skill knows nothing of g, so each remainder is equally
+        likely at the beginning; the law is the average over the g limits.
+        """
+        chances = long_run_law(self.steps, self.kernel)
+        return Distribution(tuple(self.errors.tolist()), tuple(chances.tolist()))
+
+
+@dataclass(frozen=True)
+class RatingLadder(ErrorWalk):
+    """A ladder of your own: up a point with a match won, down a point with one lost.
+
+    Parameters
+    ----------
+    wins
+        P(the player wins the match | his rating error is i), for i = -widest ... widest: an
+        odd number of chances, three or more.
+
+    Raises
+    ------
+    InputError
+        if a value is not a probability, or their number is even or less than three.
+
+    >>> ladder = RatingLadder([0.75, 0.5, 0.25])
+    >>> ladder.moves(0), ladder.moves(1)
+    ({-1: 0.5, 1: 0.5}, {0: 0.75, 1: 0.25})
+    >>> [round(chance, 3) for chance in ladder.law().probability]
+    [0.286, 0.429, 0.286]
+    """
+
+    wins: Sequence[float]
+
+    def __post_init__(self) -> None:
+        wins = number_probabilities(self.wins, "wins", "win chance")
+        if len(wins) < 3 or len(wins) % 2 == 0:
+            raise InputError(
+                f"wins has {len(wins)} chances; give one for each error from -widest to widest, "
+                "an odd number, three or more"
+            )
+        object.__setattr__(self, "wins", wins)
+
+    @property
+    def widest(self) -> int:
+        """The largest rating error, in points."""
+        return len(self.wins) // 2
+
+    @property
+    def steps(self) -> NDArray[np.int64]:
+        """A point down or a point up."""
+        return np.array([-1, 1])
+
+    @cached_property
+    def kernel(self) -> NDArray[np.float64]:
+        """P(lost | error) and P(won | error); shape (errors, 2)."""
+        wins = np.array(self.wins)
+        return np.column_stack([1.0 - wins, wins])
+
+
+def long_run_law(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the stationary law of a walk by these moves; shape (errors,).
+
+    Parameters
+    ----------
+    steps
+        the moves, shape (steps,).
+    kernel
+        P(move | error), shape (errors, steps).
+
+    >>> long_run_law(np.array([-1, 1]), np.array([[0.25, 0.75], [0.5, 0.5], [0.75, 0.25]]))
+    array([0.28571429, 0.42857143, 0.28571429])
+    """
+    used = (kernel > 0.0).any(axis=0)
+    steps, kernel = steps[used], kernel[:, used]
+    unit = math.gcd(*steps.tolist())
+    law = np.zeros(len(kernel))
+    if unit == 0:
+        raise InputError("no match moves a rating; give a system that moves by a point or more")
+    middle = len(kernel) // 2
+    for first in range(unit):
+        places = slice((middle + first) % unit, None, unit)
+        law[places] = _law_of_class(steps // unit, kernel[places]) / unit
+    return law
+
+
+def _law_of_class(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the law of a walk whose moves have no common divisor."""
+    if len(kernel) == 1:
+        return np.ones(1)
+    if np.abs(steps).max() == 1:
+        up = kernel[:-1, steps == 1].sum(axis=1)
+        down = kernel[1:, steps == -1].sum(axis=1)
+        if up.all() and down.all():
+            return line_law(up, down)
+    else:
+        law = _eliminated(walk_matrix(steps, kernel), int(np.abs(steps).max()))
+        if np.isfinite(law).all():
+            return law
+    return _limit_from_the_middle(walk_matrix(steps, kernel))
+
+
+def _eliminated(matrix: NDArray[np.float64], band: int) -> NDArray[np.float64]:
+    """Return the stationary law by elimination without subtractions, row-stochastic as it is.
+
+    States are cut out from the highest down: what passes through one is handed on from those
+    below it to those below it (Grassmann, Taksar & Heyman 1985). Only the band is touched.
+    """
+    many = len(matrix)
+    left = np.ones(many)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for i in range(many - 1, 0, -1):
+            low = max(0, i - band)
+            out = matrix[i, low:i]
+            left[i] = out.sum()
+            matrix[low:i, low:i] += np.outer(matrix[low:i, i] / left[i], out)
+        law = np.zeros(many)
+        law[0] = 1.0
+        for i in range(1, many):
+            low = max(0, i - band)
+            law[i] = law[low:i] @ matrix[low:i, i] / left[i]
+            if law[i] > 1e200:  # the first error may be far out in the tail
+                law[: i + 1] /= law[i]
+        return np.asarray(law / law.sum())
+
+
+def _limit_from_the_middle(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the limit, begun in the middle, of a walk with walls that no match crosses."""
+    from evenbreak.chains import chain_from_arrays, stochastic_limit
+
+    matrix = np.minimum(matrix, 1.0)  # sums of chances may miss 1 by rounding
+    sources, targets = np.nonzero(matrix)
+    many = len(matrix)
+    chain = chain_from_arrays(range(many), sources, targets, matrix[sources, targets])
+    return np.asarray(stochastic_limit(chain, many // 2).probability)
+
+
+def walk_matrix(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return P(error j after the match | error i before it), shape (errors, errors).
+
+    Rows are the errors before. A move that would lead beyond an end is not made.
+
+    Parameters
+    ----------
+    steps, kernel
+        as in `long_run_law`.
+
+    >>> walk_matrix(np.array([-1, 1]), np.array([[0.25, 0.75], [0.5, 0.5], [0.75, 0.25]]))
+    array([[0.25, 0.75, 0.  ],
+           [0.5 , 0.  , 0.5 ],
+           [0.  , 0.75, 0.25]])
+    """
+    many = len(kernel)
+    place = np.arange(many)[:, None]
+    after = place + steps
+    matrix = np.zeros((many, many))
+    np.add.at(matrix, (place, np.where((after >= 0) & (after < many), after, place)), kernel)
+    return matrix

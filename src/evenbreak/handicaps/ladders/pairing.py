@@ -1,0 +1,226 @@
+r"""What a match brings a player at each rating error, against opponents of a given law.
+
+Let the player's skill be 0, his rating error e, and his deviation on the night f. An opponent
+of rating r, error j and deviation g has the skill r - j, so that the two are
+
+    x = e - r           apart by their ratings: the race and the moves
+    d = f - r + j - g   apart in truth: the chance of a game
+
+and P(move | e, f) is the sum over the opponents' law of P(move | x, d). Where the skill s is
+given, r = s + j: then x is a difference of e and j and d is none, so that the sum over (j, g)
+is a convolution over (e, f). Where the rating is given, only j - g counts, and the sum is a
+convolution over d. Deviations that a player does not keep for the night are averaged over
+beforehand.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.fft import irfftn, next_fast_len, rfftn
+
+from evenbreak.handicaps.ladders.form import averages
+from evenbreak.handicaps.ladders.opponents import Opponents, farthest
+from evenbreak.handicaps.systems.match_table import MatchTable, known_table
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.handicaps.charts.chart import Chart
+    from evenbreak.handicaps.systems.system import System
+
+_FEW = 1 << 20
+"""Products up to which a sum is faster than a Fourier transform."""
+
+
+class Pairing(ABC):
+    """The matches of a player of skill 0 on a line of errors.
+
+    Parameters
+    ----------
+    table
+        all that a match can come to, at all rating differences that occur.
+    widest
+        the largest error.
+    opponents
+        whom he meets.
+    blur
+        the law of the deviations that no player keeps for the night: of both, their difference;
+        over -k, ..., k.
+    days
+        the deviations f that a player may have for the night, evenly spaced, symmetric.
+    """
+
+    def __init__(
+        self,
+        table: MatchTable,
+        widest: int,
+        opponents: Opponents,
+        blur: NDArray[np.float64],
+        days: NDArray[np.int64],
+    ) -> None:
+        self.table = table
+        self.errors = np.arange(-widest, widest + 1)
+        self.days = days
+        self.blur = blur
+        self.farthest = opponents.farthest
+        self.spread = np.array(opponents.spread.values, dtype=np.int64)
+        self.chance = np.array(opponents.spread.probability, dtype=float)
+        real = table.games[..., 0] >= 0
+        self.steps = np.unique(table.moves[..., 0][real])
+        first, self._race = _distinct(table.needs)
+        self._races = replace(
+            table,
+            needs=table.needs[first],
+            games=table.games[first],
+            moves=table.moves[first],
+            won=table.won[first],
+        )
+        self._prepare()
+
+    @abstractmethod
+    def _prepare(self) -> None:
+        """Work out what is the same for each law of the opponents."""
+
+    @abstractmethod
+    def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return P(move | error, deviation) for each step, and P(win | error, deviation) last.
+
+        Parameters
+        ----------
+        law
+            shape (errors, days): of the opponents' errors and deviations.
+
+        Returns
+        -------
+        array of shape (steps + 1, errors, days)
+        """
+
+    def scores(self, low: int, high: int) -> NDArray[np.float64]:
+        """Return P(final score | race, skill difference), for differences from low to high.
+
+        The chances are averaged over the blur; shape (races, outcomes, high - low + 1).
+        """
+        far = len(self.blur) // 2
+        apart = np.arange(low - far, high + far + 1).astype(float)
+        chances = self._races.chances(self.table.system.scale.win_probability(apart))
+        return averages(chances, self.blur)
+
+    def add(
+        self,
+        total: NDArray[np.float64],
+        ratings: NDArray[np.int64],
+        scores: NDArray[np.float64],
+        weight: float,
+    ) -> None:
+        """Add P(move) and P(win), `weight` times, to a total of shape (steps + 1, x, days).
+
+        Parameters
+        ----------
+        ratings
+            the rating differences x.
+        scores
+            P(final score) by race, shape (races, outcomes, days).
+        """
+        place = np.clip(ratings, -self.table.widest, self.table.widest) + self.table.widest
+        chances = weight * scores[self._race[place]]
+        which = np.searchsorted(self.steps, self.table.moves[place, :, 0])
+        # In the padding there is no move, and no chance of one either.
+        which = np.minimum(which, len(self.steps) - 1)
+        row = np.arange(len(place))
+        for outcome in range(chances.shape[1]):
+            total[which[:, outcome], row] += chances[:, outcome]
+        total[-1] += np.einsum("xod,xo->xd", chances, self.table.won[place])
+
+
+class SkillGiven(Pairing):
+    """Opponents whose skill is given."""
+
+    def _prepare(self) -> None:
+        widest, days = int(self.errors[-1]), self.days
+        # The table is as wide as the player's error, the opponent's, and how far he is apart.
+        self._reach = reach = self.table.widest - widest - self.farthest
+        # All that can be the difference of two errors, and of two deviations.
+        apart = np.arange(-widest - reach, widest + reach + 1)
+        unit = int(days[1] - days[0]) if len(days) > 1 else 1
+        between = unit * np.arange(-(len(days) - 1), len(days))
+        self._by_difference = np.zeros((len(self.steps) + 1, len(apart), len(between)))
+        far = int(self.farthest + between.max())
+        scores = self.scores(-far, far)
+        for skill, chance in zip(self.spread.tolist(), self.chance.tolist(), strict=True):
+            here = scores[:, :, between - skill + far]
+            self.add(self._by_difference, apart - skill, here, chance)
+        self._size = tuple(next_fast_len(n, real=True) for n in self._by_difference.shape[1:])
+        self._spectrum: NDArray[np.complex128] | None = None
+
+    def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the convolution of P(move | differences) with the law of the opponents."""
+        middle = len(law) // 2
+        law = law[middle - self._reach : middle + self._reach + 1]
+        if law.size == 1:
+            return np.asarray(self._by_difference * law[0, 0])
+        if len(self.errors) * law.size * len(self._by_difference) * len(self.days) <= _FEW:
+            windows = np.lib.stride_tricks.sliding_window_view(
+                self._by_difference, law.shape, axis=(1, 2)
+            )
+            return np.asarray(np.tensordot(windows, law[::-1, ::-1], 2))
+        if self._spectrum is None:
+            self._spectrum = np.asarray(rfftn(self._by_difference, self._size, axes=(1, 2)))
+        product = self._spectrum * rfftn(law, self._size)
+        whole = irfftn(product, self._size, axes=(1, 2))
+        kept = whole[
+            :,
+            len(law) - 1 : self._by_difference.shape[1],
+            law.shape[1] - 1 : self._by_difference.shape[2],
+        ]
+        return np.asarray(np.clip(kept, 0.0, 1.0))
+
+
+class RatingGiven(Pairing):
+    """Opponents whose rating is given."""
+
+    def _prepare(self) -> None:
+        days = self.days
+        # The player's deviation less the opponent's rating, and the opponent's j - g.
+        self._far = int(days[-1] + self.farthest)
+        self._hidden = int(self.errors[-1] + days[-1])
+        reach = self._far + self._hidden
+        self._scores = self.scores(-reach, reach)
+        self._place = (self.errors[:, None] - days + self._hidden).ravel()
+
+    def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return P(move) after an average over the opponents' skill on the night."""
+        hidden = np.bincount(self._place, law.ravel(), 2 * self._hidden + 1)
+        scores = averages(self._scores, hidden.astype(float))
+        total = np.zeros((len(self.steps) + 1, *law.shape))
+        for rating, chance in zip(self.spread.tolist(), self.chance.tolist(), strict=True):
+            here = scores[:, :, self.days - rating + self._far]
+            self.add(total, self.errors - rating, here, chance)
+        return np.clip(total, 0.0, 1.0)
+
+
+def pairing_of(
+    system: System,
+    chart: Chart,
+    widest: int,
+    opponents: Opponents,
+    blur: NDArray[np.float64],
+    days: NDArray[np.int64],
+) -> Pairing:
+    """Return the matches of a player against these opponents."""
+    apart = widest + opponents.farthest
+    if opponents.given == "rating":
+        table = known_table(system, chart, widest=apart)
+        return RatingGiven(table, widest, opponents, blur, days)
+    reach = widest if opponents.error is None else min(farthest(opponents.error), widest)
+    table = known_table(system, chart, widest=apart + reach)
+    return SkillGiven(table, widest, opponents, blur, days)
+
+
+def _distinct(needs: NDArray[np.int64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return where each race of a table stands first, and which race is played at each place."""
+    _, first, race = np.unique(needs, axis=0, return_index=True, return_inverse=True)
+    return first, race.reshape(-1)

@@ -1,0 +1,171 @@
+"""How many matches a player takes whose rating begins wrong until it is about right.
+
+Settled is the first match after which the rating error is within a band about 0. Its law comes
+from the chain of the errors with the band absorbing; under a newcomer schedule the first matches
+have chains of their own, and what is left after them goes on by the last.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from evenbreak.chains import first_passage
+from evenbreak.checks import whole
+from evenbreak.errors import AccuracyError, InputError
+from evenbreak.handicaps.ladders.error_chain import chain_of_errors, error_on, move_matrix
+from evenbreak.stats.summary import Distribution
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.handicaps.ladders.ladder import Ladder
+
+_TAIL = 1e-12
+_HORIZON = 100_000
+
+
+@dataclass(frozen=True)
+class Settling:
+    """How many matches a rating takes to come near the skill.
+
+    Parameters
+    ----------
+    start
+        the rating error before the first match, in points.
+    within
+        an error of at most so many points counts as settled.
+    newcomer
+        whether the first matches move by the system's newcomer schedule.
+    mean, sd
+        of the number of matches, from linear solves: not cut anywhere.
+    chances
+        P(settled after t matches and not before), for t = 0, 1, ..., horizon.
+    tail
+        P(it takes more matches than the horizon): 1e-12 at most.
+    """
+
+    start: int
+    within: int
+    newcomer: bool
+    mean: float
+    sd: float
+    chances: tuple[float, ...]
+    tail: float
+
+    @property
+    def matches(self) -> Distribution:
+        """The law of the number of matches; what is beyond the horizon is given to its end."""
+        *before, last = self.chances
+        return Distribution(tuple(range(len(self.chances))), (*before, last + self.tail))
+
+    @property
+    def horizon(self) -> int:
+        """The most matches of which `chances` speaks."""
+        return len(self.chances) - 1
+
+    def after(self, matches: int) -> float:
+        """Return P(settled within so many matches), given the start."""
+        return min(math.fsum(self.chances[: whole(matches, "matches") + 1]), 1.0)
+
+
+def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = False) -> Settling:
+    """Return the law of the matches that a rating takes to come near the skill.
+
+    Each probability is conditional on the error before the first match, and on opponents as
+    the ladder has them: their ratings have settled.
+
+    Parameters
+    ----------
+    ladder
+        how the rating moves.
+    start
+        the rating less the skill before the first match, in whole points.
+    within
+        settled is the first error of at most so many points either way.
+    newcomer
+        whether the player is new and moves by the system's newcomer schedule at first.
+
+    Raises
+    ------
+    InputError
+        if start is not on the ladder, within is not a whole number from 0 up, the rating may
+        never come so near (large steps may jump over the band for ever), or a newcomer is
+        asked for of a system without a schedule for newcomers.
+    AccuracyError
+        if more than 1e-12 of the players take more than 100,000 matches.
+
+    Notes
+    -----
+    The band is made absorbing; the mean is the mean first passage time (Kemeny & Snell, Finite
+    Markov Chains, chapter III), after the matches of the schedule from whatever error the player
+    has then.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> ladder = Ladder("npl")
+    >>> slow, fast = settling(ladder, -30), settling(ladder, -30, newcomer=True)
+    >>> round(slow.mean, 1), slow.matches.quantile(0.9), round(slow.after(50), 3)
+    (60.3, 85, 0.332)
+    >>> round(fast.mean, 1), fast.matches.quantile(0.9), round(fast.after(50), 3)
+    (27.6, 53, 0.88)
+    """
+    error, band = error_on(ladder.widest, start), whole(within, "within")
+    left = np.zeros(len(ladder.errors))
+    left[error + ladder.widest] = 1.0
+    inside = np.abs(ladder.errors) <= band
+    chances = [float(left[inside].sum())]
+    left[inside] = 0.0
+    for played, factor in _schedule(ladder) if newcomer else ():
+        matrix = move_matrix(ladder, factor)
+        for _ in range(played if left.any() else 0):
+            left = left @ matrix
+            chances.append(float(left[inside].sum()))
+            left[inside] = 0.0
+    remaining = float(left.sum())
+    mean, square = _moments(np.array(chances))
+    if remaining > 0.0:
+        target = ladder.errors[inside].tolist()
+        passage = first_passage(chain_of_errors(ladder), left / remaining, target)
+        if not passage.certain or passage.mean is None or passage.variance is None:
+            raise InputError(
+                f"within is {band}, and from an error of {error} the steps of {ladder.steps.max()} "
+                "may never come so near; give a wider band"
+            )
+        later, tail = passage.distribution(tail=_TAIL / remaining, max_steps=_HORIZON)
+        if tail * remaining > _TAIL:
+            raise AccuracyError(
+                f"from an error of {error} to one of {band} or less {_often(passage.mean)}; give a "
+                "wider band, a start that is nearer, or less drift"
+            )
+        gone = len(chances) - 1
+        mean += remaining * (gone + passage.mean)
+        square += remaining * (passage.variance + (gone + passage.mean) ** 2)
+        chances += (remaining * later[1:]).tolist()
+    tail_left = max(0.0, 1.0 - math.fsum(chances)) if remaining > 0.0 else 0.0
+    sd = math.sqrt(max(square - mean * mean, 0.0))
+    return Settling(error, band, newcomer, mean, sd, tuple(chances), tail_left)
+
+
+def _often(mean: float) -> str:
+    """Return how many matches are too many, by their mean; beyond sense it is not told."""
+    if mean > _HORIZON:
+        return f"a rating hardly ever comes: in more than {_HORIZON:,} matches on average"
+    return f"more than {_HORIZON:,} matches may be needed ({mean:,.0f} on average)"
+
+
+def _schedule(ladder: Ladder) -> tuple[tuple[int, int], ...]:
+    if not ladder.system.newcomer_steps:
+        raise InputError(
+            f"newcomer is asked for, and in the system {ladder.system.name} newcomers move like "
+            "all others; leave it out"
+        )
+    return ladder.system.newcomer_steps
+
+
+def _moments(chances: NDArray[Any]) -> tuple[float, float]:
+    """Return the sums of t and of t squared, weighted."""
+    t = np.arange(len(chances))
+    return float(t @ chances), float(t * t @ chances)

@@ -1,0 +1,213 @@
+r"""What a match between two rated players can come to: one table by rating difference.
+
+At the difference x of two ratings the chart says the race m:n. A match ends m:k with k < n, or
+k:n with k < m, and the update rule says by how much each such score moves the two. Where p is
+the chance that player 1 wins a game, and q = 1 - p,
+
+    P(m:k) = C(m - 1 + k, k) p^m q^k        P(k:n) = C(n - 1 + k, k) q^n p^k
+
+so that ladders and leagues need no more than this table and p.
+
+Source: problem P5.5 (the chances of the final scores), Table 5.6 (charts).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import gammaln, xlog1py, xlogy
+
+from evenbreak.checks import probability, whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.systems.system import PlayedMatch, System
+from evenbreak.matches.win import race_win_probability
+
+NOBODY = -1
+"""What stands in `games` where a race has fewer final scores than the table has places."""
+
+_DOUBLINGS = 2.0
+"""How far a table goes where nobody says it: to where the odds of a game are 4 to 1."""
+
+
+@dataclass(frozen=True, eq=False)
+class MatchTable:
+    """All final scores of a system's matches, by rating difference; `match_table` makes it.
+
+    The first axis is the apparent rating difference x, player 1's rating less player 2's, from
+    -widest to widest. The moves are those of established players: `System.newcomer_steps` says
+    by which factor newcomers move.
+
+    Parameters
+    ----------
+    system, chart
+        whose matches these are, and by which chart they are played.
+    widest
+        the largest difference, in points.
+    needs
+        shape (2 * widest + 1, 2): the race m:n.
+    games
+        shape (2 * widest + 1, outcomes, 2): the games of each final score; player 1's wins
+        first (m:0, m:1, ..., m:n - 1), then player 2's (0:n, ..., m - 1:n), then -1:-1 where a
+        race has fewer.
+    moves
+        shape (2 * widest + 1, outcomes, 2): the points that player 1 and player 2 move; 0 in
+        the padding.
+    won
+        shape (2 * widest + 1, outcomes): whether player 1 wins with this score.
+
+    >>> from evenbreak.handicaps import chart, system_of
+    >>> table = match_table(system_of("npl"), chart("npl_8"), widest=10)
+    >>> table.needs[table.widest + 7].tolist()
+    [4, 3]
+    >>> table.games[table.widest + 7].tolist()
+    [[4, 0], [4, 1], [4, 2], [0, 3], [1, 3], [2, 3], [3, 3], [-1, -1]]
+    >>> table.chances(0.5)[table.widest + 7].round(3).tolist()
+    [0.062, 0.125, 0.156, 0.125, 0.188, 0.188, 0.156, 0.0]
+    """
+
+    system: System
+    chart: Chart
+    widest: int
+    needs: NDArray[np.int64]
+    games: NDArray[np.int64]
+    moves: NDArray[np.int64]
+    won: NDArray[np.bool_]
+
+    def wins(self, p: ArrayLike) -> NDArray[np.float64]:
+        """Return P(player 1 wins the match | the difference, he wins each game with chance p).
+
+        Parameters
+        ----------
+        p
+            P(player 1 wins a game), a number or an array of any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            shape (2 * widest + 1,) followed by that of p.
+
+        Raises
+        ------
+        InputError
+            if p is not a probability.
+
+        >>> from evenbreak.handicaps import chart, system_of
+        >>> match_table(system_of("npl"), chart("npl_10"), widest=6).wins(0.5)[[0, 6, 12]].round(3)
+        array([0.637, 0.5  , 0.363])
+        """
+        game = np.asarray(probability(p, "p"))
+        races, place = self._races
+        down = (slice(None), *(None,) * game.ndim)
+        m, n = races.T
+        by_race = np.asarray(race_win_probability(game, m[down], n[down]))
+        return by_race[place]
+
+    def chances(self, p: ArrayLike) -> NDArray[np.float64]:
+        """Return P(each final score | the difference, player 1 wins each game with chance p).
+
+        Parameters
+        ----------
+        p
+            P(player 1 wins a game), a number or an array of any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            shape (2 * widest + 1, outcomes) followed by that of p; 0 in the padding. They add up
+            to 1 over the scores.
+
+        Raises
+        ------
+        InputError
+            if p is not a probability.
+        """
+        game = np.asarray(probability(p, "p"))
+        _, place = self._races
+        first = np.unique(place, return_index=True)[1]
+        games, won = np.maximum(self.games[first], 0), self.won[first]
+        a, b = games[..., 0], games[..., 1]
+        # The winner's last game comes last: only the games before it can be in any order.
+        before, lost = np.maximum(np.where(won, a, b) - 1, 0), np.where(won, b, a)
+        orders = gammaln(before + lost + 1) - gammaln(before + 1) - gammaln(lost + 1)
+        down = (..., *(None,) * game.ndim)
+        log = orders[down] + xlogy(a[down], game) + xlog1py(b[down], -game)
+        by_race = np.where((a + b > 0)[down], np.exp(log), 0.0)
+        return by_race[place]
+
+    @cached_property
+    def _races(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The races of the table, each once, and which of them is played at each difference."""
+        races, place = np.unique(self.needs, axis=0, return_inverse=True)
+        return races, place.reshape(-1)
+
+
+def match_table(system: System, chart: Chart | None = None, *, widest: Any = None) -> MatchTable:
+    """Return all that a match of a system can come to, by the difference of the two ratings.
+
+    Parameters
+    ----------
+    system
+        whose rule moves the ratings.
+    chart
+        by which the races are given; None: the system's own.
+    widest
+        the largest difference in points, a whole number from 1 on; None: two doublings of the
+        odds, 60 points in the National Pool League.
+
+    Raises
+    ------
+    InputError
+        if a parameter is not such a one, or the rule gives what is no pair of whole points.
+
+    >>> from evenbreak.handicaps import system_of
+    >>> match_table(system_of("step 2")).moves[60].tolist()[4:6]
+    [[2, -2], [-2, 2]]
+    """
+    if not isinstance(system, System):
+        raise InputError(f"system is {system!r}; give a System, such as system_of('npl')")
+    by = system.usual_chart() if chart is None else chart
+    if not isinstance(by, Chart):
+        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('npl_10')")
+    given = round(_DOUBLINGS * system.scale.points_per_doubling) if widest is None else widest
+    size = whole(given, "widest", at_least=1)
+    needs = np.column_stack(by.races(np.arange(-size, size + 1)))
+    games, won = _scores(needs)
+    tables = (needs, games, _moves(system, needs, games, won), won)
+    for table in tables:
+        table.setflags(write=False)
+    return MatchTable(system, by, size, *tables)
+
+
+known_table = lru_cache(maxsize=8)(match_table)
+"""`match_table` for one who asks again: the last tables are kept, which nobody can write into."""
+
+
+def _scores(needs: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Return the final scores of each race and which of them player 1 wins."""
+    m, n = needs[:, 0, None], needs[:, 1, None]
+    place = np.arange(needs.sum(axis=1).max())
+    won = place < n
+    real = place < m + n
+    a = np.where(won, m, place - n)
+    b = np.where(won, place, n)
+    return np.where(real[..., None], np.stack([a, b], axis=2), NOBODY), won
+
+
+def _moves(
+    system: System, needs: NDArray[np.int64], games: NDArray[np.int64], won: NDArray[np.bool_]
+) -> NDArray[np.int64]:
+    moves = np.zeros_like(games)
+    size = len(needs) // 2
+    for place, outcome in np.argwhere(games[..., 0] != NOBODY).tolist():
+        turn = 1 if won[place, outcome] else -1
+        apart = float(turn * (place - size))
+        m, n = needs[place].tolist()[::turn]
+        mine, other = games[place, outcome].tolist()[::turn]
+        points = system.moves(PlayedMatch((apart, 0.0), (mine, other), (m, n)))
+        moves[place, outcome] = points[::turn]
+    return moves

@@ -1,0 +1,117 @@
+"""The picture of an audit: how the stronger player's chance falls and rises over a chart."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.matches.win import race_win_probability
+from evenbreak.plots.style import LINES, new_axes
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit
+
+_STEPS = 25  # of the curve over one band
+_NARROW = 0.05
+"""A band that takes a smaller share of the picture has its race written upright."""
+
+
+def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Figure:
+    """Draw the stronger player's chance over the rating difference, race by race.
+
+    The curve rises within each band and drops where the next race begins; where no row has a
+    race it is broken. The last race is drawn for as many points as the broadest band before it.
+
+    Parameters
+    ----------
+    report
+        the audit of a chart.
+    beside
+        that of another; where its scale is not the same, its points are turned into those of
+        the first.
+
+    >>> from evenbreak.handicaps import audit, chart
+    >>> figure = chart_figure(audit(chart("npl_10")), audit(chart("npl_12")))
+    >>> [text.get_text() for text in figure.axes[0].get_legend().texts]
+    ['chart npl_10', 'chart npl_12']
+    """
+    points = report.scale.points_per_doubling
+    figure, axes = new_axes(
+        f"rating difference (points of which {points:.4g} double the odds)",
+        "P(stronger player wins the match)",
+        size=(7.6, 4.4),
+    )
+    axes.axhline(0.5, color="0.5", lw=0.8)
+    if beside is not None:
+        _draw(axes, beside, points / beside.scale.points_per_doubling, 1)
+    _draw(axes, report, 1.0, 0)
+    axes.set_xlim(left=0.0)
+    axes.margins(x=0.0, y=0.08)
+    upright = _name_races(axes, report)
+    title = report.name if beside is None else f"{report.name} (its races above) and {beside.name}"
+    axes.set_title(title, pad=36 if upright else 18, parse_math=False)
+    if beside is not None:
+        handles, names = axes.get_legend_handles_labels()
+        axes.legend(handles[::-1], names[::-1], loc="lower right")
+    return figure
+
+
+def _draw(axes: Axes, report: ChartAudit, factor: float, line: int) -> None:
+    """Draw the teeth of one chart, its points times `factor`."""
+    differences, wins = [], []
+    before = None
+    for row in report.rows:
+        first, last = _ends(report, row)
+        if before is not None and before != first:
+            differences.append(np.array([np.nan]))
+            wins.append(np.array([np.nan]))
+        inside = np.linspace(first, last, _STEPS)
+        differences.append(factor * inside)
+        p = report.scale.win_probability(inside)
+        wins.append(race_win_probability(p, row.stronger_needs, row.weaker_needs))
+        before = last
+    style = LINES[line]._asdict()
+    axes.plot(np.concatenate(differences), np.concatenate(wins), label=_label(report.name), **style)
+
+
+def _label(name: str) -> str:
+    """Return a name that matplotlib takes for no formula, nor for one to be left out."""
+    return "chart " + name.replace("$", r"\$")
+
+
+def _ends(report: ChartAudit, row: AuditRow) -> tuple[float, float]:
+    """Return where a row's tooth begins and ends: half-way to the whole points outside it."""
+    first = row.difference_from - 0.5 if row.difference_from else 0.0
+    if row.difference_to is not None:
+        return first, row.difference_to + 0.5
+    broadest = max(
+        (
+            other.difference_to - other.difference_from + 1
+            for other in report.rows
+            if other.difference_to is not None
+        ),
+        default=report.scale.points_per_doubling,
+    )
+    return first, first + broadest
+
+
+def _name_races(axes: Axes, report: ChartAudit) -> bool:
+    """Write each race of a chart above its tooth; return whether upright, for want of room."""
+    ends = [_ends(report, row) for row in report.rows]
+    upright = min(last - first for first, last in ends) < _NARROW * max(last for _, last in ends)
+    for (first, last), row in zip(ends, report.rows, strict=True):
+        axes.text(
+            (first + last) / 2.0,
+            1.015,
+            f"{row.stronger_needs}:{row.weaker_needs}",
+            transform=axes.get_xaxis_transform(),
+            ha="center",
+            va="bottom",
+            fontsize=8,
+            rotation=90 if upright else 0,
+        )
+    return upright

@@ -1,0 +1,301 @@
+"""Pictures of a ladder: how wrong ratings are, how fast they settle, what a step costs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from evenbreak.plots.style import LINES, new_axes, unit_axis
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from evenbreak.stats.summary import Distribution
+
+_SHOWN = 1e-3
+"""Errors rarer than this part of the commonest are beyond the edge of the picture."""
+
+_LETTER = 8.0
+"""Size of a system's name."""
+_PANEL = (450.0, 300.0)
+"""About how wide and high the axes of the systems are, in points."""
+
+_Box = tuple[float, float, float, float]
+
+
+class SettlingCurve(NamedTuple):
+    """How many players are settled after so many matches.
+
+    Parameters
+    ----------
+    start
+        the rating error that they begin with, in points.
+    within
+        how near to no error is settled, in points.
+    settled
+        P(settled within n matches | begun at `start`), for n = 0, 1, 2, ...
+    """
+
+    start: int
+    within: int
+    settled: Sequence[float]
+
+
+class SystemPoint(NamedTuple):
+    """A system in the plane of how wrong ratings stay and how long newcomers take.
+
+    Parameters
+    ----------
+    name
+        what is written beside it.
+    sd
+        of the rating error in the long run, in percent of the points that double the odds.
+    matches
+        the mean number of matches that a rating takes to settle which begins that many points
+        too low.
+    unbeaten
+        of a size of the step: whether no other is both more exact and faster. None: another
+        system or chart, drawn for comparison.
+    """
+
+    name: str
+    sd: float
+    matches: float
+    unbeaten: bool | None
+
+
+def ladder_figure(
+    law: Distribution,
+    *,
+    natural: Distribution | None = None,
+    within: int = 5,
+    curve: SettlingCurve | None = None,
+    title: str | None = None,
+) -> Figure:
+    """Draw the law of the rating error, and beside it how fast newcomers settle.
+
+    The normal law of the same mean and standard deviation is drawn for comparison.
+
+    Parameters
+    ----------
+    law
+        of the rating error in points, in the long run.
+    natural
+        the law against opponents who are rated rightly; None where that is `law` itself.
+    within
+        the band of errors that is shaded, from -within to within points.
+    curve
+        how a newcomer settles; None: one picture only.
+    title
+        what the ladder is.
+
+    >>> from evenbreak.stats import Distribution
+    >>> figure = ladder_figure(Distribution((-1, 0, 1), (0.25, 0.5, 0.25)))
+    >>> figure.axes[0].get_xlabel()
+    'rating error: rating less skill (points)'
+    """
+    from matplotlib.figure import Figure
+
+    width = 6.4 if curve is None else 10.6
+    figure = Figure(figsize=(width, 4.4), layout="constrained")
+    panels = figure.subplots(1, 1 if curve is None else 2, squeeze=False)[0]
+    _draw_law(panels[0], law, natural, within)
+    if curve is not None:
+        _draw_settling(panels[1], curve)
+    if title:
+        figure.suptitle(title, parse_math=False)
+    return figure
+
+
+def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, within: int) -> None:
+    errors, chance = np.array(law.values, dtype=float), np.array(law.probability, dtype=float)
+    possible = chance > 0.0
+    errors, chance = errors[possible], chance[possible]
+    # Where ratings move by more than a point, some errors never occur.
+    spacing = float(np.diff(errors).min()) if len(errors) > 1 else 1.0
+    inside = law.between(-within, within)
+    axes.axvspan(
+        -within - 0.5,
+        within + 0.5,
+        facecolor="0.92",
+        edgecolor="0.7",
+        linewidth=0.5,
+        zorder=0,
+        label=f"within {within} point{'s' * (within != 1)}: {100 * inside:.0f} %",
+    )
+    style = LINES[0]
+    axes.plot(errors, chance, "o", ms=3.5, color=style.color, label=f"this ladder, sd {law.sd:.2f}")
+    axes.vlines(errors, 0.0, chance, color=style.color, linewidth=0.8)
+    if natural is not None:
+        style = LINES[2]
+        values = np.array(natural.values, dtype=float)
+        p = np.array(natural.probability, dtype=float)
+        axes.plot(
+            values[p > 0.0],
+            p[p > 0.0],
+            color=style.color,
+            linestyle=style.linestyle,
+            label=f"opponents rated rightly, sd {natural.sd:.2f}",
+        )
+    shown = errors[chance > _SHOWN * chance.max()]
+    edge = max(abs(shown[0]), abs(shown[-1]), within) + 1.5
+    if law.sd > 0.0:
+        style = LINES[1]
+        x = np.linspace(-edge, edge, 401)
+        bell = np.exp(-0.5 * ((x - law.mean) / law.sd) ** 2) / (law.sd * math.sqrt(2.0 * math.pi))
+        axes.plot(
+            x,
+            spacing * bell,
+            color=style.color,
+            linestyle=style.linestyle,
+            linewidth=1.2,
+            label="normal law of the same sd",
+        )
+    axes.set(xlabel="rating error: rating less skill (points)", ylabel="probability")
+    axes.set_xlim(-edge, edge)
+    axes.set_ylim(bottom=0.0)
+    axes.tick_params(direction="in", top=True, right=True)
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.5)
+
+
+def _draw_settling(axes: Axes, curve: SettlingCurve) -> None:
+    settled = np.asarray(curve.settled, dtype=float)
+    # What comes after nearly all have settled says nothing more.
+    last = min(int(np.searchsorted(settled, 0.995)) + 1, len(settled))
+    matches = np.arange(last)
+    style = LINES[0]
+    axes.plot(matches, settled[:last], color=style.color, drawstyle="steps-post")
+    for part, name in ((0.5, "half"), (0.9, "9 of 10")):
+        place = int(np.searchsorted(settled, part))
+        if place < last:
+            axes.plot([0, place, place], [part, part, 0.0], color="0.6", linewidth=0.8, zorder=0)
+            # Where the curve leaves room: below it, or above it on the left.
+            early = place < last / 2
+            axes.annotate(
+                f"{name}: {place} matches",
+                (place if early else 0, part),
+                (6, -13 if early else 4),
+                textcoords="offset points",
+                fontsize=9,
+            )
+    unit_axis(axes, "y")
+    axes.set_xlim(0, max(last - 1, 1))
+    axes.set(
+        xlabel=f"matches played since the error was {curve.start:+d} points",
+        ylabel=f"part who have come within {curve.within} points",
+    )
+
+
+def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
+    """Draw how wrong the ratings of systems stay over how long their newcomers take.
+
+    The sizes of the step that no other beats in both are filled and joined.
+
+    Parameters
+    ----------
+    points
+        the systems.
+    chart
+        the chart of the sizes of the step.
+
+    >>> figure = systems_figure([SystemPoint("step 1", 15.4, 60.3, True),
+    ...     SystemPoint("step 2", 20.8, 30.8, True)])
+    >>> sorted(text.get_text() for text in figure.axes[0].texts)
+    ['step 1', 'step 2']
+    """
+    on_chart = f" on {chart}" if chart else ""
+    figure, axes = new_axes(
+        "matches until a rating has settled, mean",
+        "sd of the rating error (% of the points that double the odds)",
+        title=f"Systems, and sizes of the step{on_chart}",
+        size=(7.2, 5.0),
+    )
+    listed = sorted(points, key=lambda point: point.matches)
+    black, orange = LINES[0].color, LINES[2].color
+    front = [point for point in listed if point.unbeaten]
+    axes.plot(*_places(front), color="0.6", linewidth=0.8, zorder=1)
+    kinds = (
+        (True, "o", black, black, f"steps{on_chart}: none is both more exact and faster"),
+        (False, "o", "white", black, "another step is"),
+        (None, "D", orange, orange, "other charts and systems"),
+    )
+    for unbeaten, mark, inside, edge, label in kinds:
+        drawn = [point for point in listed if point.unbeaten is unbeaten]
+        if not drawn:
+            continue
+        axes.plot(*_places(drawn), mark, mfc=inside, mec=edge, ms=5, zorder=3, label=label)
+    right, top = 1.15 * listed[-1].matches, 1.1 * max(point.sd for point in listed)
+    axes.set_xlim(0.0, right)
+    axes.set_ylim(0.0, top)
+    for point, offset in zip(listed, _free_offsets(listed, right, top), strict=True):
+        axes.annotate(
+            point.name,
+            (point.matches, point.sd),
+            offset,
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=_LETTER,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
+            zorder=2,
+            color=orange if point.unbeaten is None else black,
+            parse_math=False,
+        )
+    axes.legend(frameon=False, fontsize=9, loc="upper right")
+    return figure
+
+
+def _free_offsets(
+    listed: Sequence[SystemPoint], right: float, top: float
+) -> list[tuple[float, float]]:
+    """Return where each name stands from its mark, in points, so that few cover another or a mark.
+
+    One name after the other takes the first place that is free, or the freest.
+    """
+    wide, high = _PANEL
+    marks = [(point.matches / right * wide, point.sd / top * high) for point in listed]
+    taken = [(x, y, 6.0, 6.0) for x, y in marks]
+    found = []
+    for (x, y), point in zip(marks, listed, strict=True):
+        width, height = 0.55 * _LETTER * len(point.name) + 4.0, _LETTER + 2.0
+        side = width / 2.0 + 5.0
+        places = [
+            (dx, dy)
+            for dy, dx in product((0.0, 9.0, -9.0, 18.0, -18.0, 27.0, -27.0), (0.0, side, -side))
+            if dx or dy
+        ]
+        # Above and below come first, then beside, then farther off.
+        places.sort(key=lambda place: (abs(place[1]) + 0.6 * abs(place[0]), -place[1]))
+        covered = [
+            sum(_overlap((x + dx, y + dy, width, height), box) for box in taken)
+            + _outside(x + dx, width, wide)
+            for dx, dy in places
+        ]
+        best = places[covered.index(min(covered))]
+        taken.append((x + best[0], y + best[1], width, height))
+        found.append(best)
+    return found
+
+
+def _overlap(one: _Box, other: _Box) -> float:
+    """Return the area that two boxes share; a box is its middle, width and height.
+
+    >>> _overlap((0, 0, 4, 2), (3, 1, 4, 2))
+    1.0
+    """
+    across = (one[2] + other[2]) / 2.0 - abs(one[0] - other[0])
+    along = (one[3] + other[3]) / 2.0 - abs(one[1] - other[1])
+    return max(0.0, across) * max(0.0, along)
+
+
+def _outside(x: float, width: float, wide: float) -> float:
+    return 10.0 * max(0.0, width / 2.0 - x, x + width / 2.0 - wide)
+
+
+def _places(points: Sequence[SystemPoint]) -> tuple[list[float], list[float]]:
+    return [point.matches for point in points], [point.sd for point in points]

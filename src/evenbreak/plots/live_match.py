@@ -1,0 +1,94 @@
+"""The picture of a match as it went: who was how likely to win, rack after rack."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from evenbreak.plots.style import LINES
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from evenbreak.matches.live import LiveOdds
+
+_MOST_SCORES = 24
+"""Scores that fit below the picture; beyond, every so many are written."""
+
+_LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
+"""Of the picture's width and height: room for a label, and what is free between it and the line."""
+
+
+def plot_course(odds: LiveOdds) -> Figure:
+    """Return a figure of a match as it went; player 1 is A and player 2 is B.
+
+    Above, P(A wins the match) after each rack: a filled dot is a rack that A won, an open one
+    a rack that B won; the rack that moved the match most is marked. Below, the leverage of
+    each rack before it was played: how much hung on it.
+
+    Parameters
+    ----------
+    odds
+        the match, with one rack at least.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> from evenbreak.matches import live_odds
+    >>> figure = plot_course(live_odds(Race(3, 2, Rack(0.6)), [1, 2, 1]))
+    >>> [label.get_text() for label in figure.axes[1].get_xticklabels()]
+    ['0:0', '1:0', '1:1', '2:1']
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7.2, 5.4), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
+    wins = [moment.p_win_1 for moment in odds.course]
+    racks = range(len(wins))
+    line = LINES[1]
+    above.axhline(0.5, color="0.7", linewidth=0.8)
+    above.plot(racks, wins, color=line.color, linewidth=1.4, zorder=2)
+    for winner, face, name in ((1, line.color, "A won the rack"), (2, "white", "B won the rack")):
+        at = [i for i, won in enumerate(odds.winners, 1) if won == winner]
+        if at:
+            chances = [wins[i] for i in at]
+            above.plot(at, chances, "o", color=line.color, mfc=face, ms=7, label=name, zorder=3)
+    most = max(range(len(odds.swings)), key=lambda i: abs(odds.swings[i]))
+    swing = odds.swings[most]
+    told = f"{swing:+.2f}".replace("-", "\N{MINUS SIGN}")
+    above.plot(racks[most : most + 2], wins[most : most + 2], color=line.color, linewidth=3.0)
+    place, va = _clear_of(wins, most + 0.5)
+    label = above.text(most + 0.5, place, told, fontsize=9, ha="center", va=va)
+    label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.0})  # over the line of 1/2
+    above.set(ylim=(-0.03, 1.03), ylabel="P(A wins the match)")
+    above.legend(frameon=False, loc="best")
+    leverages = [moment.leverage or 0.0 for moment in odds.course[:-1]]
+    below.bar([i + 0.5 for i in range(len(leverages))], leverages, width=0.7, color="0.6")
+    below.set(ylabel="leverage", xlabel="score", ylim=(0.0, None))
+    step = -(-len(wins) // _MOST_SCORES)
+    shown = list(racks)[::step]
+    below.set_xticks(shown, [_score(odds.course[i].scores) for i in shown])
+    if any(len(moment.scores) > 1 for moment in odds.course):
+        below.set_xlabel("score, below it that of the set")
+    for axes in (above, below):
+        axes.tick_params(direction="in", top=True, right=True)
+    return figure
+
+
+def _clear_of(wins: Sequence[float], x: float) -> tuple[float, Literal["bottom", "top"]]:
+    """Return where a label centred at x keeps clear of the line, and which end of it is there.
+
+    >>> _clear_of([0.25, 0.25, 0.25], 1.5)
+    (0.3, 'bottom')
+    """
+    half = _LABEL_SHARE * len(wins) / 2.0
+    near = np.linspace(max(x - half, 0.0), min(x + half, len(wins) - 1.0), 101)
+    line = np.interp(near, range(len(wins)), wins)
+    over = float(line.max()) + _GAP
+    if over < 1.0 - _LABEL_HEIGHT:
+        return over, "bottom"
+    return float(line.min()) - _GAP, "top"
+
+
+def _score(scores: tuple[tuple[int, int], ...]) -> str:
+    return "\n".join(f"{a}:{b}" for a, b in scores)

@@ -1,0 +1,91 @@
+"""The picture of what fairness costs in length."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from evenbreak.plots.style import LINES, new_axes
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from evenbreak.handicaps.charts.pareto import ParetoChart
+
+
+def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> Figure:
+    """Draw the unfairness of charts over their mean length.
+
+    Dots are charts that nothing beats, filled and with their 90 % length where that was the
+    limit; diamonds with their names those that another chart beats.
+
+    Parameters
+    ----------
+    charts
+        what `pareto` returned.
+    criterion
+        'mean' or 'worst': the unfairness that is drawn.
+
+    >>> from evenbreak.handicaps import RaceLimits, chart, pareto
+    >>> npl_8 = chart("npl_8")
+    >>> figure = pareto_figure(pareto("npl", RaceLimits((5, 7), weaker_least=2), beside=[npl_8]))
+    >>> [text.get_text() for text in figure.axes[0].texts if text.get_text()]
+    ['6', '5', 'npl_8']
+    """
+    figure, axes = new_axes(
+        "mean length of a match (games)",
+        f"unfairness, {'mean' if criterion == 'mean' else 'largest'} |W \N{MINUS SIGN} target|",
+    )
+    black, orange = LINES[0].color, LINES[2].color
+    kinds = (
+        (_by_mean, "o", "white", black, "fairest of such a mean length"),
+        (_by_p90, "o", black, black, "fairest, 9 of 10 matches within so many games"),
+        (_beaten, "D", orange, orange, "another chart is fairer and no longer"),
+    )
+    middle = sum(_place(one, criterion)[0] for one in (charts[0], charts[-1])) / 2.0
+    for kind, mark, inside, edge, label in kinds:
+        drawn = [one for one in charts if kind(one)]
+        if not drawn:
+            continue
+        points = [_place(one, criterion) for one in drawn]
+        axes.plot(
+            *zip(*points, strict=True), mark, mfc=inside, mec=edge, ms=5, zorder=3, label=label
+        )
+        for one, point in zip(drawn, points, strict=True):
+            right = kind is _beaten and point[0] > middle
+            axes.annotate(
+                _name(one),
+                point,
+                xytext=(-6 if right else 4, 5),
+                textcoords="offset points",
+                ha="right" if right else "left",
+                fontsize=10 if kind is _beaten else 7,
+                parse_math=False,
+            )
+    axes.margins(0.06)
+    axes.set_ylim(bottom=0.0)
+    axes.legend(loc="upper right", fontsize=9)
+    return figure
+
+
+def _place(one: ParetoChart, criterion: str) -> tuple[float, float]:
+    return one.measure.mean_games, getattr(one.measure, f"{criterion}_unfairness")
+
+
+def _beaten(one: ParetoChart) -> bool:
+    return one.beaten_by is not None
+
+
+def _by_p90(one: ParetoChart) -> bool:
+    return not _beaten(one) and one.chart.name.startswith("games_p90")
+
+
+def _by_mean(one: ParetoChart) -> bool:
+    return not _beaten(one) and not _by_p90(one)
+
+
+def _name(one: ParetoChart) -> str:
+    """Return what is written beside a chart: its name, its 90 % length, or nothing."""
+    if _by_p90(one):
+        return str(one.measure.games_p90)
+    return one.chart.name if _beaten(one) else ""

@@ -1,0 +1,133 @@
+"""Pictures of practice scores: one list over time, or two side by side."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.plots.style import LINES, new_axes
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    from evenbreak.files.scores import ScoresFile
+    from evenbreak.stats.confidence import MeanInterval
+
+BAND = "0.85"
+STEP = 0.08
+"""How far apart equal scores are drawn, where the lists are 1 apart."""
+
+WIDEST = 0.3
+"""How far from the middle of its list a score is drawn at most."""
+
+
+def plot_scores(
+    file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None
+) -> Figure:
+    """Return a figure of the scores of a file, their mean and the interval of the true one.
+
+    Parameters
+    ----------
+    file
+        the scores; drawn over their dates, or in the order of the file without them.
+    interval
+        of the true mean; None draws no band.
+    new
+        one more score, drawn after the others.
+
+    >>> import numpy as np
+    >>> from evenbreak.files.scores import ScoresFile
+    >>> figure = plot_scores(ScoresFile(np.array([50.0, 44.0]), None, "scores.csv", ()), None)
+    >>> [text.get_text() for text in figure.legends[0].get_texts()]
+    ['scores', 'mean 47.00']
+    """
+    figure, axes = new_axes(
+        "number of the score" if file.dates is None else "date",
+        "score",
+        title=f"Practice scores of {Path(file.source).name}",
+    )
+    if file.dates is None:
+        when: NDArray[np.float64] | NDArray[np.datetime64] = np.arange(1.0, len(file.scores) + 1)
+        later: float | np.datetime64 = len(file.scores) + 1.0
+        axes.locator_params(axis="x", integer=True)
+    else:
+        when = file.dates
+        # As long after the last score as scores are apart, or a day.
+        apart = (when.max() - when.min()) // max(1, len(when) - 1)
+        later = when.max() + max(apart, np.timedelta64(1, "D"))
+        figure.autofmt_xdate()
+    mean = float(file.scores.mean())
+    if interval is not None:
+        share = f"{100 * interval.confidence:g} % interval of the true mean"
+        axes.axhspan(interval.low, interval.high, color=BAND, linewidth=0, label=share, zorder=0)
+    axes.plot(when, file.scores, "o", color=LINES[0].color, label="scores")
+    axes.axhline(
+        mean, color=LINES[1].color, linestyle=LINES[1].linestyle, label=f"mean {mean:.2f}", zorder=1
+    )
+    if new is not None:
+        axes.plot(
+            np.array([later]),
+            [new],
+            "D",
+            color=LINES[2].color,
+            markersize=8,
+            label=f"new score {new:g}",
+        )
+    figure.legend(frameon=False, loc="outside lower center", ncols=2)
+    return figure
+
+
+def plot_two_lists(
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    names: tuple[str, str],
+    intervals: tuple[MeanInterval | None, MeanInterval | None],
+) -> Figure:
+    r"""Return a figure of two lists of scores side by side, each with the interval of its mean.
+
+    >>> import numpy as np
+    >>> figure = plot_two_lists(
+    ...     np.array([50.0, 44.0]), np.array([53.0]), ("before", "after"), (None, None)
+    ... )
+    >>> [text.get_text() for text in figure.axes[0].get_xticklabels()]
+    ['before\n2 scores', 'after\n1 score']
+    """
+    shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
+    with_interval = f" with its {shares.pop()} % interval" if shares else ""
+    figure, axes = new_axes("", "score", title=f"Practice scores, and their mean{with_interval}")
+    for place, (scores, interval) in enumerate(zip((before, after), intervals, strict=True)):
+        _strip(axes, place, scores, interval)
+    labels = [
+        f"{name}\n{len(scores)} score{'s' if len(scores) > 1 else ''}"
+        for name, scores in zip(names, (before, after), strict=True)
+    ]
+    axes.set_xticks([0, 1], labels)
+    axes.set_xlim(-0.5, 1.75)
+    return figure
+
+
+def _strip(
+    axes: Axes, place: int, scores: NDArray[np.float64], interval: MeanInterval | None
+) -> None:
+    """Draw one list: equal scores beside one another, and to the right the mean."""
+    line = LINES[place]
+    values = scores.tolist()
+    counts, seen = Counter(values), Counter[float]()
+    step = min(STEP, 2 * WIDEST / max(counts.values()))
+    across = []
+    for value in values:
+        across.append(place + step * (seen[value] - (counts[value] - 1) / 2))
+        seen[value] += 1
+    axes.plot(across, scores, "os"[place], color=line.color, alpha=0.75)
+    mean = float(np.mean(scores))
+    beside = place + WIDEST + 0.1
+    if interval is not None:
+        away = [[mean - interval.low], [interval.high - mean]]
+        axes.errorbar([beside], [mean], yerr=away, color=line.color, capsize=5)
+    axes.plot([beside], [mean], "D", color=line.color, markersize=8)
+    axes.annotate(f"{mean:.2f}", (beside, mean), (9, -3), textcoords="offset points")

@@ -1,0 +1,130 @@
+"""Pictures of a score, with its mean, median and mode, and of a spot in straight pool."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from evenbreak.plots.style import LINES, new_axes
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from evenbreak.matches.straight_pool import StraightPool
+    from evenbreak.stats.innings import InningsScore
+    from evenbreak.stats.runs import RunLength
+
+_SHOWN = (0.001, 0.995)
+"""The quantiles from which and up to which scores are drawn."""
+
+_COLORS = ("#CC79A7", "#009E73", "#E69F00")
+_HATCHES = ("////", "\\\\\\\\", "....")
+"""How the spans of scores that were asked for are shaded."""
+
+_POINTS = 150
+"""How many numbers of points a curve is drawn through, at the most."""
+
+
+def plot_score(
+    law: RunLength | InningsScore,
+    innings: int = 1,
+    *,
+    asked: Sequence[tuple[str, int, int | None]] = (),
+) -> Figure:
+    """Return a figure of the probability of each score, with its mean, median and mode.
+
+    Parameters
+    ----------
+    law
+        the law of the score.
+    innings
+        in how many innings it is made, for the words beside the axes.
+    asked
+        spans of scores to shade, each with its name: the fewest balls and the most, or None.
+
+    >>> from evenbreak.stats import RunLength
+    >>> figure = plot_score(RunLength(0.9))
+    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    ['mean 9', 'median 6', 'mode 0']
+    """
+    import numpy as np
+
+    low, high = (law.quantile(q) for q in _SHOWN)
+    scores = np.arange(low, high + 1)
+    chances = law.probability(scores)
+    played = "an inning" if innings == 1 else f"{innings} innings"
+    figure, axes = new_axes(f"balls made in {played}", "probability")
+    axes.fill_between(scores, chances, step="mid", color="0.85", linewidth=0)
+    axes.step(scores, chances, where="mid", color="0.45", linewidth=1.0)
+    for color, hatch, (name, least, most) in zip(_COLORS, _HATCHES, asked, strict=False):
+        inside = (scores >= least) & (scores <= (high if most is None else most))
+        p = float(law.at_least(least) if most is None else law.between(least, most))
+        sides = np.add.outer(scores[inside], [-0.5, 0.5]).ravel()
+        axes.fill_between(
+            sides,
+            np.repeat(chances[inside], 2),
+            facecolor="none",
+            edgecolor=color,
+            hatch=hatch,
+            linewidth=0.0,
+            label=f"{name} ({p:.4f})",
+        )
+    for line, (name, at) in zip(LINES, law.fair_line._asdict().items(), strict=False):
+        axes.axvline(
+            at, color=line.color, linestyle=line.linestyle, linewidth=1.6, label=f"{name} {at:.4g}"
+        )
+    axes.set_ylim(0.0)
+    axes.margins(x=0.02)
+    axes.legend(frameon=False)
+    return figure
+
+
+def plot_spot(match: StraightPool, *, weaker: int, even: int | None, title: str = "") -> Figure:
+    """Return a figure of A's chance in straight pool against the points that the weaker needs.
+
+    Parameters
+    ----------
+    match
+        the match as it is, a dot on the curve; player 1 is A.
+    weaker
+        the player whose points vary, 1 or 2.
+    even
+        the points of that player that are nearest to even, a dashed line; None draws none.
+    title
+        who plays.
+
+    >>> from evenbreak.matches import StraightPool
+    >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8), weaker=2, even=21)
+    >>> figure.axes[0].get_xlabel()
+    'points that B needs'
+    """
+    import numpy as np
+
+    from evenbreak.matches.straight_pool import straight_pool_odds
+
+    name = f"points_{weaker}"
+    now = getattr(match, name)
+    most = max(now, min(2 * (even or now), match.points_1 + match.points_2 - now))
+    points = np.unique(np.linspace(1, most, _POINTS).round().astype(int)).tolist()
+    wins = [straight_pool_odds(replace(match, **{name: n})).p_win_1 for n in points]
+    figure, axes = new_axes(
+        f"points that {'AB'[weaker - 1]} needs", "P(A wins the match)", title=title
+    )
+    curve, half = LINES[:2]
+    axes.plot(points, wins, color=curve.color, linestyle=curve.linestyle)
+    axes.plot(
+        [now],
+        [straight_pool_odds(match).p_win_1],
+        "o",
+        color=curve.color,
+        label=f"{match.points_1} against {match.points_2}",
+    )
+    axes.axhline(0.5, color="0.7", linewidth=0.8)
+    if even is not None:
+        told = f"nearest to even: {even}"
+        axes.axvline(even, color=half.color, linestyle=half.linestyle, label=told)
+    axes.set_ylim(-0.02, 1.02)
+    axes.margins(x=0.02)
+    axes.legend(frameon=False)
+    return figure

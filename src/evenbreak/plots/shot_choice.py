@@ -1,0 +1,58 @@
+"""Shots of the one-ball game on the contour plot of what they win."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from evenbreak.checks import one_of
+from evenbreak.plots.contours import contour_axes
+from evenbreak.plots.point_labels import mark_points
+from evenbreak.plots.style import new_axes
+from evenbreak.practice.shots import LOOK_AHEADS, Shot, one_ball_win
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_TITLES = {
+    "infinite": "P(you win), the shots repeated",
+    "two shots": "P(you win), even after two misses",
+}
+
+
+def shots_figure(shots: Sequence[Shot], *, look_ahead: str = "infinite") -> Figure:
+    """Draw P(player 1 wins the one-ball game) over (p1, p2), each shot a dot with its name.
+
+    The thick line is the critical one: below it player 1, called you, is the favourite.
+
+    Parameters
+    ----------
+    shots
+        what player 1 may choose from.
+    look_ahead
+        as in `evenbreak.practice.one_ball_win`.
+
+    Raises
+    ------
+    InputError
+        if the look-ahead is another.
+
+    Notes
+    -----
+    Source: Fig. 5.3.
+
+    >>> figure = shots_figure([Shot("bank", 0.4, 0.8)])
+    >>> figure.axes[0].get_title()
+    'P(you win), the shots repeated'
+    """
+    one_of(look_ahead, "look_ahead", LOOK_AHEADS)
+    figure, axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6))
+    contour_axes(
+        axes,
+        partial(one_ball_win, look_ahead=look_ahead),
+        x="$p_1$ = P(you make the shot)",
+        y="$p_2$ = P(the opponent makes what a miss leaves)",
+    )
+    mark_points(axes, [(shot.p1, shot.p2, shot.name) for shot in shots])
+    return figure

@@ -1,0 +1,263 @@
+"""The strokes of a game diagram: circles, arcs, loops, and labels that keep out of their way."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from math import atan2, cos, hypot, pi, sin
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from evenbreak.plots.layout import Positions
+
+if TYPE_CHECKING:
+    import networkx as nx
+    from matplotlib.axes import Axes
+
+Point: TypeAlias = tuple[float, float]
+
+_RADIUS = 0.27
+"""Of a circle, in units of the distance between neighbours."""
+_RING = 0.82
+"""The inner circle of a terminal node, as a fraction of the outer one."""
+FONT = 11.0
+_HEAD = "-|>,head_length=5,head_width=2.5"
+_BENDS = (0.0, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6)
+_ALONG = (0.5, 0.4, 0.6, 0.3, 0.7)
+"""Where along an arc its label may go, the best place first."""
+_FILL = {1: ("0.85", "black"), 2: ("0.35", "white"), None: ("white", "black")}
+"""Fill and text of a terminal node by who has won there; they differ in black and white too."""
+
+
+def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
+    """Return whether no arc leads from `state` to another one."""
+    return all(target == state for target in graph.successors(state))
+
+
+def is_words(graph: nx.DiGraph[Any], state: Any) -> bool:
+    """Return whether a node is no state but something written: dots, or a heading."""
+    return bool(graph.nodes[state].get("kind") == "words")
+
+
+def _arc_label(arc: Mapping[str, Any]) -> str:
+    if "label" in arc:
+        return str(arc["label"])
+    return f"{arc['probability']:.3g}" if "probability" in arc else ""
+
+
+def longest_line(text: str) -> int:
+    """Return how many characters the longest line shows; mathematical marks take no room."""
+    return max(len(re.sub(r"\\[a-z]+|[${}_^\\]", "", line)) for line in text.split("\n"))
+
+
+def _bent(a: Point, b: Point, bend: float, t: float) -> Point:
+    """Return the point at t of the arc from a to b: a quadratic Bezier curve."""
+    control = (
+        (a[0] + b[0]) / 2 + bend * (b[1] - a[1]),
+        (a[1] + b[1]) / 2 - bend * (b[0] - a[0]),
+    )
+    weights = ((1 - t) ** 2, 2 * t * (1 - t), t * t)
+    x, y = (
+        sum(w * p for w, p in zip(weights, coordinates, strict=True))
+        for coordinates in zip(a, control, b, strict=True)
+    )
+    return x, y
+
+
+class Pen:
+    """Draws one diagram: first arcs, so that the circles cover their ends."""
+
+    def __init__(
+        self, axes: Axes, graph: nx.DiGraph[Any], places: Positions, inches: float
+    ) -> None:
+        self.axes = axes
+        self.graph = graph
+        self.places = places
+        self.points_per_unit = 72 * inches
+        self.used: dict[Any, list[float]] = {state: [] for state in graph}
+        self.boxes = [(x, y, 0.8 * _RADIUS, 0.8 * _RADIUS) for x, y in places.values()]
+        self.tracks: dict[tuple[Any, Any], list[Point]] = {}
+        self.reach = [
+            (x + turn * _RADIUS, y + turn * _RADIUS) for x, y in places.values() for turn in (-1, 1)
+        ]
+
+    def draw(self, start: Any, labels: Mapping[Any, str]) -> None:
+        """Draw it all; `labels` names the states, `start` may be None."""
+        arcs = [(source, target) for source, target in self.graph.edges if source != target]
+        bends = {arc: self.bend(*arc) for arc in arcs}
+        for arc, bend in bends.items():
+            self.arc(*arc, bend)
+        for arc, bend in bends.items():
+            self.label_arc(*arc, bend)
+        for state in self.graph:
+            if self.graph.has_edge(state, state) and not is_terminal(self.graph, state):
+                self.loop(state, _arc_label(self.graph.edges[state, state]))
+        if start is not None:
+            self.arrow_into(start)
+        for state, label in labels.items():
+            if is_words(self.graph, state):
+                self.words(state, label)
+            else:
+                self.circle(state, label)
+
+    def bend(self, source: Any, target: Any) -> float:
+        """Return a curvature that passes no other circle and leaves the opposite arc alone."""
+        a, b = self.places[source], self.places[target]
+        opposite = self.graph.has_edge(target, source)
+        others = [self.places[s] for s in self.graph if s not in (source, target)]
+
+        def clearance(bend: float) -> float:
+            path = [_bent(a, b, bend, k / 20) for k in range(1, 20)]
+            return min(
+                (hypot(x - u, y - v) for x, y in path for u, v in others), default=2 * _RADIUS
+            )
+
+        # Positive: both of two opposite arcs bend to their own left, so they part.
+        choices = [bend for bend in _BENDS if not opposite or bend > 0]
+        return next((bend for bend in choices if clearance(bend) > 1.3 * _RADIUS), choices[0])
+
+    def arc(self, source: Any, target: Any, bend: float) -> None:
+        """Draw the arrow from one circle to another."""
+        from matplotlib.patches import FancyArrowPatch
+
+        a, b = self.places[source], self.places[target]
+        shrink = _RADIUS * self.points_per_unit
+        self.axes.add_patch(
+            FancyArrowPatch(
+                a,
+                b,
+                arrowstyle=_HEAD,
+                connectionstyle=f"arc3,rad={bend}",
+                shrinkA=shrink,
+                shrinkB=shrink,
+                linewidth=1.0,
+                color="black",
+            )
+        )
+        self.tracks[source, target] = path = [_bent(a, b, bend, k / 20) for k in range(21)]
+        for here, (x, y) in ((source, path[4]), (target, path[-5])):
+            self.used[here].append(atan2(y - self.places[here][1], x - self.places[here][0]))
+
+    def label_arc(self, source: Any, target: Any, bend: float) -> None:
+        """Write the label on the outer side of a bend, above a straight arc."""
+        a, b = self.places[source], self.places[target]
+        length = hypot(b[0] - a[0], b[1] - a[1]) or 1.0
+        side = (b[1] - a[1]) / length, -(b[0] - a[0]) / length
+        if bend < 0 or (bend == 0 and side[1] < 0):
+            side = -side[0], -side[1]
+        points = [_bent(a, b, bend, t) for t in _ALONG]
+        self.beside(points, side, _arc_label(self.graph.edges[source, target]), (source, target))
+
+    def loop(self, state: Any, label: str) -> None:
+        """Draw the arrow from a circle to itself, where there is most room."""
+        from matplotlib.patches import FancyArrowPatch
+        from matplotlib.path import Path as Curve
+
+        x, y = self.places[state]
+        angle = self.free_angle(state, (pi / 2, -pi / 2, pi, 0.0), spare=pi)
+
+        def at(turn: float, distance: float) -> Point:
+            return x + distance * cos(angle + turn), y + distance * sin(angle + turn)
+
+        curve = Curve(
+            [at(0.5, _RADIUS), at(0.6, 0.85), at(-0.6, 0.85), at(-0.5, _RADIUS)],
+            [Curve.MOVETO, Curve.CURVE4, Curve.CURVE4, Curve.CURVE4],
+        )
+        self.axes.add_patch(
+            FancyArrowPatch(
+                path=curve,
+                arrowstyle=_HEAD,
+                linewidth=1.0,
+                color="black",
+            )
+        )
+        self.used[state].append(angle)
+        self.beside([at(0.0, 0.66)], (cos(angle), sin(angle)), label, (state, state))
+
+    def beside(
+        self, points: Sequence[Point], side: Point, label: str, own: tuple[Any, Any]
+    ) -> None:
+        """Write a label next to the first point of its own arc where it covers nothing else."""
+        font = FONT - 1
+        wide = 0.3 * font * longest_line(label) / self.points_per_unit
+        high = 0.6 * font / self.points_per_unit
+        out = 0.02 + abs(side[0]) * wide + abs(side[1]) * high
+        spots = [
+            (x + out * way * side[0], y + out * way * side[1]) for way in (1, -1) for x, y in points
+        ]
+        crossed = [self.is_crossed(spot, wide, high, own) for spot in spots]
+        x, y = min(zip(crossed, range(len(spots)), spots, strict=True))[2]
+        self.boxes.append((x, y, wide, high))
+        self.reach += [(x - wide, y - high), (x + wide, y + high)]
+        self.axes.text(
+            x,
+            y,
+            label,
+            fontsize=font,
+            ha="center",
+            va="center",
+            zorder=4,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.85},
+        )
+
+    def is_crossed(self, spot: Point, wide: float, high: float, own: tuple[Any, Any]) -> int:
+        """Return 0 if nothing is under a label at `spot`, 1 if an arc is, 2 if a label or node."""
+
+        def under(x: float, y: float, extra_wide: float, extra_high: float) -> bool:
+            return abs(spot[0] - x) < wide + extra_wide and abs(spot[1] - y) < high + extra_high
+
+        if any(under(*box) for box in self.boxes):
+            return 2
+        tracks = [track for arc, track in self.tracks.items() if arc != own]
+        return int(any(under(x, y, 0.02, 0.02) for track in tracks for x, y in track))
+
+    def free_angle(self, state: Any, choices: tuple[float, ...], spare: float) -> float:
+        """Return the first direction with room to spare, else the one farthest from every arc."""
+
+        def gap(angle: float) -> float:
+            turns = [abs((angle - used + pi) % (2 * pi) - pi) for used in self.used[state]]
+            return round(min(turns, default=pi), 6)
+
+        return next((angle for angle in choices if gap(angle) > spare), max(choices, key=gap))
+
+    def arrow_into(self, start: Any) -> None:
+        """Mark the start: an arrow from nowhere."""
+        x, y = self.places[start]
+        angle = self.free_angle(
+            start, (pi, pi / 2, -pi / 2, 3 * pi / 4, -3 * pi / 4, 0.0), spare=0.7
+        )
+        tail = x + 0.65 * cos(angle), y + 0.65 * sin(angle)
+        self.reach.append(tail)
+        self.axes.annotate(
+            "",
+            (x + _RADIUS * cos(angle), y + _RADIUS * sin(angle)),
+            tail,
+            arrowprops={"arrowstyle": "-|>", "linewidth": 2.2, "color": "black", "shrinkA": 0}
+            | {"shrinkB": 0},
+        )
+
+    def circle(self, state: Any, label: str) -> None:
+        """Draw a state; a terminal one as a double circle, filled by who has won."""
+        from matplotlib.patches import Circle
+
+        centre = self.places[state]
+        fill, ink = "white", "black"
+        if is_terminal(self.graph, state):
+            fill, ink = _FILL.get(self.graph.nodes[state].get("winner"), _FILL[None])
+            self.axes.add_patch(Circle(centre, _RADIUS, facecolor="white", edgecolor="black"))
+            radius = _RING * _RADIUS
+        else:
+            radius = _RADIUS
+        self.axes.add_patch(
+            Circle(centre, radius, facecolor=fill, edgecolor="black", linewidth=1.2, zorder=3)
+        )
+        room = 2 * 0.85 * radius * self.points_per_unit
+        font = min(FONT, room / (0.6 * longest_line(label)))
+        self.axes.text(*centre, label, fontsize=font, color=ink, ha="center", va="center", zorder=4)
+
+    def words(self, state: Any, label: str) -> None:
+        """Write a node that is no state."""
+        x, y = self.places[state]
+        font = FONT + 2
+        wide = 0.3 * font * longest_line(label) / self.points_per_unit
+        self.reach += [(x - wide, y), (x + wide, y)]
+        self.axes.text(x, y, label, fontsize=font, ha="center", va="center", zorder=4)

@@ -1,0 +1,158 @@
+"""A page of A4 to write and rule on, in inches from its top left corner."""
+
+from __future__ import annotations
+
+import io
+import unicodedata
+from bisect import bisect_right
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from matplotlib.font_manager import FontProperties
+
+WIDTH, HEIGHT = 11.69, 8.27
+"""A4, the long way."""
+
+MARGIN = 0.5
+"""What printers leave white, and a pin's room."""
+
+POINTS = 72.0
+"""In an inch."""
+
+UNKNOWN = "\N{WHITE SQUARE}"
+"""Stands for a letter that the font lacks."""
+
+
+class Paper:
+    """One page: text, lines and bands, all in inches to the right and down.
+
+    Text is set as it stands, no letter of it is mathematics.
+
+    >>> page = Paper()
+    >>> page.text(0.5, 0.5, "Ann $ Bo", size=11)
+    >>> page.figure.get_size_inches().tolist()
+    [11.69, 8.27]
+    """
+
+    def __init__(self) -> None:
+        from matplotlib.figure import Figure
+
+        self.figure: Figure = Figure(figsize=(WIDTH, HEIGHT), facecolor="white")
+        self._axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
+        self._axes.set(xlim=(0.0, WIDTH), ylim=(HEIGHT, 0.0))
+        self._axes.set_axis_off()
+
+    def text(
+        self, x: float, y: float, text: str, *, size: float, bold: bool = False, **style: Any
+    ) -> None:
+        """Write text on the line at y; `style` is that of matplotlib's texts."""
+        style = {"va": "baseline", "ha": "left", "color": "black", **style}
+        plain: Any = {"parse_math": False, "usetex": False}
+        self._axes.text(
+            x, y, drawable(text), fontproperties=_font(bold), size=size, **plain, **style
+        )
+
+    def centred(self, x: float, y: float, text: str, *, size: float, **style: Any) -> None:
+        """Write figures with their middle at (x, y)."""
+        # Half the height of a figure: matplotlib's own centring moves with the letters.
+        self.text(x, y + 0.365 * size / POINTS, text, size=size, **{"ha": "center", **style})
+
+    def line(self, x: Sequence[float], y: Sequence[float], **style: Any) -> None:
+        """Draw a line through points; `style` is that of matplotlib's lines."""
+        self._axes.plot(x, y, **{"color": "black", "lw": 0.5, **style})
+
+    def band(self, left: float, top: float, width: float, height: float, *, grey: str) -> None:
+        """Fill a rectangle with a grey from 0 (black) to 1 (white)."""
+        from matplotlib.patches import Rectangle
+
+        self._axes.add_patch(Rectangle((left, top), width, height, fc=grey, lw=0, zorder=0))
+
+
+def pdf_bytes(pages: Sequence[Figure], title: str) -> bytes:
+    """Return pages as one PDF document, the same bytes every time.
+
+    >>> pdf_bytes([Paper().figure], "Empty")[:5]
+    b'%PDF-'
+    """
+    import matplotlib as mpl
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    out = io.BytesIO()
+    # Neither a date nor a version of the program, and no wish of a matplotlibrc.
+    metadata: Any = {"Title": title, "Creator": None, "Producer": None, "CreationDate": None}
+    rules: Any = {"pdf.fonttype": 3, "pdf.compression": 6, "savefig.bbox": None}
+    with mpl.rc_context(rules), PdfPages(out, metadata=metadata) as document:
+        for page in pages:
+            document.savefig(page)
+    return out.getvalue()
+
+
+def drawable(text: str) -> str:
+    """Return text with a white square for every letter that the font of the page lacks.
+
+    >>> drawable("Zoë 選手")
+    'Zoë □□'
+    """
+    if text.isascii() and text.isprintable():
+        return text
+    letters = _letters()
+    return "".join(
+        letter if ord(letter) in letters else UNKNOWN
+        for letter in text
+        # What only joins or directs letters has no shape of its own.
+        if unicodedata.category(letter) != "Cf"
+    )
+
+
+def width_of(text: str, size: float) -> float:
+    """Return how wide a text is, in inches.
+
+    >>> round(width_of("7:4", 72), 1)
+    1.6
+    """
+    from matplotlib.textpath import text_to_path
+
+    font = _font(False).copy()
+    font.set_size(size)
+    width, _, _ = text_to_path.get_text_width_height_descent(drawable(text), font, ismath=False)
+    return float(width) / POINTS
+
+
+def shortened(text: str, size: float, width: float) -> str:
+    """Return text, or as much of its beginning as fits a width in inches, and an ellipsis.
+
+    >>> shortened("Ann Lee", 10, 2.0), shortened("A name without end", 10, 0.8)
+    ('Ann Lee', 'A name…')
+    """
+    if width_of(text, size) <= width:
+        return text
+    fitting = bisect_right(
+        range(len(text)), width, key=lambda length: width_of(f"{text[:length]}…", size)
+    )
+    return f"{text[: max(fitting - 1, 0)].rstrip()}…"
+
+
+def _file(bold: bool) -> Path:
+    import matplotlib as mpl
+
+    # The font that comes with matplotlib: another one of that name would draw otherwise.
+    return Path(mpl.get_data_path(), "fonts", "ttf", f"DejaVuSans{'-Bold' if bold else ''}.ttf")
+
+
+@cache
+def _font(bold: bool) -> FontProperties:
+    from matplotlib.font_manager import FontProperties
+
+    return FontProperties(fname=_file(bold))
+
+
+@cache
+def _letters() -> frozenset[int]:
+    from matplotlib.ft2font import FT2Font
+
+    font = FT2Font(str(_file(bold=False)))
+    return frozenset(code for code in font.get_charmap() if chr(code).isprintable())

@@ -1,0 +1,227 @@
+"""The tables of a report as one workbook, a sheet for each.
+
+Needs XlsxWriter, which the extra `excel` brings along.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+import io
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.answers.fair_pairs import RaceLimits
+from evenbreak.answers.html_words import left_out_and_why
+from evenbreak.answers.sheet_parts import SurePair, chart_bands, sure_pairs
+from evenbreak.answers.sheet_words import NO_RACE, races_by_name
+from evenbreak.errors import InputError
+from evenbreak.files.results import ResultsFile
+from evenbreak.ratings.fitted import Ratings
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+MOST_ROWS, MOST_COLUMNS = 1_048_576, 16_384
+"""What a sheet of a workbook can hold, the header included."""
+
+_DECIMALS = 6
+_WIDEST = 40
+_LONGEST_TEXT = 32_767
+_WRITTEN = dt.datetime(2000, 1, 1)
+"""Stands where a workbook says when it was made: the same tables give the same bytes."""
+
+
+def check_workbook() -> None:
+    """Refuse where workbooks cannot be written, before work is done for one.
+
+    Raises
+    ------
+    InputError
+        if XlsxWriter is not installed.
+    """
+    _xlsxwriter()
+
+
+def _xlsxwriter() -> Any:
+    try:
+        import xlsxwriter  # type: ignore[import-untyped]
+    except ModuleNotFoundError as error:
+        raise InputError(
+            "a workbook needs XlsxWriter, which is not installed; install it with: "
+            "pip install XlsxWriter (the extra evenbreak[excel]), or ask for CSV files"
+        ) from error
+    return xlsxwriter
+
+
+def workbook_bytes(tables: Mapping[str, pd.DataFrame]) -> bytes:
+    """Return tables as one workbook (.xlsx), a sheet for each, the same bytes every time.
+
+    Text stays text, also where it begins with = or looks like a date, and no cell is a
+    link. Numbers are rounded to six decimals, as in our CSV files; what is missing, NaN or
+    infinite is an empty cell. The header is bold, stays in view and is printed on each page.
+
+    Parameters
+    ----------
+    tables
+        by the names of their sheets, in order; the index is left out.
+
+    Raises
+    ------
+    InputError
+        if a table has more rows or columns than a sheet can hold, or XlsxWriter is not
+        installed.
+
+    >>> import pandas as pd
+    >>> workbook_bytes({"Ratings": pd.DataFrame({"player": ["Ann"], "rating": [80.0]})})[:2]
+    b'PK'
+    """
+    xlsxwriter = _xlsxwriter()
+    for name, table in tables.items():
+        rows, columns = len(table) + 1, len(table.columns)
+        if rows > MOST_ROWS or columns > MOST_COLUMNS:
+            raise InputError(
+                f"sheet {name!r} would have {rows:,} rows and {columns:,} columns; a workbook "
+                f"holds {MOST_ROWS:,} and {MOST_COLUMNS:,}, so pair fewer players"
+            )
+    out = io.BytesIO()
+    # Cells are written with methods that guess nothing: no formula, link or date is made.
+    with xlsxwriter.Workbook(out, {"in_memory": True}) as book:
+        book.set_properties({"created": _WRITTEN})
+        header = book.add_format({"bold": True, "bottom": 1})
+        decimal = book.add_format({"num_format": "0.000"})
+        for name, table in tables.items():
+            _write(book.add_worksheet(name), table, header, decimal)
+    return out.getvalue()
+
+
+def _write(sheet: Any, table: pd.DataFrame, header: Any, decimal: Any) -> None:
+    for number, (name, column) in enumerate(table.items()):
+        look = decimal if column.dtype.kind == "f" else None
+        cells = [_value(cell) for cell in column.astype(object).where(column.notna(), None)]
+        sheet.write_string(0, number, str(name), header)
+        for row, cell in enumerate(cells, 1):
+            if isinstance(cell, str):
+                sheet.write_string(row, number, cell)
+            elif cell is not None:
+                sheet.write_number(row, number, cell, look)
+        longest = max((len(str(cell)) for cell in (name, *cells) if cell is not None), default=1)
+        sheet.set_column(number, number, min(_WIDEST, longest + 2))
+    sheet.freeze_panes(1, 1)
+    sheet.set_landscape()
+    sheet.set_paper(9)  # A4
+    sheet.fit_to_pages(1, 0)
+    sheet.repeat_rows(0)
+    sheet.set_footer("&L&A&RPage &P of &N")
+
+
+def _value(cell: Any) -> str | float | None:
+    """Return what a cell holds: text, a number that is finite, or nothing."""
+    if cell is None:
+        return None
+    if isinstance(cell, str):
+        return cell[:_LONGEST_TEXT] or None
+    number = float(cell)
+    if not math.isfinite(number):
+        return None
+    return int(number) if number == int(number) else round(number, _DECIMALS)
+
+
+def race_table(rated: pd.DataFrame, paired: pd.DataFrame) -> pd.DataFrame:
+    """Return the races of all paired players as a table: a row and a column for each.
+
+    Parameters
+    ----------
+    rated, paired
+        as `ratings_frame` and `matchups_frame` make them; the strongest come first.
+
+    Returns
+    -------
+    pandas.DataFrame
+        the player of the row, then the race against each opponent as text, the games of
+        the row's player first; '-' where there is none, empty against oneself.
+
+    >>> import pandas as pd
+    >>> rated = pd.DataFrame({"player": ["Ann", "Bo", "Cy"]})
+    >>> paired = pd.DataFrame({"player_a": ["Ann"], "player_b": ["Bo"], "race_a": 7, "race_b": 5})
+    >>> race_table(rated, paired).to_dict("list")
+    {'player': ['Ann', 'Bo'], 'Ann': ['', '5:7'], 'Bo': ['7:5', '']}
+    """
+    import pandas as pd
+
+    races = races_by_name(paired)
+    chosen = {*paired["player_a"], *paired["player_b"]}
+    names: Sequence[str] = [name for name in rated["player"] if name in chosen]
+    columns = [
+        ["" if row == column else races.get((row, column), NO_RACE) for row in names]
+        for column in names
+    ]
+    # A player may be called "player": the columns' names need not be different.
+    table = pd.DataFrame(list(zip(names, *columns, strict=True)))
+    return table.set_axis(["player", *names], axis=1)
+
+
+def report_tables(
+    file: ResultsFile,
+    ratings: Ratings,
+    limits: RaceLimits,
+    rated: pd.DataFrame,
+    paired: pd.DataFrame,
+    told: pd.DataFrame,
+) -> dict[str, pd.DataFrame]:
+    """Return the tables of a report by the names of their sheets.
+
+    Parameters
+    ----------
+    file, ratings, limits
+        what the report is made of.
+    rated, paired, told
+        as `ratings_frame`, `matchups_frame` and `summary_frame` make them.
+
+    Returns
+    -------
+    dict of str to pandas.DataFrame
+        Ratings; Races, a row and a column for each player; Pairs, a row for each two
+        players; Chart, where the races make one; Left out; About.
+    """
+    import pandas as pd
+
+    races = race_table(rated, paired)
+    sure = sure_pairs(ratings, paired)
+    tables = {"Ratings": rated, "Races": races, "Pairs": _with_errors(paired, sure)}
+    furthest = max((pair.difference for pair in sure), default=0.0)
+    bands = chart_bands(limits, ratings.scale, furthest) if sure else []
+    if bands:
+        tables["Chart"] = pd.DataFrame(
+            [(band.first, *band[2:]) for band in bands],
+            columns=[
+                "difference_from",
+                "stronger_needs",
+                "weaker_needs",
+                "p_win_at_from",
+                "p_win_at_end",
+            ],
+        )
+    shown = len(rated), len(races)
+    items = list(left_out_and_why(file, ratings, rated, paired, shown))
+    tables["Left out"] = pd.DataFrame(items, columns=["what", "why"])
+    tables["About"] = told
+    return tables
+
+
+def _with_errors(paired: pd.DataFrame, sure: Sequence[SurePair]) -> pd.DataFrame:
+    """Return the pairs with what two standard errors of the difference do to the chance."""
+    import pandas as pd
+
+    found = {(pair.player_a, pair.player_b): pair for pair in sure}
+    pairs = [found.get(key) for key in zip(paired["player_a"], paired["player_b"], strict=True)]
+    more = {
+        "difference": [pair.difference if pair else None for pair in pairs],
+        "difference_error": [pair.error if pair else None for pair in pairs],
+        "p_win_a_low": [pair.low if pair else None for pair in pairs],
+        "p_win_a_high": [pair.high if pair else None for pair in pairs],
+    }
+    note = paired["note"]
+    return pd.concat(
+        [paired.drop(columns="note"), pd.DataFrame(more, dtype="float64"), note], axis=1
+    )

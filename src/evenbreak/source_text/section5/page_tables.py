@@ -1,0 +1,221 @@
+"""The tables of section 5 in Markdown, as the page shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.source_text.section5.innings import INNINGS
+from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
+from evenbreak.source_text.section5.markdown import beside, markdown_table, rounded, short
+from evenbreak.source_text.section5.matrices import MATRICES
+from evenbreak.source_text.section5.numbers import Finding
+from evenbreak.source_text.section5.samples import pascals_triangle
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half and half"}
+
+
+def score_table(frame: pd.DataFrame) -> str:
+    """Return a table of P5.6, row m and column n."""
+    columns = list(frame.columns)
+    rows = [[f"**{row[0]}**", *map(_chance, row[1:])] for row in frame.itertuples(index=False)]
+    return markdown_table(["m \\ n", *(name.removeprefix("n_") for name in columns[1:])], rows)
+
+
+def _chance(value: Decimal) -> str:
+    return f"{value:.0E}" if value < Decimal("0.00095") else rounded(value, 3)
+
+
+def _records(frame: pd.DataFrame) -> list[dict[str, Any]]:
+    return [dict(zip(frame.columns, row, strict=True)) for row in frame.itertuples(index=False)]
+
+
+def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
+    return beside(row[name], row[f"{name}_printed"], decimals)
+
+
+def table_5_1(frame: pd.DataFrame) -> str:
+    """Return the critical values, the printed ones below."""
+    rows = _records(frame)
+    return markdown_table(
+        ["P", *(str(row["coverage"]) for row in rows)],
+        [
+            ["z_c", *(rounded(row["z_c"], 4) for row in rows)],
+            ["text", *(str(row["z_c_printed"]) for row in rows)],
+        ],
+    )
+
+
+def table_5_2(frame: pd.DataFrame) -> str:
+    """Return the statistics of runs."""
+    decimals = {"mean_run": 1, "median_bound": 1, "median_run": 0, "median_over_mean": 3}
+    return markdown_table(
+        ["p", "mean", "bound", "median", "median / mean"],
+        [
+            [row["p"], *(_pair(row, *column) for column in decimals.items())]
+            for row in _records(frame)
+        ],
+    )
+
+
+def table_5_3(frame: pd.DataFrame) -> str:
+    """Return mode, mean and median of scores, a column for each number of innings."""
+    cells = {(row["p"], row["m"]): row for row in _records(frame)}
+    chances = list(dict.fromkeys(p for p, _ in cells))
+    return markdown_table(
+        ["p", "", *(f"m = {innings}" for innings in INNINGS)],
+        [
+            [p, name, *(_pair(cells[p, innings], name, decimals) for innings in INNINGS)]
+            for p in chances
+            for name, decimals in (("mode", 0), ("mean", 1), ("median", 0))
+        ],
+    )
+
+
+def triangle_table() -> str:
+    """Return Pascal's triangle, row n and column m."""
+    rows = pascals_triangle()
+    return markdown_table(
+        ["n \\ m", *range(len(rows))],
+        [[f"**{n}**", *row, *[""] * (len(rows) - len(row))] for n, row in enumerate(rows)],
+    )
+
+
+def games_table(frame: pd.DataFrame) -> str:
+    """Return what P5.9 gives for some numbers of games."""
+    names = ("N p - q", "mode", "number of modes", "mean", "standard deviation")
+    rows: dict[str, dict[str, Any]] = {}
+    for row in _records(frame):
+        rows.setdefault(row["inputs"], {})[row["quantity"]] = row["computed"]
+    return markdown_table(
+        ["games", *(name.replace("-", "−") for name in names)],
+        [
+            [inputs, *(short(found[name]) for name in names)]
+            for inputs, found in rows.items()
+            if inputs
+        ],
+    )
+
+
+def eigenvalues_table(problem: str) -> str:
+    """Return the eigenvalues of a problem's matrices in symbols."""
+    return markdown_table(
+        ["matrix", "eigenvalues"],
+        [
+            [name, f"`{', '.join(matrix.eigenvalues)}`"]
+            for name, matrix in MATRICES.items()
+            if matrix.problem == problem
+        ],
+        left=2,
+    )
+
+
+def eigenvalues(frame: pd.DataFrame) -> str:
+    """Return the eigenvalues of P5.23 for the shots of its table."""
+    values = [
+        rounded(row["computed"], 4)
+        for row in _records(frame)
+        if row["quantity"].startswith("eigenvalue ")
+    ]
+    return ", ".join(values).replace("-", "−")
+
+
+def products_table(found: Sequence[Finding]) -> str:
+    """Return the sixteen means of P5.18."""
+    means = {
+        tuple(finding.published.inputs.split()): short(finding.computed)
+        for finding in found
+        if finding.published.quantity == "mean of two"
+    }
+    values = list(dict.fromkeys(first for first, _ in means))
+    return markdown_table(
+        ["mean of", *values], [[f"**{a}**", *(means[a, b] for b in values)] for a in values]
+    )
+
+
+def table_5_22(found: Sequence[Finding]) -> str:
+    """Return the seven shots of P5.22 by both look-aheads."""
+    rows: dict[str, list[str]] = {}
+    for row, computed, _ in found:
+        if row.problem == "P5.22" and row.quantity.startswith("W"):
+            rows.setdefault(row.inputs, []).extend([f"{computed:.4f}", str(row.printed)])
+    return markdown_table(
+        ["shot", "W infinite", "text", "W two shots", "text"],
+        [[inputs, *cells] for inputs, cells in rows.items()],
+    )
+
+
+def steps_table(frame: pd.DataFrame) -> str:
+    """Return the densities of P5.23, step by step, and their limits."""
+    rows: dict[str, list[str]] = {}
+    for row in _records(frame):
+        start, _, when = row["quantity"].rpartition(", ")
+        if start in _STARTS:
+            rows.setdefault(f"{_STARTS[start]}: {when}", []).append(rounded(row["computed"], 4))
+    return markdown_table(
+        ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],
+        [[name, *cells] for name, cells in rows.items()],
+    )
+
+
+def table_5_4(frame: pd.DataFrame) -> str:
+    """Return the shares of racks by break format."""
+    names = ("w_winner_breaks", "w_loser_breaks", "w_alternate_breaks")
+    return markdown_table(
+        ["row", "p1", "p2", "winner breaks", "loser breaks", "alternate breaks"],
+        [
+            [row["row"], row["p1"], row["p2"], *(_pair(row, name, 3) for name in names)]
+            for row in _records(frame)
+        ],
+    )
+
+
+def table_5_5(frame: pd.DataFrame) -> str:
+    """Return the shares of the drill's levels and their statistics."""
+    decimals = {f"d{level}": 3 for level in range(1, LEVELS + 1)}
+    decimals |= {"mean": 3, "mode": 0, "median": 0, "standard_deviation": 3}
+    return markdown_table(
+        ["p", *list(decimals)[:-1], "sd"],
+        [
+            [row["p"], *(_pair(row, *column) for column in decimals.items())]
+            for row in _records(frame)
+        ],
+    )
+
+
+def table_5_6(frame: pd.DataFrame) -> str:
+    """Return the four charts side by side."""
+    charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
+    for row in _records(frame):
+        last = row["difference_to"]
+        span = f"{row['difference_from']}{' up' if last is None else f'–{last}'}"
+        charts[row["chart"]].append([span, f"{row['stronger_needs']}:{row['weaker_needs']}"])
+    header = [name for number in CHARTS for name in (f"chart {number}", "race")]
+    longest = max(map(len, charts.values()))
+    return markdown_table(
+        header,
+        [
+            [cell for rows in charts.values() for cell in (rows[k] if k < len(rows) else ["", ""])]
+            for k in range(longest)
+        ],
+    )
+
+
+def ladder_table(frame: pd.DataFrame) -> str:
+    """Return how far ratings wander under each chart."""
+    return markdown_table(
+        ["chart", "even races up to", "opponents rated rightly", "opponents err alike"],
+        [
+            [
+                row["chart"],
+                f"{row['even_up_to']} points",
+                _pair(row, "sd_natural", 3),
+                _pair(row, "sd_autocorrelated", 3),
+            ]
+            for row in _records(frame)
+        ],
+    )

@@ -1,0 +1,118 @@
+"""States in a line: limits from every state, against exact arithmetic."""
+
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.sparse import csc_array
+
+import oracle
+from evenbreak.chains import Chain, stochastic_limit
+from evenbreak.chains.birth_death import line_law, line_of
+
+
+def random_line(draw):
+    """Return a chain in a line with some arcs missing: classes of all kinds side by side."""
+    n = draw.randint(3, 14)
+    decades = draw.choice([0.5, 12, 150])
+    matrix = np.zeros((n, n))
+    for j in range(n):
+        for i in (j - 1, j + 1):
+            if 0 <= i < n and draw.random() < 0.85:
+                matrix[i, j] = 10.0 ** -draw.uniform(0.31, decades)
+        if not matrix[:, j].any():
+            matrix[j, j] = 1.0
+        elif draw.random() < 0.5:
+            matrix[j, j] = 1.0 - matrix[:, j].sum()
+        else:
+            matrix[:, j] /= matrix[:, j].sum()
+    return Chain(range(n), csc_array(matrix), 0)
+
+
+@pytest.mark.parametrize("seed", range(80))
+def test_limit_from_every_state(seed):
+    chain = random_line(random.Random(seed))
+    columns = oracle.columns_of(chain)
+    assert chain.line is not None
+    for start in range(len(chain)):
+        limit = stochastic_limit(chain, start)
+        exact = oracle.limit(columns, {start: Fraction(1)})
+        assert oracle.worst_relative_error(limit.probability, exact) < 2e-15
+        reached = [c for c in oracle.closed_classes(columns) if any(exact[i] for i in c)]
+        assert limit.period == max(oracle.period(chain, states) for states in reached)
+
+
+def test_full_storage_is_read_as_it_is_and_other_storage_alike():
+    up, down = np.array([0.25, 0.5, 0.125]), np.array([0.5, 0.25, 0.75])
+    matrix = csc_array(np.diag(up, -1) + np.diag(down, 1))
+    with_loops = matrix + csc_array(np.diag(1.0 - matrix.sum(axis=0)))
+    for given in (matrix, csc_array(with_loops)):
+        line = line_of(given)
+        assert line is not None
+        assert (line.up.tolist(), line.down.tolist()) == (up.tolist(), down.tolist())
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [
+        np.eye(2),
+        np.roll(np.eye(4), 1, axis=0),
+        np.array([[0, 0, 1.0], [1, 0, 0], [0, 1, 0]]),
+        np.ones((5, 5)) / 5,
+    ],
+)
+def test_what_is_no_line_is_not_taken_for_one(matrix):
+    assert line_of(csc_array(matrix)) is None
+
+
+def test_a_law_over_thousands_of_decades():
+    law = line_law(np.full(20_000, 1e-3), np.full(20_000, 0.5))
+    for k in (0, 1, 50, 110):
+        assert law[k] == pytest.approx(float(Fraction(1, 500) ** k * Fraction(499, 500)), rel=1e-13)
+    assert law[200] == 0.0
+
+
+def test_a_valley_deeper_than_floats_between_two_heights():
+    n = 200
+    up, down = np.full(2 * n, 1e-3), np.full(2 * n, 0.5)
+    up[n:], down[n:] = 0.5, 1e-3
+    law = line_law(up, down)
+    assert law[0] == pytest.approx(0.499, rel=1e-13)
+    assert law[-1] == pytest.approx(0.499, rel=1e-13)
+    assert law[n] == 0.0
+
+
+@pytest.mark.parametrize(("p", "start"), [(0.49, 5000), (0.5, 17), (0.4, 9000), (0.51, 9950)])
+def test_gamblers_ruin_with_ten_thousand_states(p, start):
+    last = 10_000
+    i = np.arange(1, last)
+    entries = np.concatenate((np.full(last - 1, p), np.full(last - 1, 1 - p), [1.0, 1.0]))
+    rows = np.concatenate((i + 1, i - 1, [0, last]))
+    columns = np.concatenate((i, i, [0, last]))
+    chain = Chain(range(last + 1), csc_array((entries, (rows, columns))), start)
+    limit = stochastic_limit(chain)
+    if p == 0.5:
+        win, lose = Fraction(start, last), Fraction(last - start, last)
+    else:
+        # The exact powers have millions of digits; 400 binary places of the ratio are plenty.
+        r = Fraction(round(Fraction(1 - p) / Fraction(p) * 2**400), 2**400)
+        a, b = (_power(r, k) for k in (start, last))
+        win, lose = (a - 1) / (b - 1), (b - a) / (b - 1)
+    assert oracle.worst_relative_error(limit.probability[[last, 0]], [win, lose]) < 1e-13
+    assert not limit.probability[1:-1].any()
+
+
+def _power(base: Fraction, exponent: int) -> Fraction:
+    """Return base**exponent to some 400 binary digits."""
+    result, square = Fraction(1), base
+    while exponent:
+        if exponent & 1:
+            result = _rounded(result * square)
+        square, exponent = _rounded(square * square), exponent >> 1
+    return result
+
+
+def _rounded(x: Fraction) -> Fraction:
+    scale = Fraction(2) ** (400 - x.numerator.bit_length() + x.denominator.bit_length())
+    return Fraction(round(x * scale)) / scale

@@ -1,0 +1,45 @@
+"""Lines of states with leaks: cyclic reduction against exact arithmetic and known laws."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import oracle
+from evenbreak.chains.line_elimination import PathElimination
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 5, 8, 13, 32])
+@pytest.mark.parametrize("decades", [0.5, 12])
+def test_both_solves(n, decades):
+    rng = np.random.default_rng(n)
+    up, down = 10.0 ** -rng.uniform(0.4, decades, (2, n - 1))
+    leak = np.where(rng.random(n) < 0.4, 10.0 ** -rng.uniform(2, 14, n), 0.0)
+    leak[rng.integers(n)] = 1e-13
+    b = np.where(rng.random((n, 2)) < 0.6, rng.random((n, 2)), 0.0)
+    matrix = [[Fraction(0)] * n for _ in range(n)]
+    for k in range(n - 1):
+        matrix[k + 1][k], matrix[k][k + 1] = -Fraction(up[k]), -Fraction(down[k])
+    for k in range(n):
+        matrix[k][k] = Fraction(leak[k]) - sum(matrix[i][k] for i in range(n) if i != k)
+    path = PathElimination(up, down, leak)
+    transposed = [list(row) for row in zip(*matrix, strict=True)]
+    for column in range(2):
+        right = [Fraction(x) for x in b[:, column].tolist()]
+        visits, values = path.visits(b)[:, column], path.values(b)[:, column]
+        assert oracle.worst_relative_error(visits, oracle.solve(matrix, right)) < 2e-15
+        assert oracle.worst_relative_error(values, oracle.solve(transposed, right)) < 2e-15
+
+
+def test_a_long_line_of_equal_arcs_keeps_twelve_digits():
+    """Steps up with 0.49, down with 0.51, left at the bottom: each step down takes 50."""
+    n, up, down = 20_000, 0.49, 0.51
+    leak = np.zeros(n)
+    leak[0] = down
+    leak[-1] = up
+    path = PathElimination(np.full(n - 1, up), np.full(n - 1, down), leak)
+    steps = path.values(np.ones((n, 1)))[:, 0]
+    drift = Fraction(down) - Fraction(up)
+    for k in (0, 99, 9_999):
+        # The top is so far that the chance to reach it is below 1e-170.
+        assert steps[k] == pytest.approx(float((k + 1) / drift), rel=1e-13)

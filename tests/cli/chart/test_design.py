@@ -1,0 +1,188 @@
+import json
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from evenbreak.files.chart import read_chart
+from evenbreak.games import winner_breaks
+from evenbreak.handicaps import Play, RaceLimits, chart, design, measure_chart, nearest_chart
+
+NPL_10 = "--games 7..9 --least 1:2 --beside npl_10"
+
+
+@pytest.fixture
+def ask(run):
+    def asked(line):
+        result = run("chart", "design", "--json", *line.split())
+        assert (result.exit_code, result.stderr) == (0, "")
+        return json.loads(result.stdout)
+
+    return asked
+
+
+@pytest.fixture
+def terminal(monkeypatch):
+    monkeypatch.setattr("evenbreak.cli.chart.design.to_terminal", lambda: True)
+
+
+def rows_of(answer):
+    return [tuple(row.values()) for row in answer["rows"]]
+
+
+def test_a_design_beside_a_printed_chart(ask):
+    answer = ask(NPL_10)
+    limits = RaceLimits((7, 9), weaker_least=2)
+    assert rows_of(answer) == [tuple(row) for row in design("npl", limits, up_to=59).rows]
+    (beside,) = answer["beside"]
+    theirs = measure_chart(chart("npl_10"), "npl", up_to=59)
+    assert beside["mean_unfairness"] == theirs.mean_unfairness > answer["mean_unfairness"]
+    assert beside["other_races"] == [
+        {"difference_from": 0, "difference_to": 5, "design": "4:4", "beside": "5:5"},
+        {"difference_from": 46, "difference_to": 46, "design": "6:2", "beside": "7:3"},
+    ]
+
+
+def test_the_rule_of_the_nearest_race(ask):
+    answer = ask("--games 5..7 --least 1:2 --rule nearest --up-to 49 --beside npl_8")
+    made = nearest_chart("npl", RaceLimits((5, 7), weaker_least=2), up_to=49)
+    assert rows_of(answer) == [tuple(row) for row in made.rows]
+    assert [one["difference_from"] for one in answer["beside"][0]["other_races"]] == [19, 29]
+
+
+@pytest.mark.parametrize(
+    ("line", "play", "limits", "wishes"),
+    [
+        ("--games 5..9 --scale fargo --tilt 0", "fargo", RaceLimits((5, 9)), {"tilt": 0.0}),
+        ("--games 5..9 --rule worst", "npl", RaceLimits((5, 9)), {"criterion": "worst"}),
+        ("--games 5..9 --target 0.6", "npl", RaceLimits((5, 9)), {"target": 0.6}),
+        ("--games 5..9 --rows 3", "npl", RaceLimits((5, 9)), {"rows": 3}),
+        ("--games 5..9 --mean-games 5", "npl", RaceLimits((5, 9)), {"mean_games": 5}),
+        ("--games 5..9 --games-p90 8", "npl", RaceLimits((5, 9), games_p90=8), {}),
+        (
+            "--games 5..9 --minutes 50 --minutes-per-game 6",
+            "npl",
+            RaceLimits((5, 9), games_p90=8),
+            {},
+        ),
+        ("--games 5..6 --win-by 2", Play("npl", win_by=2), RaceLimits((5, 6)), {}),
+        (
+            "--games 5..6 --breaks winner --break-points 9",
+            Play("npl", breaks=winner_breaks, break_points=9.0),
+            RaceLimits((5, 6)),
+            {},
+        ),
+    ],
+)
+def test_every_option_reaches_the_design(ask, line, play, limits, wishes):
+    assert rows_of(ask(line)) == [tuple(row) for row in design(play, limits, **wishes).rows]
+
+
+def test_what_goes_into_a_pipe_is_a_chart(run, tmp_path):
+    result = run("chart", "design", *NPL_10.split())
+    path = tmp_path / "ours.csv"
+    path.write_text(result.stdout, encoding="utf-8")
+    assert read_chart(path).rows == design("npl", RaceLimits((7, 9), weaker_least=2), up_to=59).rows
+    assert "Other races than npl_10 at 7 of 60 differences" in result.stderr
+    same = run("chart", "design", *NPL_10.split()[:4], "--beside", str(path), "--up-to", "59")
+    assert "The same races as ours at all differences from 0 to 59." in same.stderr
+
+
+def test_pareto(run, ask, tmp_path):
+    line = "--games 5..9 --least 2:2 --pareto --beside npl_8"
+    answer = ask(line)
+    assert answer["up_to"] == 52
+    by_name = {one["chart"]: one for one in answer["charts"]}
+    assert by_name["npl_8"]["beaten_by"] in by_name
+    assert by_name["fairest"]["beaten_by"] is None
+    table = run("chart", "design", *line.split(), "--plot", str(tmp_path / "front.svg"))
+    lines = table.stdout.splitlines()
+    assert lines[0] == (
+        "chart,mean_unfairness,worst_unfairness,mean_games,games_p90,races,beaten_by"
+    )
+    assert len(lines) == 1 + len(answer["charts"])
+    assert (tmp_path / "front.svg").read_text(encoding="utf-8").startswith("<?xml")
+
+
+def test_a_pareto_list_has_no_more_rows_than_asked_for(ask):
+    answer = ask("--games 5..9 --pareto --rows 4")
+    assert max(one["races"] for one in answer["charts"]) == 4
+
+
+@pytest.mark.usefixtures("terminal")
+def test_a_person_sees_the_first_of_many_other_races(run):
+    line = "--games 17..41 --least 2:2 --rows 10 --beside npl_20"
+    shown = run("chart", "design", *line.split()).stdout.splitlines()
+    assert shown[-1].startswith("  and ")
+    assert shown[-1].endswith(" more; --json lists them all")
+    assert len(shown) < 35
+    assert max(map(len, shown)) <= 80
+
+
+@pytest.mark.usefixtures("terminal")
+def test_nothing_beats_a_design_where_no_chart_is_beside(run):
+    line = ("chart", "design", "--games", "5..7", "--pareto")
+    assert "beaten by" not in run(*line).stdout
+    assert "beaten by" in run(*line, "--beside", "npl_8").stdout
+
+
+def test_plot(run, tmp_path):
+    for beside in ([], ["--beside", "npl_10"]):
+        path = tmp_path / f"design{len(beside)}.png"
+        words = ["--games", "7..9", "--least", "1:2", *beside, "--plot", str(path)]
+        assert run("chart", "design", *words).exit_code == 0
+        assert path.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("line", "remedy"),
+    [
+        ("", "Missing option '--games'"),
+        ("--games 7", "such as 7..13"),
+        ("--games 7..9 --least 2:", "such as 7:5"),
+        ("--games 7..9 --beside apa_8ball", "name one of rating differences"),
+        ("--games 7..9 --minutes 60", "give both"),
+        ("--games 7..9 --minutes 5 --minutes-per-game 8", "less than a game takes"),
+        (
+            "--games 7..9 --minutes 60 --minutes-per-game 8 --games-p90 7",
+            "one limit said twice",
+        ),
+        ("--games 7..9 --breaks winner", "give both, or leave both out"),
+        ("--games 7..9 --break-points 5", "give both, or leave both out"),
+        (
+            "--games 7..9 --rule nearest --tilt 0",
+            "leave --mean-games, --rows, --target, --tilt out",
+        ),
+        ("--games 7..9 --pareto --mean-games 5", "leave --mean-games"),
+        ("--games 7..9 --win-by 2 --plot x.png", "draws plain races"),
+        ("--games 7..9 --mean-games -1", "give a number above 0"),
+        ("--games 7..9 --rule nearest --rows 5", "leave --mean-games, --rows,"),
+        ("--games 7..9 --rows 0", "--rows"),
+        ("--games 7..9 --mean-games 2", "--mean-games is 2, and the shortest chart"),
+        ("--games 7..9 --games-p90 3", "--games-p90 is 3, and at a difference of 0"),
+        (
+            "--games 7..9 --minutes 24 --minutes-per-game 8",
+            "Error: --minutes allows 3 games, and at a difference of 0",
+        ),
+        ("--games 900..1000", "narrow --games, raise --least, or lower --up-to"),
+        ("--games 1..99 --rows 60 --up-to 400", "narrow --games, lower --rows or --up-to"),
+        ("--games 1..2 --least 5:5", "--games is 1..2, and no even race"),
+        ("--games 7..9 --scale odd", "--scale is 'odd'; give npl"),
+        ("--games 7..9 --tilt 2", "number from 0 to 1"),
+    ],
+)
+def test_wrong_use_says_how_to_mend_it(run, line, remedy):
+    result = run("chart", "design", *line.split())
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert remedy in " ".join(result.stderr.split())
+
+
+WORDS = "--games 5..7 9..5 --least 2:2 --tilt 0 1 --target 0.6 --rule nearest --pareto --up-to 30"
+words = st.sampled_from(WORDS.split()) | st.text(max_size=4)
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.lists(words, max_size=8))
+def test_no_words_make_a_traceback(run, line):
+    result = run("chart", "design", *line)
+    assert result.exit_code in (0, 1, 2, 3)

@@ -1,0 +1,250 @@
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+LAST = 'player,rating,games\n"Diaz, Bo",80,120\nAnn,92,140\nCy,71,\n=cmd(),60,0\n'
+NIGHT = (
+    "date,player_a,player_b,score_a,score_b,forfeit\n"
+    '2026-11-20,Ann,"Diaz, Bo",5,3,\n2026-11-20,Cy,Annie,2,6,\n2026-11-20,Cy,=cmd(),,,yes\n'
+)
+LIST = (
+    "player,rating,standard_error,games,component,matches,rating_before,change,matches_won,"
+    "matches_lost,why\n"
+    'Ann,94,,156,,,92,2,2,0,"beat Diaz, Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)"\n'
+    '"Diaz, Bo",79,,128,,,80,-1,0,1,lost to Ann 3-5 (race 4:5)\n'
+    "Cy,70,,,,,71,-1,0,1,lost to Ann 2-6 (race 4:6)\n"
+    "'=cmd(),60,,0,,,60,0,0,0,\n"
+)
+
+
+@pytest.fixture
+def rate(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    files = {
+        "last.csv": LAST,
+        "night.csv": NIGHT,
+        "open.csv": NIGHT.replace("5,3", "5,4"),  # the end of no chart's race, beside 6-2
+        "aliases.csv": "name,means\nAnnie,Ann\n",
+    }
+    for name, text in files.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+
+    def ask(*words, stdin=None):
+        line = ("--system", "npl", "--roster", "last.csv", "--aliases", "aliases.csv", *words)
+        return run("rate", *line, stdin=stdin)
+
+    return ask
+
+
+def test_next_weeks_list_into_a_pipe(rate):
+    result = rate("night.csv", "--chart", "npl_10")
+    assert (result.exit_code, result.stdout) == (0, LIST)
+    assert result.stderr.splitlines() == [
+        "Warning: night.csv: read as aliases.csv says: 'Annie' as 'Ann'",
+        "System npl: up 1 point for each match won, down 1 for each match lost.",
+        "4 players of last.csv; 2 matches of night.csv; left out: 1 forfeit.",
+    ]
+
+
+def test_on_a_terminal_who_moved_and_why_and_the_list(rate, monkeypatch):
+    monkeypatch.setattr("evenbreak.cli.league.rate_system.to_terminal", lambda: True)
+    result = rate("night.csv", "--chart", "npl_10")
+    assert result.exit_code == 0
+    assert result.stdout.splitlines()[3:] == [
+        "  played    was  is  moves  why",
+        "  Ann        92  94     +2  beat Diaz, Bo 5-3 (race 5:4)",
+        "                            beat Cy 6-2 (race 6:4)",
+        "  Diaz, Bo   80  79     -1  lost to Ann 3-5 (race 4:5)",
+        "  Cy         71  70     -1  lost to Ann 2-6 (race 4:6)",
+        "",
+        "     the list now  rating  games",
+        "  1  Ann               94    156",
+        "  2  Diaz, Bo          79    128",
+        "  3  Cy                70",
+        "  4  =cmd()            60      0",
+    ]
+
+
+def test_json(rate):
+    result = rate("night.csv", "--chart", "NPL-10", "--json")
+    answer = json.loads(result.stdout)
+    assert list(answer)[:4] == ["system", "scale", "points_per_doubling", "chart"]
+    assert (answer["system"], answer["chart"], answer["forfeits_left_out"]) == ("npl", "npl_10", 1)
+    assert [(p["player"], p["rating"], p["change"]) for p in answer["players"]] == [
+        ("Ann", 94, 2),
+        ("Diaz, Bo", 79, -1),
+        ("Cy", 70, -1),
+        ("=cmd()", 60, 0),
+    ]
+    assert answer["matches"][1] == {
+        "winner": "Ann",
+        "loser": "Cy",
+        "games": [6, 2],
+        "race": [6, 4],
+        "race_by_chart": [6, 4],
+        "points": [1, -1],
+    }
+    assert answer["schema_version"] == 1
+
+
+def test_the_night_may_come_through_a_pipe(rate):
+    assert rate("-", "--chart", "npl_10", stdin=NIGHT).stdout == LIST
+
+
+def test_newcomers_go_farther_and_their_matches_are_counted_on(rate, tmp_path):
+    (tmp_path / "last.csv").write_text("player,rating,matches\nAnn,92,9\nDiaz,80,29\nCy,71,\n")
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,winner\nAnn,Diaz,5,3,Ann\nDiaz,Ann,5,3,Diaz\n"
+        "Diaz,Cy,5,1,Diaz\n"
+    )
+    result = rate("night.csv")
+    assert result.exit_code == 0
+    assert [line.split(",")[:8] for line in result.stdout.splitlines()[1:]] == [
+        ["Ann", "93", "", "", "", "11", "92", "1"],  # 3 up, then 2 down
+        ["Diaz", "80", "", "", "", "32", "80", "0"],  # 2 down, then up 1 and 1
+        ["Cy", "70", "", "", "", "", "71", "-1"],
+    ]
+    assert (
+        "Newcomers go 3 times as far in their first 10 matches, 2 times in the next 20."
+        in result.stderr.splitlines()
+    )
+
+
+def test_a_league_without_newcomers_is_told_nothing_of_them(rate, tmp_path):
+    (tmp_path / "last.csv").write_text("player,rating,matches\nAnn,92,30\n'Diaz, Bo',80,\nCy,71,\n")
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,winner\nAnn,Cy,5,3,Ann\n"
+    )
+    assert "Newcomers" not in rate("night.csv").stderr
+
+
+@pytest.mark.parametrize(
+    ("system", "change"),
+    [("step 3", (3, -3)), ("step-2-1", (2, -1)), ("margin", (2, -2)), ("elo 16", (11, -11))],
+)
+def test_other_systems_move_by_their_own_rules(rate, tmp_path, system, change):
+    (tmp_path / "last.csv").write_text("player,rating\nAnn,120\nCy,0\n")
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,race_a,race_b\nAnn,Cy,4,1,4,3\n"
+    )
+    result = rate("night.csv", "--system", system)
+    rows = [line.split(",") for line in result.stdout.splitlines()[1:]]
+    assert [int(row[7]) for row in rows] == list(change)
+
+
+def test_a_system_that_moves_by_the_score_asks_for_it(rate, tmp_path):
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,race_a,race_b,winner\nAnn,Cy,6,4,Ann\nCy,Ann,4,6,Cy\n"
+    )
+    result = rate("night.csv", "--system", "elo 16")
+    assert result.exit_code == 3
+    assert "night.csv:2: the score is not stated, and the system elo 16 moves" in result.stderr
+    assert "night.csv:3: the score is not stated" in result.stderr
+
+
+def test_a_system_that_moves_by_the_race_asks_for_it(rate, tmp_path):
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,winner\nAnn,Cy,6,2,Ann\n"
+    )
+    result = rate("night.csv", "--system", "margin", "--chart", "npl_10")
+    assert result.exit_code == 0
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,winner\nAnn,Cy,9,2,Ann\n"
+    )
+    result = rate("night.csv", "--system", "margin")
+    assert result.exit_code == 3
+    assert (
+        "night.csv:2: the race is not stated, and the system margin 2 moves ratings by it; give "
+        "the chart by which they played (npl_8, npl_10, npl_12 or npl_20), or the columns race_a "
+        "and race_b"
+    ) in result.stderr
+
+
+def test_the_chart_of_a_fixed_length_system_is_taken_by_itself(rate):
+    result = rate("night.csv", "--system", "fixed 9")
+    assert result.exit_code == 3  # 5-3 and 6-2 are the ends of no races of nine games at once
+    assert "give the chart by which they played, or the columns race_a and race_b" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("system", "message"),
+    [
+        ("fide", "--system is 'fide'; give npl, step UP [DOWN], margin [MOST]"),
+        ("step", "--system is 'step'; write it as step UP [DOWN], in whole numbers"),
+        ("elo 0", "--system is 'elo 0': k is 0; give a whole number, 1 or more"),
+        ("fixed 8", "--system is 'fixed 8': games is 8"),
+    ],
+)
+def test_a_system_that_there_is_not_is_refused(rate, system, message):
+    result = rate("night.csv", "--system", system)
+    assert result.exit_code == 2
+    assert message in result.stderr
+
+
+def test_a_race_beside_the_chart_is_warned_of(rate, tmp_path):
+    (tmp_path / "night.csv").write_text(
+        "player_a,player_b,score_a,score_b,race_a,race_b\nAnn,Cy,5,4,5,5\n"
+    )
+    result = rate("night.csv", "--chart", "npl_10")
+    assert result.exit_code == 0
+    assert "night.csv:2: 'Ann' - 'Cy' was a race 5:5; the chart npl_10 has 6:4" in result.stderr
+
+
+def test_without_a_chart_the_one_that_the_scores_tell_is_taken_and_named(rate):
+    result = rate("night.csv")
+    assert (result.exit_code, result.stdout) == (0, LIST)
+    assert (
+        "No --chart: npl_10 is taken, the only chart of the system whose races all scores end"
+        in result.stderr.splitlines()
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "remedy"),
+    [
+        (["open.csv"], 3, "--chart NAME serves for all"),
+        (["night.csv", "--chart", "npl_8"], 3, "5-3 is no end of the race 4:3"),
+        (["night.csv", "--chart", "npl_9"], 3, "no chart is called so"),
+        (["night.csv", "--chart", "apa_8ball"], 2, "give one of rating differences"),
+        (["none.csv", "--chart", "npl_10"], 3, "there is no such file"),
+        (["night.csv", "--roster", "none.csv"], 3, "there is no such file"),
+        (["night.csv", "--system", "fide"], 2, "--system is 'fide'; give npl"),
+        (["-", "--roster", "-"], 2, "which only one file can be"),
+        (["night.csv", "--roster", "night.csv"], 3, "there is no column 'player'"),
+        (["night.csv", "--aliases", "last.csv"], 3, "there is no column 'name'"),
+        (["-", "--chart", "-"], 2, "which only one file can be"),
+        (["night.csv", "--half-life", "30"], 2, "leave out --half-life"),
+    ],
+)
+def test_wrong_use_says_how_to_mend_it(rate, words, code, remedy):
+    result = rate(*words)
+    assert (result.exit_code, result.stdout) == (code, "")
+    assert remedy in result.stderr
+
+
+def test_warnings_stand_beside_what_they_explain(rate, tmp_path):
+    (tmp_path / "last.csv").write_text("player,rating\nAnn,92\nDiaz Bo,80\nCy,71\n")
+    result = rate("night.csv", "--chart", "npl_10")
+    assert result.exit_code == 3
+    first, *_, error = result.stderr.splitlines()
+    assert first.endswith("read as aliases.csv says: 'Annie' as 'Ann'")
+    assert error.startswith("Error: night.csv:2: 'Diaz, Bo' is not on the list")
+    assert error.endswith("if 'Diaz Bo' is meant, write that or say so in --aliases")
+
+
+def test_chart_and_roster_are_for_a_system(run):
+    for words in (["--chart", "npl_10"], ["--roster", "last.csv"]):
+        result = run("rate", "night.csv", *words)
+        assert result.exit_code == 2
+        assert "is for --system" in result.stderr
+
+
+@given(st.text(max_size=40), st.text(max_size=40))
+def test_no_text_makes_a_traceback(run, tmp_path_factory, rows, names):
+    folder = tmp_path_factory.getbasetemp()
+    (folder / "any_list.csv").write_text(f"player,rating\nAnn,90\n{names}", "utf-8", "replace")
+    night = f"player_a,player_b,score_a,score_b\n{rows}"
+    line = f"rate - --system npl --chart npl_10 --roster {folder}/any_list.csv"
+    assert run(*line.split(), stdin=night.encode("utf-8", "replace")).exit_code in (0, 3)

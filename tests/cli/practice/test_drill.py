@@ -1,0 +1,230 @@
+import csv
+import io
+import json
+import re
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from evenbreak.cli.practice.drill import COLUMNS, LOG_COLUMNS, MOST_LEVELS
+from evenbreak.games import Drill
+from evenbreak.practice import drill_statistics
+from evenbreak.practice.drill_log import MOST_LEVELS as MOST_OF_A_LOG
+from places import DATA
+
+LOG_FILE = DATA / "drill_log.csv"
+MODEL_KEYS = ["levels", "mean", "median", "mode", "sd", "practise_next", "period", "schema_version"]
+LOG_KEYS = [
+    *("levels", "mean", "median", "mode", "sd", "mean_low", "mean_high", "mean_so_far"),
+    *("practise_next", "difference", "memory", "model_test", "model", "furthest_off_model"),
+    *("attempts", "sessions", "against_the_rule", "replicas", "seed", "schema_version"),
+]
+
+
+@pytest.fixture
+def drill(run):
+    def ask(*words, stdin=None):
+        result = run("drill", "--json", *words, stdin=stdin)
+        assert result.exit_code == 0, result.stderr
+        return json.loads(result.stdout)
+
+    return ask
+
+
+@pytest.fixture
+def terminal(monkeypatch, run):
+    def ask(*words, stdin=None):
+        monkeypatch.setattr("evenbreak.cli.kit.output.to_terminal", lambda: True)
+        monkeypatch.setattr("evenbreak.cli.practice.drill.to_terminal", lambda: True)
+        result = run("drill", *words, stdin=stdin)
+        assert result.exit_code == 0, result.stderr
+        return result.stdout
+
+    return ask
+
+
+def test_the_model_of_table_5_5(drill):
+    answer = drill("--p", "0.8")
+    assert list(answer) == MODEL_KEYS
+    assert [list(row) for row in answer["levels"]] == [list(COLUMNS)] * 9
+    assert round(answer["mean"], 3) == 4.354
+    assert (answer["median"], answer["mode"], round(answer["sd"], 3)) == (4, 4, 1.526)
+    assert (answer["practise_next"], answer["period"]) == (4, 1)
+    statistics = drill_statistics(Drill.progressive(0.8))
+    for name, values in (
+        ("p_success", statistics.drill.success),
+        ("long_run", statistics.distribution.probability),
+        ("gain", statistics.gain),
+        ("lift", statistics.lift),
+    ):
+        assert [row[name] for row in answer["levels"]] == list(values)
+
+
+def test_levels_and_chances_of_ones_own(drill):
+    assert len(drill("--p", "0.8", "--levels", "4")["levels"]) == 4
+    answer = drill("--success", "0.5, .5")
+    assert [row["long_run"] for row in answer["levels"]] == [0.5, 0.5]
+    assert [row["gain"] for row in answer["levels"]] == [0.5, 0.5]
+
+
+def test_a_gain_without_bound_is_null(drill, run):
+    assert drill("--success", "0.5,0,1")["levels"][1]["gain"] is None
+    row = run("drill", "--success", "0.5,0,1").stdout.splitlines()[2].split(",")
+    assert (row[0], row[3]) == ("2", "")
+
+
+def test_to_and_fro_is_told(run):
+    # With 0.05 at level 2 the limit has 1/1.95 there in place of 1/2.
+    result = run("drill", "--p", "0", "--levels", "2")
+    assert result.stdout.splitlines()[1:] == [
+        "1,1.000000,0.500000,0.250000,0.000000",
+        "2,0.000000,0.500000,0.250000,0.012821",
+    ]
+    assert result.stderr.startswith("Note: odd and even attempts differ")
+
+
+def test_a_drill_on_a_terminal(terminal):
+    shown = terminal("--p", "0.8")
+    assert shown.startswith("level i takes i - 1 good shots, each made with 0.8\n")
+    assert re.search(r"^ +4 +0\.5120 +0\.2563 +2\.301 +0\.114$", shown, re.MULTILINE)
+    assert re.search(r"^  mean level +4\.354$", shown, re.MULTILINE)
+    assert "Practice helps most at level 4" in shown
+    assert "nowhere" in terminal("--success", "1,1")
+
+
+def test_a_giant_gain_keeps_the_table_narrow(terminal):
+    shown = terminal("--success", "1e-300,1,0.5")
+    assert "5.56e+299" in shown
+    assert max(map(len, shown.splitlines())) < 80
+
+
+def test_a_log(drill):
+    answer = drill("--log", str(LOG_FILE))
+    assert list(answer) == LOG_KEYS
+    assert [list(row) for row in answer["levels"]] == [list(LOG_COLUMNS)] * 9
+    assert (answer["attempts"], answer["sessions"], answer["against_the_rule"]) == (537, 12, 0)
+    assert sum(row["attempts"] for row in answer["levels"]) == 537
+    assert answer["practise_next"] == answer["furthest_off_model"] == 5
+    assert answer["model_test"]["p_value"] < 0.01 < 0.05 < answer["memory"]["p_value"]
+    assert answer["difference"]["p_value"] > 0.05
+    assert answer["model"]["level_1_attempts"] == 14
+    lines = LOG_FILE.read_text(encoding="utf-8").splitlines()
+    level, success = zip(
+        *((int(row["level"]), row["success"] == "yes") for row in csv.DictReader(lines)),
+        strict=True,
+    )
+    made = sum(success[k] for k in range(537) if level[k] == 5)
+    assert answer["levels"][4]["p_success"] == made / level.count(5)
+
+
+def test_csv_of_a_log_into_a_pipe(run, drill):
+    rows = list(csv.reader(io.StringIO(run("drill", "--log", str(LOG_FILE)).stdout)))
+    assert rows[0] == list(LOG_COLUMNS)
+    for row, wanted in zip(rows[1:], drill("--log", str(LOG_FILE))["levels"], strict=True):
+        for cell, value in zip(row, wanted.values(), strict=True):
+            assert float(cell) == pytest.approx(value, abs=5e-7)
+
+
+def test_the_seed_decides(run):
+    line = ("drill", "--log", str(LOG_FILE), "--json")
+    assert run(*line).stdout == run(*line, "--seed", "1").stdout
+    assert run(*line).stdout != run(*line, "--seed", "2").stdout
+
+
+def test_a_log_on_a_terminal(terminal):
+    shown = terminal("--log", str(LOG_FILE))
+    assert "537 attempts in 12 sessions" in shown
+    assert "Practise level 5 next: five more successes" in shown
+    assert "The furthest off is level 5: 31 of 105 succeeded" in shown
+    assert max(map(len, shown.splitlines()[1:])) < 80
+    assert "taken as a drill of 9 levels, the most in the log; --levels says" in shown
+    assert "taken as" not in terminal("--log", str(LOG_FILE), "--levels", "10")
+    assert "\u00a0" not in shown
+
+
+def test_levels_nobody_tried_have_no_chance(run, drill):
+    log = "level,success\n1,yes\n2,no\n1,no\n1,yes\n2,no\n"
+    rows = run("drill", "--log", "-", "--levels", "3", stdin=log).stdout.splitlines()
+    assert rows[3].startswith("3,0,0,,0.000000,1.000000,")
+    assert drill("--log", "-", "--levels", "3", stdin=log)["levels"][2]["p_success"] is None
+
+
+def test_level_1_alone_has_neither_model_nor_tests(drill, terminal):
+    log = "level,success\n1,no\n1,no\n"
+    answer = drill("--log", "-", stdin=log)
+    assert [answer[key] for key in ("model", "model_test", "memory", "practise_next")] == [None] * 4
+    shown = terminal("--log", "-", stdin=log)
+    assert "taken as a drill of 1 level, the most in the log" in shown
+    assert "there is nothing to climb" in shown
+    assert "Practise level 1 next" in terminal("--log", "-", "--levels", "5", stdin=log)
+    assert "Without attempts above level 1" in shown
+
+
+def test_a_step_against_the_rule_is_told(run):
+    result = run("drill", "--log", "-", "--json", stdin="level,made\n1,yes\n5,no\n4,no\n")
+    assert "Warning: " in result.stderr
+    assert ":3: level 5 follows a success at level 1, which leads to level 2" in result.stderr
+    assert json.loads(result.stdout)["against_the_rule"] == 1
+
+
+def test_bad_data(run):
+    result = run("drill", "--log", "-", stdin="level,success\n1,perhaps\n0,no\n")
+    assert (result.exit_code, result.stdout) == (3, "")
+    assert len(result.stderr.splitlines()) == 2
+
+
+@pytest.mark.parametrize("name", ["drill.png", "drill.svg"])
+@pytest.mark.parametrize("words", [("--p", "0.8"), ("--log", str(LOG_FILE))])
+def test_a_picture(run, tmp_path, words, name):
+    result = run("drill", *words, "--plot", str(tmp_path / name))
+    assert result.exit_code == 0
+    assert (tmp_path / name).read_bytes()[:5] in (b"\x89PNG\r", b"<?xml")
+
+
+@pytest.mark.parametrize(
+    ("line", "remedy"),
+    [
+        ("", "give one of --p, --success and --log"),
+        ("--p 0.5 --log x.csv", "give one of --p, --success and --log"),
+        ("--p 2", "number from 0 to 1"),
+        ("--success 0.5,2", "such as 0.9,0.8,0.5"),
+        ("--success ,", "such as 0.9,0.8,0.5"),
+        ("--success " + ",".join(["1"] * 101), "give up to 100 numbers"),
+        ("--success 0.5,0.4 --levels 3", "leave --levels out"),
+        ("--p 0.5 --levels 0", "from 1 to 100"),
+        ("--p 0.5 --levels 101", "from 1 to 100"),
+        ("--p 0.5 --seed 3", "leave it out"),
+        ("--p 0.5 --plot x.pdf", "ends in .png or .svg"),
+    ],
+)
+def test_wrong_use_says_how_to_mend_it(run, line, remedy):
+    result = run("drill", *line.split())
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert remedy in " ".join(result.stderr.split())
+
+
+def test_command_and_log_have_the_same_most_levels():
+    assert MOST_LEVELS == MOST_OF_A_LOG
+
+
+WORDS_OF_A_LINE = "--p --success --levels --seed --json 0 1 0.5 0.2,0.9 1,0,1 3 -2 nan"
+words = st.sampled_from(WORDS_OF_A_LINE.split()) | st.text(max_size=4)
+
+
+@given(st.lists(words, max_size=6))
+def test_no_words_make_a_traceback(run, line):
+    assert run("drill", *line).exit_code in (0, 2)
+
+
+attempts = st.lists(st.tuples(st.integers(1, 4), st.sampled_from(["yes", "no"])), min_size=1)
+
+
+@given(attempts)
+def test_any_log_has_an_answer(run, rows):
+    text = "level,success\n" + "".join(f"{level},{word}\n" for level, word in rows[:12])
+    result = run("drill", "--log", "-", "--json", stdin=text)
+    assert result.exit_code == 0
+    answer = json.loads(result.stdout)
+    sure = sum(row["p_best"] for row in answer["levels"])
+    assert sure == pytest.approx(0 if answer["practise_next"] is None else 1)

@@ -1,0 +1,125 @@
+import math
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import DataError
+from evenbreak.files.cells import numbers, whole_numbers
+from evenbreak.files.problems import Problems
+from evenbreak.files.text_table import Table, Texts
+
+
+def table_of(*cells):
+    distinct = list(dict.fromkeys(cells))
+    codes = np.array([distinct.index(cell) for cell in cells], dtype=np.int64)
+    lines = np.arange(2, len(cells) + 2)
+    return Table("t.csv", lines, {"x": Texts(distinct, codes)}, Problems("t.csv"), (), b"")
+
+
+def told(table):
+    try:
+        table.problems.raise_any()
+    except DataError as error:
+        return list(error.problems)
+    return []
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("7", 7), ("+7", 7), ("007", 7), ("7.0", 7), ("7.", 7), ("7,0", 7), ("1000000", 10**6)],
+)
+def test_whole_numbers(text, value):
+    table = table_of(text)
+    assert whole_numbers(table, "x").values.tolist() == [value]
+    assert told(table) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "-1",
+        "7.5",
+        "1e3",
+        "NaN",
+        "inf",
+        "seven",
+        "1_000",
+        "1,000",
+        "٧",
+        "²",
+        "0x7",
+        "1000001",
+        "9" * 5_000,
+        "",
+    ],
+)
+def test_what_is_no_whole_number_is_told(text):
+    table = table_of("5", text, "5")
+    read = whole_numbers(table, "x")
+    assert read.good.tolist() == [True, False, True]
+    assert read.values.tolist() == [5, 0, 5]
+    (problem,) = told(table)
+    assert problem.startswith("t.csv:3: x ")
+    assert problem.endswith("; write 0, 1, 2, ...")
+    assert len(problem) < 150
+
+
+def test_the_least_whole_number_can_be_raised():
+    table = table_of("0", "1")
+    assert whole_numbers(table, "x", at_least=1).good.tolist() == [False, True]
+    assert told(table) == [
+        "t.csv:2: x '0' is not a whole number from 1 to 1,000,000; write 0, 1, 2, ..."
+    ]
+
+
+def test_the_greatest_whole_number_can_be_lowered():
+    table = table_of("7", "8")
+    assert whole_numbers(table, "x", at_most=7).good.tolist() == [True, False]
+    assert told(table) == ["t.csv:3: x '8' is not a whole number from 0 to 7; write 0, 1, 2, ..."]
+
+
+def test_empty_cells_may_be_allowed():
+    table = table_of("", "7")
+    read = whole_numbers(table, "x", may_be_empty=True)
+    assert read.values.tolist() == [0, 7]
+    assert read.good.all()
+    assert told(table) == []
+
+
+def test_a_column_that_is_missing_is_no_further_problem():
+    table = table_of("1", "2")
+    assert whole_numbers(table, "y").values.tolist() == [0, 0]
+    assert np.isnan(numbers(table, "y", remedy="write one").values).all()
+    assert told(table) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("0.5", 0.5),
+        (".5", 0.5),
+        ("5e-1", 0.5),
+        ("1", 1.0),
+        ("-2.", -2.0),
+        ("0,5", 0.5),
+        (",5", 0.5),
+        ("1,000", 1.0),
+        ("2,5e-1", 0.25),
+    ],
+)
+def test_numbers(text, value):
+    table = table_of(text)
+    assert numbers(table, "x", remedy="write 0.5").values.tolist() == [value]
+    assert told(table) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["NaN", "inf", "-Infinity", ",", "0,5,0", "1,000.5", "1.000,5", "1e999", "half", "1_0", ""],
+)
+def test_what_is_no_number_is_told(text):
+    table = table_of(text)
+    assert math.isnan(numbers(table, "x", remedy="write 0.5").values[0])
+    (problem,) = told(table)
+    assert problem.startswith("t.csv:2: x ")
+    assert problem.endswith("; write 0.5")

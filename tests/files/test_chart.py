@@ -1,0 +1,179 @@
+import warnings
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from evenbreak.errors import DataError
+from evenbreak.files.chart import chart_frame, find_chart, read_chart, read_chart_file
+from evenbreak.files.csv_writer import to_csv
+from evenbreak.handicaps import CHARTS, LEVEL_CHARTS, Chart, LevelChart, chart, level_chart
+from evenbreak.handicaps.charts.rows import ChartRow
+
+ROWS = "difference_from,difference_to,stronger_needs,weaker_needs\n"
+LEVELS = "level,opponent_level,needs,opponent_needs\n"
+
+
+@pytest.fixture
+def write(tmp_path):
+    def file(text, name="ours.csv"):
+        path = tmp_path / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    return file
+
+
+def problems_of(path, read=read_chart):
+    with pytest.raises(DataError) as refused:
+        read(path)
+    return [problem.replace(f"{path}", "F") for problem in refused.value.problems]
+
+
+@pytest.mark.parametrize("name", [*CHARTS, *LEVEL_CHARTS])
+@pytest.mark.parametrize("excel", [False, True])
+def test_what_is_written_reads_back_the_same(write, name, excel):
+    path = write(to_csv(chart_frame(find_chart(name)), excel=excel), f"{name}.csv")
+    assert read_chart(path) == find_chart(name)
+
+
+def test_other_names_of_columns_and_a_semicolon(write):
+    path = write("From;To;Stronger;Weaker;note\n0;9;5;5;x\n10;;5;4;\n")
+    file = read_chart_file(path)
+    assert file.chart == Chart("ours", [(0, 9, 5, 5), (10, None, 5, 4)])
+    assert file.warnings == (f"{path}: columns not used: 'note'",)
+
+
+def test_all_faults_of_a_chart_are_told_at_once_with_their_lines(write):
+    path = write(ROWS + "0,4,5,4\n6,14,5,4\n\n12,20,4,6\n21,30,6,4\n")
+    assert problems_of(path) == [
+        "F:2: row 1 is a race 5:4; give an even race for the difference 0, where neither player "
+        "is the stronger",
+        "F:3: row 2 begins at 6 and row 1 ends at 4; let it begin at 5",
+        "F:5: stronger_needs of row 3 is 4; give a whole number, 6 or more: the stronger player "
+        "needs as many at least",
+        "F:5: row 3 begins at 12 and row 2 ends at 14; let it begin at 15",
+        "F:6: the last row ends at 30; leave its end empty (None): it is for all differences "
+        "above too",
+    ]
+    file = read_chart_file(path)
+    assert file.found.rows[0] == ChartRow(0, 4, 5, 4)
+    assert len(file.problems) == 5
+
+
+def test_cells_that_are_no_whole_numbers(write):
+    path = write(ROWS + "0,four,5,5\n-5,,0,4\n5.5,,5,\n")
+    told = problems_of(path, read_chart_file)
+    assert [problem.partition(";")[0] for problem in told] == [
+        "F:2: difference_to 'four' is not a whole number from 0 to 1,000,000",
+        "F:3: difference_from '-5' is not a whole number from 0 to 1,000,000",
+        "F:3: stronger_needs '0' is not a whole number from 1 to 1,000,000",
+        "F:4: difference_from '5.5' is not a whole number from 0 to 1,000,000",
+        "F:4: weaker_needs is empty",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("a,b\n1,2\n", "has no column of a chart"),
+        (ROWS, "holds no rows of a chart"),
+        ("from,to,stronger\n0,,5\n", "there is no column 'weaker_needs'"),
+        ("level,opponent_level\n3,3\n", "there is no column 'needs'"),
+        (ROWS + "9,4,5,5\n", "difference_to of row 1 is 4; give a whole number, 9 or more"),
+        ("", "is empty"),
+    ],
+)
+def test_files_that_say_nothing_of_a_chart(write, text, problem):
+    assert any(problem in told for told in problems_of(write(text), read_chart_file))
+
+
+def test_a_chart_of_levels_needs_each_pair_once_only(write):
+    half = write(LEVELS + "3,3,2,2\n4,3,3,2\n4,4,3,3\n")
+    assert read_chart(half) == LevelChart("ours", [3, 4], [[2, 2], [3, 3]])
+    one_column = write("level,opponent,games\n3,3,2\n4,3,3\n3,4,2\n4,4,3\n")
+    assert read_chart(one_column) == read_chart(half)
+
+
+def test_faults_of_a_chart_of_levels(write):
+    path = write(LEVELS + "3,3,2,2\n4,3,3,2\n3,4,3,3\n5,5,4,4\n5,3,2,3\n")
+    assert problems_of(path) == [
+        "F: does not say what level 4 needs against level 4; add a row",
+        "F: does not say what level 4 needs against level 5; add a row",
+        "F: does not say what level 5 needs against level 4; add a row",
+        "F:4: level 3 needs 3 games against level 4 here and 2 in line 3; keep one of the two",
+        "F:6: level 5 needs 2 games against level 3, which needs 3; the higher level needs as "
+        "many at least",
+    ]
+
+
+def test_so_many_missing_pairs_are_counted(write):
+    path = write("level,opponent_level,needs\n" + "".join(f"{i},{i},3\n" for i in range(9)))
+    told = problems_of(path)
+    assert len(told) == 21
+    assert told[-1] == "F: lacks 52 more pairs of levels"
+
+
+@pytest.mark.parametrize("name", ["npl_10", "NPL-10", " npl 10 "])
+def test_a_chart_is_found_by_its_name(name):
+    assert find_chart(name) == chart("npl_10")
+    assert find_chart("APA 8ball") == level_chart("apa_8ball")
+
+
+def test_a_chart_is_found_by_its_file(write):
+    path = write(ROWS + "0,,5,5\n")
+    assert find_chart(path) == find_chart(str(path)) == Chart("ours", [(0, None, 5, 5)])
+    assert problems_of(write("x"), find_chart) == problems_of(write("x"))
+
+
+def test_a_chart_is_called_as_its_file_in_letters_that_print(tmp_path):
+    path = tmp_path / "a\udcff\x1b.csv"
+    path.write_text(ROWS + "0,,5,5\n")
+    assert read_chart(path).name == r"a\udcff\x1b"
+
+
+@pytest.mark.parametrize("name", ["x" * 5000, "x\0y", "no/such", "x\ny"])
+def test_names_that_no_file_has(name):
+    (told,) = problems_of(name, find_chart)
+    assert "no chart is called so; name a file, or fargo_r6_hot" in told
+    assert "\n" not in told
+
+
+def test_neither_a_name_nor_a_file():
+    assert problems_of("npl_9", find_chart) == [
+        "F: there is no such file, and no chart is called so; name a file, or fargo_r6_hot, npl_8, "
+        "npl_10, npl_12, npl_20, apa_8ball"
+    ]
+
+
+cells = st.sampled_from(["0", "4", "5", "9", "10", "", "x", "3.0", "99999999999", "é", '"', "-1"])
+headers = st.sampled_from([ROWS, LEVELS, "from;to;stronger;weaker\n", "level\topponent\tgames\n"])
+
+
+@given(st.data(), headers)
+def test_no_file_makes_another_error(tmp_path_factory, data, header):
+    separator = next(sign for sign in ";\t," if sign in header)
+    row = st.lists(cells, min_size=3, max_size=5).map(separator.join)
+    text = header + "\n".join(data.draw(st.lists(row, max_size=5)))
+    path = tmp_path_factory.mktemp("charts") / "ours.csv"
+    path.write_text(text, encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            assert isinstance(read_chart(path), Chart | LevelChart)
+        except DataError as error:
+            told = error.problems
+        else:
+            told = None
+    assert told is None or all(told)
+
+
+@given(st.sampled_from([b"", ROWS.encode(), LEVELS.encode()]), st.binary(max_size=60))
+def test_no_bytes_make_another_error(tmp_path_factory, header, body):
+    path = tmp_path_factory.mktemp("charts") / "ours.csv"
+    path.write_bytes(header + body)
+    try:
+        told = (read_chart(path).name,)
+    except DataError as error:
+        told = error.problems
+    assert all(told)

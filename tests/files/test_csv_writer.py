@@ -1,0 +1,71 @@
+import csv
+import io
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from evenbreak.files.csv_writer import to_csv
+
+
+def test_every_kind_of_value():
+    frame = pd.DataFrame(
+        {
+            "player": ["Zoë, K", 'a "b"'],
+            "p_win_a": [1 / 3, np.nan],
+            "race_a": pd.array([7, None], dtype="Int64"),
+            "games": np.array([12, 13]),
+            "date": pd.to_datetime(["2024-09-03", None]),
+            "value": pd.Series([80.0, 24], dtype="object"),
+        }
+    )
+    assert to_csv(frame).decode() == (
+        "player,p_win_a,race_a,games,date,value\n"
+        '"Zoë, K",0.333333,7,12,2024-09-03,80.000000\n'
+        '"a ""b""",,,13,,24\n'
+    )
+
+
+@pytest.mark.parametrize("text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "\x1b[31m"])
+def test_text_that_a_spreadsheet_would_run_is_defused(text):
+    frame = pd.DataFrame({"player": [text], text: ["x"]})
+    header, row = csv.reader(io.StringIO(to_csv(frame).decode(), newline=""))
+    assert header[1] == row[0] == f"'{text}"
+
+
+def test_numbers_are_never_defused():
+    frame = pd.DataFrame({"rating": [-12.5], "won": [-3]})
+    assert to_csv(frame) == b"rating,won\n-12.500000,-3\n"
+
+
+def test_what_rounds_to_zero_has_no_sign():
+    assert to_csv(pd.DataFrame({"x": [-1e-9, -0.0]})) == b"x\n0.000000\n0.000000\n"
+
+
+def test_no_number_is_written_for_what_is_none():
+    assert to_csv(pd.DataFrame({"x": [np.inf, -np.inf, np.nan]})) == b"x\n\n\n\n"
+
+
+def test_excel_gets_a_mark_and_its_line_ends():
+    frame = pd.DataFrame({"player": ["Zoë"]})
+    assert to_csv(frame, excel=True) == b"\xef\xbb\xbfplayer\r\nZo\xc3\xab\r\n"
+
+
+TEXTS = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=10)
+
+
+@given(st.lists(st.tuples(TEXTS, st.floats(0, 1)), max_size=10), st.booleans())
+def test_what_is_written_reads_back_and_is_the_same_each_time(rows, excel):
+    frame = pd.DataFrame(rows, columns=["name", "p"]).astype({"name": object, "p": float})
+    written = to_csv(frame, excel=excel)
+    assert written == to_csv(frame.copy(), excel=excel)
+    text = written.decode("utf-8-sig")
+    read = list(csv.DictReader(io.StringIO(text, newline="")))
+    assert [row["name"].removeprefix("'") for row in read] == [
+        name.removeprefix("'") for name, _ in rows
+    ]
+    assert [row["p"] for row in read] == [f"{p:.6f}" for _, p in rows]
+    for row in read:
+        assert row["name"][:1] not in ("=", "+", "-", "@")

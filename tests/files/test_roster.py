@@ -1,0 +1,168 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from evenbreak.answers.rate_frames import rate_frame
+from evenbreak.errors import DataError
+from evenbreak.files.csv_writer import to_csv
+from evenbreak.files.roster import OPTIONAL, REQUIRED, read_roster
+from evenbreak.ratings import Results, fit
+from evenbreak.ratings.roster import NOT_STATED
+from places import DOCS
+
+
+@pytest.fixture(scope="session")
+def read(tmp_path_factory):
+    path = tmp_path_factory.mktemp("roster") / "roster.csv"
+
+    def read_text(text):
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return read_roster(path)
+
+    return read_text
+
+
+def problems_of(read, text):
+    with pytest.raises(DataError) as caught:
+        read(text)
+    return [problem.partition("roster.csv")[2] for problem in caught.value.problems]
+
+
+def test_all_columns(read):
+    file = read("player,rating,standard_error,games,component\nAnn,92.5,9,140,1\n\nBo,,,0,2\n")
+    roster = file.roster
+    assert roster.players == ("Ann", "Bo")
+    assert roster.rating[0] == 92.5
+    assert np.isnan(roster.rating[1])
+    assert roster.standard_error[0] == 9.0
+    assert np.isnan(roster.standard_error[1])
+    assert roster.games.tolist() == [140, 0]
+    assert roster.component.tolist() == [1, 2]
+    assert file.lines.tolist() == [2, 4]
+    assert file.warnings == ()
+
+
+def test_a_quasi_error_is_taken_where_it_stands(read):
+    roster = read(
+        "player,rating,standard_error,quasi_error\nAnn,92,9,6\nBo,80,8,\nCy,70,,5\n"
+    ).roster
+    assert roster.standard_error.tolist() == [6.0, 8.0, 5.0]
+    text = "player,rating,quasi_error\nAnn,92,-1\n"
+    (told,) = problems_of(read, text)
+    assert told.startswith(":2: quasi_error -1 is not from 0")
+
+
+def test_a_list_of_ratings_is_a_roster_with_the_errors_of_differences(tmp_path):
+    season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
+    ratings = fit(season)
+    path = tmp_path / "ratings.csv"
+    path.write_bytes(to_csv(rate_frame(ratings)))
+    roster = read_roster(path).roster
+    at = [ratings.players.index(name) for name in roster.players]
+    np.testing.assert_allclose(roster.standard_error, ratings.quasi_error[at], atol=1e-6)
+    np.testing.assert_allclose(roster.rating, ratings.rating[at], atol=1e-6)
+
+
+def test_two_columns_suffice(read):
+    roster = read("Name;Skill level\nAnn;5\nBo;4\n").roster
+    assert roster.rating.tolist() == [5.0, 4.0]
+    assert roster.games.tolist() == [NOT_STATED, NOT_STATED]
+
+
+def test_two_players_with_one_name_are_refused_with_their_lines(read):
+    text = "player,rating\nAnn Lee,92\nBo,71\n Ann  Lee ,85\nBo,70\n"
+    assert problems_of(read, text) == [
+        ":4: player 'Ann Lee' stands in line 2 already; delete one of the two, or tell two "
+        "players of one name apart, such as by a number",
+        ":5: player 'Bo' stands in line 3 already; delete one of the two, or tell two players "
+        "of one name apart, such as by a number",
+    ]
+
+
+def test_all_problems_at_once(read):
+    text = (
+        "player,rating,standard_error,games\n"
+        ",80,,\nAnn,six hundred,-1,1\nBo,1e9,x,-2\nCy,,,12\nDi,80,2000000,0\n"
+    )
+    told = problems_of(read, text)
+    assert [line.split(":")[1] for line in told] == ["2", "3", "3", "4", "4", "4", "5", "6"]
+    assert told[-2] == ":5: rating is empty after 12 games; write it, or 0 games if new"
+
+
+@pytest.mark.parametrize(
+    "name", ["Lee, Ann", 'Ann "Ace" Lee', "Ann\nLee", "שרה כהן", "🎱 Zoë", "=cmd()", "+1", "a;b"]
+)
+def test_names_of_all_kinds(read, name):
+    quoted = name.replace('"', '""')
+    file = read(f'player,rating\n"{quoted}",80\n')
+    assert file.roster.players == (" ".join(name.split()),)
+
+
+def test_similar_names_are_a_warning(read):
+    (warning,) = read("player,rating\nBo Petersen,80\nBo Peterson,71\n").warnings
+    assert "'Bo Petersen' and 'Bo Peterson' may be one player" in warning
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("player,rating\n", "has no players below its header"),
+        ("player\nAnn\n", "there is no column 'rating'"),
+        ("rating\n80\n81\n", "there is no column 'player'"),
+    ],
+)
+def test_nothing_to_read(read, text, problem):
+    (told,) = problems_of(read, text)
+    assert problem in told
+
+
+CELLS = st.sampled_from(["Ann", "Bo", "80", "", "9.5", "-3", "0", '"', "x", "1e400", "NaN"])
+ROWS = st.lists(st.lists(CELLS | st.text(max_size=4), min_size=3, max_size=5), max_size=6)
+
+
+@given(ROWS)
+def test_any_cells_are_read_or_refused(read, rows):
+    text = "player,rating,standard_error,games\n" + "\n".join(",".join(row) for row in rows)
+    try:
+        roster = read(text.encode("utf-8", "replace")).roster
+    except DataError:
+        return
+    assert len(set(roster.players)) == len(roster) > 0
+    assert not np.isinf(roster.rating).any()
+
+
+@given(st.binary(max_size=200))
+def test_any_bytes_are_read_or_refused(read, content):
+    try:
+        roster = read(b"player,rating\n" + content).roster
+    except DataError:
+        return
+    assert len(set(roster.players)) == len(roster) > 0
+
+
+def test_every_column_is_described_with_its_other_names():
+    page = DOCS / "reference" / "files.md"
+    text = page.read_text(encoding="utf-8")
+    for column, others in {**REQUIRED, **OPTIONAL}.items():
+        assert f"| `{column}` | {', '.join(others)} |" in text
+
+
+def test_matches_are_counts_or_not_stated(tmp_path):
+    path = tmp_path / "roster.csv"
+    path.write_text("player,rating,Matches Played\nAnn,92,64\nBo,80,\n", encoding="utf-8")
+    assert read_roster(path).roster.matches.tolist() == [64, NOT_STATED]
+    path.write_text("player,rating,matches\nAnn,92,six\nBo,80,-1\n", encoding="utf-8")
+    with pytest.raises(DataError) as caught:
+        read_roster(path)
+    assert len(caught.value.problems) == 2
+
+
+def test_the_columns_of_a_season_are_no_surprise_but_a_misspelt_one_is(tmp_path):
+    path = tmp_path / "roster.csv"
+    path.write_text(
+        "player,rating,skill,strength,day_sd,drift,joins,leaves,absence,absense\n"
+        "Ann,92,90,91,4,0,1,9,0.1,0.1\n",
+        encoding="utf-8",
+    )
+    assert read_roster(path).warnings == (f"{path}: columns not used: 'absense'",)

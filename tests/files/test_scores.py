@@ -1,0 +1,63 @@
+import numpy as np
+import pytest
+
+from evenbreak.errors import DataError
+from evenbreak.files.scores import read_scores
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read_text(text):
+        path = tmp_path / "scores.csv"
+        path.write_text(text, encoding="utf-8")
+        return read_scores(path)
+
+    return read_text
+
+
+def problems(read, text):
+    with pytest.raises(DataError) as caught:
+        read(text)
+    return [problem.partition("scores.csv")[2] for problem in caught.value.problems]
+
+
+def test_scores_with_dates_in_the_order_of_the_file(read):
+    file = read("date,score\n2024-09-10,44\n2024-09-03 19:30,50.5\n")
+    assert file.scores.tolist() == [44.0, 50.5]
+    assert file.dates.tolist() == np.array(["2024-09-10", "2024-09-03"], "M8[D]").tolist()
+    assert file.warnings == ()
+
+
+def test_scores_alone(read):
+    for text in ("score\n-3\n4\n", "Points\n-3\n4\n", "score,date\n-3,\n4,\n"):
+        file = read(text)
+        assert (file.scores.tolist(), file.dates, file.warnings) == ([-3.0, 4.0], None, ())
+
+
+def test_some_dates_are_no_dates(read):
+    file = read("date,score\n2024-09-10,44\n,45\n,46\n")
+    assert file.dates is None
+    assert file.warnings[0].endswith("scores.csv:3: 2 dates are missing; no date is used")
+    one = read("date,score\n2024-09-10,44\n,45\n")
+    assert one.warnings[0].endswith("scores.csv:3: the date is missing; no date is used")
+
+
+def test_all_problems_at_once(read):
+    text = "date,score\n2024-09-03,fifty\n3/9/2024,48\n2024-02-30,\n2024-09-24,1e12\n"
+    assert problems(read, text) == [
+        ":2: score 'fifty' is not a number; write one such as 48",
+        ":3: date '3/9/2024' is not a date; "
+        "write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
+        ":4: score is empty; write one such as 48",
+        ":4: date '2024-02-30' is not a date; "
+        "write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
+        ":5: score 1e+12 is not from -1e+09 to 1e+09; correct it",
+    ]
+
+
+def test_no_scores(read):
+    assert problems(read, "score\n") == [
+        ": has no scores below its header; write one line for each"
+    ]
+    (problem,) = problems(read, "date,mark\n2024-09-03,5\n")
+    assert problem.startswith(":1: there is no column 'score' among 'date', 'mark'; add it")

@@ -1,0 +1,40 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps import Chart, ChartRow
+from evenbreak.handicaps.charts.rows import row_faults
+
+
+def test_all_faults_are_told_with_the_place_of_their_row():
+    rows = [
+        ChartRow(1, 4, 5, 4),
+        ChartRow(6, 3, 4, 5),
+        ChartRow(4, None, 5, 4),
+        ChartRow(9, 12, 5, 4),
+    ]
+    assert [(place, fault.partition(";")[0]) for place, fault in row_faults(rows)] == [
+        (0, "row 1 begins at 1"),
+        (0, "row 1 is a race 5:4"),
+        (1, "difference_to of row 2 is 3"),
+        (1, "stronger_needs of row 2 is 4"),
+        (1, "row 2 begins at 6 and row 1 ends at 4"),
+        (2, "row 3 has no end but is not the last"),
+        (3, "the last row ends at 12"),
+    ]
+
+
+ends = st.integers(0, 12)
+rows = st.builds(ChartRow, ends, st.none() | ends, st.integers(1, 3), st.integers(1, 3))
+
+
+@given(st.lists(rows, min_size=1, max_size=4))
+def test_rows_without_a_fault_are_a_chart_and_others_are_none(some):
+    faults = list(row_faults(some))
+    if faults:
+        with pytest.raises(InputError) as refused:
+            Chart("ours", some)
+        assert str(refused.value) == faults[0][1]
+    else:
+        assert Chart("ours", some).rows == tuple(some)

@@ -1,0 +1,65 @@
+import numpy as np
+import pytest
+
+from evenbreak.handicaps import (
+    AUTOCORRELATED,
+    EQUAL_SKILL,
+    NATURAL,
+    Ladder,
+    Opponents,
+    chart,
+    opponents_of,
+)
+from evenbreak.handicaps.ladders.opponent_pairs import meetings_of
+from evenbreak.handicaps.systems.elo import elo_system
+from evenbreak.handicaps.systems.margin import margin_system
+from evenbreak.handicaps.systems.step import step_system
+from evenbreak.stats import Distribution
+
+SPREAD = Distribution((-20, 3, 10), (0.25, 0.5, 0.25))
+ERROR = Distribution((-4, 0, 5), (0.25, 0.5, 0.25))
+KINDS = {
+    "natural": NATURAL,
+    "A": AUTOCORRELATED,
+    "B": EQUAL_SKILL,
+    "given skill": Opponents(SPREAD, ERROR, "skill"),
+    "given rating": Opponents(SPREAD, ERROR, "rating"),
+    "given rating, own error": opponents_of([60, 75, 80, 102], 80),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("system", [step_system(1), margin_system(2)], ids=lambda s: s.name)
+def test_meetings_give_the_ladders_own_chances(kind, system):
+    # The ladder convolves; here every pair is added up.
+    ladder = Ladder(system, opponents=KINDS[kind])
+    meetings = meetings_of(ladder)
+    wins = meetings.wins()[meetings.places(), meetings.ahead] @ meetings.chance
+    np.testing.assert_allclose(wins, ladder.wins, atol=1e-11)
+    moves = meetings.mean_of(meetings.table.moves[..., 0])
+    np.testing.assert_allclose(moves, ladder.kernel @ ladder.steps, atol=1e-10)
+
+
+@pytest.mark.parametrize("kind", ["natural", "B", "given rating"])
+@pytest.mark.parametrize(
+    "forms", [{"day_sd": 6.0}, {"match_sd": 3.0}, {"day_sd": 0.4}, {"day_sd": 90.0}]
+)
+def test_fluctuations_of_form_are_those_of_the_ladder(kind, forms):
+    ladder = Ladder(chart("npl_10"), opponents=KINDS[kind], **forms)
+    meetings = meetings_of(ladder)
+    wins = meetings.wins()[meetings.places(), meetings.ahead] @ meetings.chance
+    np.testing.assert_allclose(wins, ladder.wins, atol=1e-11)
+
+
+def test_meetings_of_a_wide_scale_are_the_ladders_too():
+    ladder = Ladder(elo_system(16), opponents=EQUAL_SKILL)
+    meetings = meetings_of(ladder)
+    moves = meetings.mean_of(meetings.table.moves[..., 0])
+    np.testing.assert_allclose(moves, ladder.kernel @ ladder.steps, atol=1e-8)
+
+
+def test_two_deviations_of_one_night_are_one_law_of_twice_the_variance():
+    both = meetings_of(Ladder("npl", day_sd=3.0, match_sd=4.0))
+    one = meetings_of(Ladder("npl", day_sd=5.0))
+    # But for the rounding of two deviations in place of one.
+    np.testing.assert_allclose(both.wins(), one.wins(), atol=1e-3)

@@ -1,0 +1,67 @@
+"""Every node has a place of its own, and the three arrangements are chosen as documented."""
+
+import itertools
+from math import hypot
+
+import networkx as nx
+import pytest
+
+from evenbreak.game import Game, graph_of
+from evenbreak.games import CATALOGUE, Ahead, Drill, OneBall, Race, Rack
+from evenbreak.plots.layout import positions_of
+
+READABLE = {name: game for name, game in CATALOGUE.items() if len(graph_of(game)) <= 150}
+
+
+@pytest.mark.parametrize("game", READABLE.values(), ids=READABLE)
+def test_no_two_nodes_overlap(game: Game) -> None:
+    graph = graph_of(game)
+    places = positions_of(graph, game.start)
+    assert set(places) == set(graph)
+    nearest = min(
+        hypot(a[0] - b[0], a[1] - b[1]) for a, b in itertools.combinations(places.values(), 2)
+    )
+    assert nearest >= 0.9
+
+
+@pytest.mark.parametrize(
+    ("game", "line"),
+    [
+        (OneBall(0.4, 0.8), ["L", "S2", "S1", "W"]),
+        (Ahead(2, 1, Rack(0.5)), [(0, 1), (0, 0), (1, 0), (2, 0)]),
+        (Drill([1, 0.5, 0.5]), [1, 2, 3]),
+    ],
+)
+def test_paths_lie_on_a_line_with_wins_of_player_1_to_the_right(
+    game: Game, line: list[object]
+) -> None:
+    places = positions_of(graph_of(game), game.start)
+    assert sorted(places, key=lambda state: places[state]) == line
+    assert {y for _, y in places.values()} == {0.0}
+
+
+def test_races_lie_on_the_lattice_of_scores() -> None:
+    places = positions_of(graph_of(Race(3, 2, Rack(0.5))), (0, 0))
+    assert all(places[a, b] == (a + b, 0.75 * (a - b)) for a, b in places)
+
+
+def test_layers_run_from_the_start_with_terminal_nodes_on_outer_rows() -> None:
+    graph = nx.DiGraph([("s", "a"), ("s", "b"), ("a", "won"), ("b", "lost"), ("a", "b")])
+    graph.nodes["won"]["winner"] = 1
+    places = positions_of(graph, "s")
+    assert places["s"][0] < places["a"][0] < places["won"][0]
+    assert places["lost"][1] < min(places[state][1] for state in "sab")
+    assert places["won"][1] > max(places[state][1] for state in "sab")
+
+
+def test_a_state_that_the_start_never_reaches_has_a_place_too() -> None:
+    graph = nx.DiGraph([("s", "a"), ("s", "b"), ("s", "c"), ("far", "s"), ("b", "b"), ("c", "a")])
+    assert set(positions_of(graph, "s")) == set(graph)
+
+
+def test_a_circle_without_an_end_is_laid_out() -> None:
+    assert len(positions_of(nx.DiGraph([(0, 1), (1, 2), (2, 0)]), 0)) == 3
+
+
+def test_one_state_alone() -> None:
+    assert positions_of(nx.DiGraph([("s", "s")]), "s") == {"s": (0.0, 0.0)}

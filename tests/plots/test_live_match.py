@@ -1,0 +1,60 @@
+import numpy as np
+import pytest
+
+from evenbreak.games import Race, Rack
+from evenbreak.matches import live_odds
+from evenbreak.plots.live_match import plot_course
+
+
+@pytest.fixture
+def odds():
+    return live_odds(Race(4, 3, Rack(0.6)), [1, 2, 2, 1, 1])
+
+
+def test_the_line_is_the_course(odds):
+    above, below = plot_course(odds).axes
+    (line,) = (line for line in above.lines if len(line.get_xdata()) == 6)
+    assert list(line.get_ydata()) == [moment.p_win_1 for moment in odds.course]
+    assert [bar.get_height() for bar in below.patches] == [m.leverage for m in odds.course[:-1]]
+    assert [label.get_text() for label in below.get_xticklabels()][-1] == "3:2"
+
+
+def test_dots_tell_who_won_a_rack(odds):
+    above, _ = plot_course(odds).axes
+    dots = {line.get_label(): list(line.get_xdata()) for line in above.lines}
+    assert dots["A won the rack"] == [1, 4, 5]
+    assert dots["B won the rack"] == [2, 3]
+
+
+def test_the_greatest_swing_is_written_beside_it(odds):
+    above, _ = plot_course(odds).axes
+    (text,) = above.texts
+    greatest = max(odds.swings, key=abs)
+    assert text.get_text() == f"{greatest:+.2f}".replace("-", "\N{MINUS SIGN}")
+
+
+@pytest.mark.parametrize("p", [0.2, 0.6, 0.9])
+@pytest.mark.parametrize("racks", ["a", "abb", "bbab", "ababbab", "abbabababab"])
+def test_the_label_is_clear_of_the_line(p, racks):
+    odds = live_odds(Race(7, 6, Rack(p)), ["ab".index(letter) + 1 for letter in racks])
+    figure = plot_course(odds)
+    figure.canvas.draw()
+    above, _ = figure.axes
+    box = above.texts[0].get_window_extent()
+    x = np.linspace(0, len(racks), 2001)
+    y = np.interp(x, range(len(racks) + 1), [moment.p_win_1 for moment in odds.course])
+    assert not box.count_contains(above.transData.transform(np.column_stack([x, y])))
+    frame = above.get_window_extent()
+    assert frame.y0 < box.y0
+    assert box.y1 < frame.y1
+
+
+def test_sets_and_one_sided_matches():
+    _, below = plot_course(live_odds(Race(2, 2, Race(2, 2, Rack(0.6))), [1, 1, 1])).axes
+    labels = [label.get_text() for label in below.get_xticklabels()]
+    assert labels == ["0:0\n0:0", "0:0\n1:0", "1:0\n0:0", "1:0\n1:0"]
+
+
+def test_long_matches_name_some_scores_only():
+    _, below = plot_course(live_odds(Race(60, 60, Rack(0.5)), [1, 2] * 40)).axes
+    assert len(below.get_xticks()) <= 24

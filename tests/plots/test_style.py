@@ -1,0 +1,50 @@
+"""Plots look alike, and no line needs colour to be told from the others."""
+
+import pytest
+
+from evenbreak.plots.style import LINES, label_beside, label_on, new_axes, unit_axis
+
+
+def test_no_two_lines_share_a_colour_or_a_dash() -> None:
+    assert len({line.color for line in LINES}) == len(LINES)
+    assert len({line.linestyle for line in LINES}) == len(LINES)
+
+
+def test_there_are_lines_for_the_nine_levels_of_a_drill() -> None:
+    assert len(LINES) >= 9
+
+
+def test_no_line_is_too_pale_to_be_read_in_grey() -> None:
+    for line in LINES:
+        red, green, blue = (int(line.color[i : i + 2], 16) / 255 for i in (1, 3, 5))
+        assert 0.299 * red + 0.587 * green + 0.114 * blue < 0.7, line
+
+
+def test_axes_carry_their_labels_and_title() -> None:
+    figure, axes = new_axes("rack", "chance", title="Racks", size=(3.0, 2.0))
+    assert figure.axes == [axes]
+    assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_title()) == ("rack", "chance", "Racks")
+    assert tuple(figure.get_size_inches()) == (3.0, 2.0)
+
+
+def test_only_the_axes_named_run_from_0_to_1() -> None:
+    axes = new_axes("p", "W")[1]
+    axes.set_ylim(0, 7)
+    unit_axis(axes, "x")
+    assert axes.get_xlim() == (0, 1)
+    assert axes.get_ylim() == (0, 7)
+    ticks = [*axes.get_xticks(), *axes.get_xticks(minor=True)]
+    assert sorted(ticks) == pytest.approx([tenth / 10 for tenth in range(11)])
+
+
+def test_names_of_curves_stand_on_or_beside_their_point() -> None:
+    figure, axes = new_axes("p", "W")
+    unit_axis(axes, "x", "y")
+    on = label_on(axes, 0.5, 0.5, "3:3")
+    beside = {side: label_beside(axes, 0.5, 0.5, "3:3", side) for side in ("left", "right")}
+    above = label_beside(axes, 0.5, 0.5, "3:3", "above")
+    figure.canvas.draw()
+    x, y = axes.transData.transform((0.5, 0.5))
+    assert on.get_window_extent().contains(x, y)
+    assert beside["left"].get_window_extent().x1 < x < beside["right"].get_window_extent().x0
+    assert above.get_window_extent().y0 > y

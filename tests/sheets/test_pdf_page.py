@@ -1,0 +1,71 @@
+import re
+
+import matplotlib as mpl
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from evenbreak.sheets.pdf_page import Paper, drawable, pdf_bytes, shortened, width_of
+
+
+def page_with(text):
+    page = Paper()
+    page.text(1.0, 1.0, text, size=12)
+    page.line([1.0, 2.0], [1.0, 1.0])
+    page.band(1.0, 1.0, 1.0, 1.0, grey="0.9")
+    return page.figure
+
+
+def test_a_document_has_its_pages_a_title_and_no_date():
+    document = pdf_bytes([page_with("one"), page_with("two")], "Fair races from Zoë.csv")
+    assert len(re.findall(rb"/Type /Page\b", document)) == 2
+    assert "Fair races from Zoë.csv".encode("utf-16-be") in document
+    assert re.search(rb"/MediaBox \[ 0 0 841\.\d+ 595\.\d+ \]", document)
+    for told in (b"CreationDate", b"ModDate", b"Producer", b"Creator", mpl.__version__.encode()):
+        assert told not in document
+
+
+def test_the_same_page_gives_the_same_bytes_whatever_a_matplotlibrc_wishes():
+    first = pdf_bytes([page_with("Zoë")], "a")
+    wishes = {
+        "font.family": "serif",
+        "pdf.fonttype": 42,
+        "pdf.compression": 0,
+        "savefig.bbox": "tight",
+        "text.color": "red",
+        "text.parse_math": True,
+    }
+    with mpl.rc_context(wishes):
+        assert pdf_bytes([page_with("Zoë")], "a") == first
+    assert pdf_bytes([page_with("Zoe")], "a") != first
+
+
+@given(st.text(max_size=20))
+@settings(max_examples=40)
+def test_any_text_can_be_written_without_a_warning(text):
+    written = drawable(text)
+    assert written.isprintable()
+    assert drawable(written) == written
+    assert pdf_bytes([page_with(text)], "any").startswith(b"%PDF")
+
+
+def test_dollars_and_backslashes_are_no_mathematics():
+    page = page_with(r"$x$ \frac")
+    page.set_dpi(300)
+    (text,) = page.axes[0].texts
+    drawn = text.get_window_extent().width / 300
+    assert drawn == pytest.approx(width_of(r"$x$ \frac", 12), rel=0.05)
+
+
+@pytest.mark.parametrize("width", [0.05, 0.3, 1.0, 2.0])
+@pytest.mark.parametrize("name", ["iiiiiiiiiiiiiiiiii", "W" * 300, "選手" * 20, "Ann Lee"])
+def test_a_name_is_shortened_just_as_much_as_it_must_be(name, width):
+    short = shortened(name, 10, width)
+    if short == name:
+        assert width_of(name, 10) <= width
+        return
+    assert short.endswith("…")
+    kept = short.removesuffix("…")
+    assert name.startswith(kept)
+    assert not kept or width_of(short, 10) <= width
+    assert width_of(f"{name[: len(kept) + 1]}…", 10) > width

@@ -1,0 +1,135 @@
+"""Workbooks are read back by another program's reader."""
+
+import io
+import sys
+import zipfile
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from evenbreak.answers.fair_pairs import RaceLimits, matchups_frame
+from evenbreak.answers.frames import ratings_frame, summary_frame
+from evenbreak.answers.sheet_words import races_by_name
+from evenbreak.errors import InputError
+from evenbreak.files.results import ResultsFile
+from evenbreak.ratings.fit import fit
+from evenbreak.ratings.results import Results
+from evenbreak.sheets.workbook import check_workbook, race_table, report_tables, workbook_bytes
+
+calamine = pytest.importorskip("python_calamine", reason="reads workbooks back")
+pytest.importorskip("xlsxwriter", reason="writes workbooks")
+
+
+def read_back(content):
+    book = calamine.CalamineWorkbook.from_filelike(io.BytesIO(content))
+    return {name: book.get_sheet_by_name(name).to_python() for name in book.sheet_names}
+
+
+def report(limits):
+    season = Results.from_names(["Ann", "Bo", "Di"], ["Bo", "Cy", "Ed"], [7, 7, 7], [5, 4, 3])
+    ratings = fit(season)
+    file = ResultsFile(season, "r.csv", (), (), "0" * 64)
+    rated = ratings_frame(ratings)
+    paired = matchups_frame(ratings, range(5), limits)
+    told = summary_frame(file, ratings, paired, limits)
+    return report_tables(file, ratings, limits, rated, paired, told), rated, paired
+
+
+def test_a_report_has_a_sheet_for_each_table():
+    tables, rated, paired = report(RaceLimits(race_to=7))
+    sheets = read_back(workbook_bytes(tables))
+    assert list(sheets) == ["Ratings", "Races", "Pairs", "Chart", "Left out", "About"]
+    header, *rows = sheets["Ratings"]
+    assert header == list(rated.columns)
+    assert [row[0] for row in rows] == rated["player"].tolist()
+    assert [row[1] for row in rows] == pytest.approx(rated["rating"].tolist(), abs=5e-7)
+    header, *rows = sheets["Races"]
+    races = races_by_name(paired)
+    for row in rows:
+        for name, cell in zip(header[1:], row[1:], strict=True):
+            assert cell == ("" if name == row[0] else races.get((row[0], name), "-"))
+    header, *rows = sheets["Pairs"]
+    assert len(rows) == len(paired)
+    assert header[-1] == "note"
+    for row in (dict(zip(header, row, strict=True)) for row in rows):
+        if row["note"]:
+            assert row["p_win_a"] == row["p_win_a_low"] == row["race_a"] == ""
+        else:
+            assert row["p_win_a_low"] < row["p_win_a"] < row["p_win_a_high"]
+    assert [row[0] for row in sheets["Chart"]][:2] == ["difference_from", 0.0]
+    assert sheets["Left out"][1][0] == "the races of 6 pairs"
+    assert ["results_file", "r.csv"] in sheets["About"]
+
+
+def test_where_lengths_differ_there_is_no_chart():
+    assert "Chart" not in report(RaceLimits(games=(5, 9)))[0]
+
+
+def test_text_stays_text_and_no_cell_is_a_formula_or_a_link():
+    names = ["=1+1", "7-5", "+49", "http://a.b/", "'x", "00123", "{=1}", "1e5"]
+    content = workbook_bytes({"A": pd.DataFrame({"player": names})})
+    assert [row[0] for row in read_back(content)["A"]] == ["player", *names]
+    with zipfile.ZipFile(io.BytesIO(content)) as parts:
+        sheet = parts.read("xl/worksheets/sheet1.xml").decode()
+        assert not [part for part in parts.namelist() if "rels" in part and "sheet1" in part]
+    assert "<f>" not in sheet
+    assert "hyperlink" not in sheet
+
+
+def test_what_is_missing_is_empty_and_numbers_have_six_decimals():
+    table = pd.DataFrame(
+        {
+            "p": [1 / 3, np.nan, np.inf],
+            "n": pd.array([7, None, 9], dtype="Int64"),
+            "any": pd.Series(["a", 2, None], dtype="object"),
+        }
+    )
+    assert read_back(workbook_bytes({"A": table}))["A"] == [
+        ["p", "n", "any"],
+        [0.333333, 7.0, "a"],
+        ["", "", 2.0],
+        ["", 9.0, ""],
+    ]
+
+
+def test_the_same_tables_give_the_same_bytes():
+    table = {"A": pd.DataFrame({"player": ["Zoë"], "p": [0.5]})}
+    content = workbook_bytes(table)
+    assert workbook_bytes(table) == content
+    with zipfile.ZipFile(io.BytesIO(content)) as parts:
+        assert {part.date_time[0] for part in parts.infolist()} == {1980}
+        assert b"2000-01-01" in parts.read("docProps/core.xml")
+
+
+@given(st.lists(st.text(st.characters(exclude_categories=["Cs"]), max_size=20), max_size=5))
+@settings(max_examples=30, deadline=None)
+def test_any_text_makes_a_workbook_that_can_be_read(names):
+    content = workbook_bytes({"A": pd.DataFrame({"player": pd.Series(names, dtype="object")})})
+    assert len(read_back(content)["A"]) >= 1
+
+
+def test_a_table_too_large_for_a_sheet_is_refused():
+    wide = pd.DataFrame(np.zeros((1, 16_385)))
+    with pytest.raises(InputError, match="sheet 'A' would have 2 rows and 16,385 columns"):
+        workbook_bytes({"A": wide})
+    tall = pd.DataFrame({"p": np.zeros(1_048_576)})
+    with pytest.raises(InputError, match="pair fewer players"):
+        workbook_bytes({"A": tall})
+
+
+def test_a_missing_xlsxwriter_is_told_with_its_remedy(monkeypatch):
+    monkeypatch.setitem(sys.modules, "xlsxwriter", None)
+    with pytest.raises(InputError, match="pip install XlsxWriter"):
+        check_workbook()
+
+
+def test_a_player_may_be_called_player():
+    rated = pd.DataFrame({"player": ["player", "Bo"]})
+    paired = pd.DataFrame({"player_a": ["player"], "player_b": ["Bo"], "race_a": 7, "race_b": 5})
+    table = race_table(rated, paired)
+    assert list(table.columns) == ["player", "player", "Bo"]
+    sheets = read_back(workbook_bytes({"Races": table}))
+    assert sheets["Races"] == [["player", "player", "Bo"], ["player", "", "7:5"], ["Bo", "5:7", ""]]

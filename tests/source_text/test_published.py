@@ -1,0 +1,173 @@
+import csv
+from collections import Counter
+from decimal import ROUND_HALF_UP, Decimal
+from fractions import Fraction
+from importlib.resources import files
+from math import comb
+
+import pytest
+
+from evenbreak.source_text.published import (
+    errata,
+    further_numbers,
+    p5_6_tables,
+    physics_errata,
+    physics_numbers,
+    published_numbers,
+)
+from places import SHARED
+
+SEED = SHARED / "seed"
+VERDICTS = {"agrees", "erratum", "derived"}
+READERS = [published_numbers, further_numbers, p5_6_tables, physics_numbers]
+
+
+def seed_rows(name):
+    if not SEED.is_dir():
+        pytest.skip("the list of printed numbers lies beside the repository only in development")
+    with (SEED / name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def rounded(value, printed):
+    exact = Decimal(value.numerator) / Decimal(value.denominator)
+    return exact.quantize(Decimal((0, (1,), printed.as_tuple().exponent)), ROUND_HALF_UP)
+
+
+def score_chance(p, m, n):
+    return comb(m + n, m) * p**m * (1 - p) ** n
+
+
+def win_chance(p, m, n):
+    return sum(comb(m + k - 1, k) * p**m * (1 - p) ** k for k in range(n))
+
+
+def test_every_number_of_the_list_is_here_with_its_tolerance_and_verdict():
+    verdicts = {"yes": "agrees", "erratum": "erratum", "derived": "derived"}
+    listed = [
+        (
+            row["problem"],
+            row["quantity"],
+            row["inputs"],
+            Decimal(row["printed"]) if row["printed"] else None,
+            Decimal(row["tolerance"]),
+            verdicts[row["agrees"]],
+        )
+        for row in seed_rows("section5_numbers.csv")
+    ]
+    assert [tuple(row[:6]) for row in published_numbers()] == listed
+
+
+def test_every_slip_of_the_list_is_here():
+    # The list names two of the places as here, the others by what they are about.
+    places = {
+        "P5.14 / P5.17": "P5.14 and P5.17",
+        "S5 transition matrices": "Markov analysis, before P5.23",
+        "P5.27 / n-ahead": "P5.27",
+    }
+    listed = {places.get(row["where"], row["where"]) for row in seed_rows("errata_section5.csv")}
+    assert listed <= {slip.where for slip in errata()}
+
+
+def test_how_many_there_are():
+    assert Counter(row.verdict for row in published_numbers()) == {
+        "agrees": 336,
+        "derived": 15,
+        "erratum": 5,
+    }
+    assert len(p5_6_tables()) == 400
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_problem_quantity_and_inputs_name_a_number(reader):
+    names = Counter(row[:3] for row in reader())
+    assert [name for name, count in names.items() if count > 1] == []
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_rows_are_whole(reader):
+    for row in reader():
+        assert row.problem, row
+        assert row.quantity, row
+        more = {"formula", "given"} if reader is physics_numbers else set()
+        assert row.verdict in VERDICTS | more, row
+        assert row.tolerance >= 0, row
+        assert (row.printed is None) == (row.verdict == "derived"), row
+        assert row.verdict != "erratum" or row.note, row
+
+
+def test_digits_are_kept_as_printed():
+    printed = {row[:3]: str(row.printed) for row in published_numbers()}
+    assert printed["P5.22", "W infinite look-ahead", "p1=0.9 p2=0.9"] == "0.90"
+    assert printed["Table 5.5", "d9", "p=0.5 p_i=p^(i-1)"] == "0.000"
+    assert printed["Table 5.2", "mean run", "p=0.8"] == "4.0"
+    assert printed["Table 5.4", "W alternate breaks", "row=10 p1=0.95 p2=0.94"] == "0.505"
+
+
+def test_cells_of_the_four_tables_are_the_exact_values_rounded():
+    chances = {"P(p;m,n)": score_chance, "W(p;m,n)": win_chance}
+    for cell in p5_6_tables():
+        p, m, n = (Fraction(part.split("=")[1]) for part in cell.inputs.split())
+        exact = chances[cell.quantity](p, int(m), int(n))
+        if cell.printed is None:
+            assert (cell.quantity, p, m) == ("W(p;m,n)", Fraction(2, 3), 10)
+            assert "not legible" in cell.note
+        else:
+            assert rounded(exact, cell.printed) == cell.printed, cell
+            assert abs(float(exact) - float(cell.printed)) <= cell.tolerance, cell
+
+
+def test_four_tables_have_each_cell_once():
+    found = [(cell.quantity, cell.inputs) for cell in p5_6_tables()]
+    assert found == [
+        (f"{table}(p;m,n)", f"p={p} m={m} n={n}")
+        for p in ("1/2", "2/3")
+        for table, first in (("P", 0), ("W", 1))
+        for m in range(first, first + 10)
+        for n in range(first, first + 10)
+    ]
+
+
+@pytest.mark.parametrize("slips", [errata, physics_errata])
+def test_slips_are_told_whole_in_one_line_each(slips):
+    for slip in slips():
+        assert slip.where, slip
+        assert slip.printed, slip
+        assert slip.kind, slip
+        assert slip.why.endswith("."), slip
+        assert slip.class_ in {"slip", "remark", "copy"}, slip
+        assert slip.correct or slip.class_ == "copy", slip
+        assert (slip.kind == "scan") == (slip.class_ == "copy"), slip
+
+
+def test_what_is_no_slip_is_called_a_remark():
+    remarks = [(slip.where, slip.kind) for slip in errata() if slip.class_ == "remark"]
+    assert ("P5.14 and P5.17", "numerical trap") in remarks
+    assert ("Drills, before P5.26", "condition too narrow") in remarks
+    assert ("P5.19", "rounded twice") in remarks
+    assert not any(kind in {"cut off", "last digit", "rounded inputs"} for _, kind in remarks)
+
+
+def test_every_number_called_a_slip_is_among_the_slips():
+    places = " ".join(slip.where for slip in errata() if slip.class_ == "slip")
+    for row in (*published_numbers(), *further_numbers()):
+        assert row.verdict != "erratum" or row.problem in places, row
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "p5_6_tables.csv",
+        "physics_errata.csv",
+        "physics_numbers.csv",
+        "section5_errata.csv",
+        "section5_further.csv",
+        "section5_numbers.csv",
+    ],
+)
+def test_files_are_plain(name):
+    content = files("evenbreak.source_text").joinpath("published", name).read_bytes()
+    assert b"\r" not in content
+    assert content.endswith(b"\n")
+    lengths = {len(row) for row in csv.reader(content.decode("utf-8").splitlines())}
+    assert len(lengths) == 1
