@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import click
 
-from evenbreak.cli.kit.options import refuse
+from evenbreak.cli.kit.callbacks import refuse
 from evenbreak.cli.kit.output import say
 
 EXAMPLES = """\b

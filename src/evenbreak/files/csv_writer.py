@@ -1,9 +1,11 @@
-"""DataFrames as CSV that is the same to the byte each time, and safe to open in a spreadsheet."""
+"""CSV that is the same to the byte each time, and safe to open in a spreadsheet."""
 
 from __future__ import annotations
 
 import math
+import re
 import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -13,14 +15,11 @@ DECIMALS = 6
 FORMULA_STARTS = ("=", "+", "-", "@")
 """What text begins with that a spreadsheet may run as a formula."""
 
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
+
 
 def to_csv(frame: pd.DataFrame, *, excel: bool = False) -> bytes:
-    r"""Return a frame as CSV, without its index.
-
-    UTF-8, LF, a comma between cells. Floats have six decimals, whole numbers none; a
-    value that is missing, NaN or infinite is an empty cell; dates are ISO. Text that
-    begins with = + - @ or a control character, which a spreadsheet might run as a
-    formula, gets an apostrophe before it; numbers never do.
+    r"""Return a frame as CSV, without its index, as `csv_lines` writes it.
 
     Parameters
     ----------
@@ -34,15 +33,29 @@ def to_csv(frame: pd.DataFrame, *, excel: bool = False) -> bytes:
     >>> to_csv(frame)
     b"player,p_win_a\nAnn,0.500000\n'=1+1,0.000000\n"
     """
-    columns = [_cells(column) for _, column in frame.items()]
-    header = [text_cell(str(name)) for name in frame.columns]
-    lines = [",".join(row) for row in (header, *zip(*columns, strict=True))]
-    end = "\r\n" if excel else "\n"
-    return "".join(f"{line}{end}" for line in lines).encode("utf-8-sig" if excel else "utf-8")
+    columns = [
+        column.astype(object).where(column.notna(), None).tolist() for _, column in frame.items()
+    ]
+    lines = csv_lines(list(map(str, frame.columns)), zip(*columns, strict=True))
+    if excel:
+        return "".join(f"{line[:-1]}\r\n" for line in lines).encode("utf-8-sig")
+    return "".join(lines).encode()
 
 
-def _cells(column: pd.Series[Any]) -> list[str]:
-    return [_cell(value) for value in column.astype(object).where(column.notna(), None)]
+def csv_lines(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Iterator[str]:
+    r"""Yield a header and rows as lines of CSV, each with its line end.
+
+    A comma between cells. Floats have six decimals, whole numbers none; a value that is None,
+    NaN or infinite is an empty cell; dates are ISO. Text that begins with = + - @ or a control
+    character, which a spreadsheet might run as a formula, gets an apostrophe before it; numbers
+    never do.
+
+    >>> list(csv_lines(["race_a", "p_win_a"], [[7, 0.5], [8, None]]))
+    ['race_a,p_win_a\n', '7,0.500000\n', '8,\n']
+    """
+    yield ",".join(map(text_cell, names)) + "\n"
+    for row in rows:
+        yield ",".join(map(_cell, row)) + "\n"
 
 
 def _cell(value: Any) -> str:
@@ -68,10 +81,11 @@ def _number(value: float) -> str:
 def text_cell(text: str) -> str:
     """Return text as a cell of CSV that no spreadsheet takes for a formula.
 
-    >>> text_cell("@SUM(A1)"), text_cell("Ann-Marie"), text_cell('5" ball')
-    ("'@SUM(A1)", 'Ann-Marie', '"5"" ball"')
+    >>> text_cell("@SUM(A1)"), text_cell("Ann-Marie"), text_cell('5" ball'), text_cell("-1")
+    ("'@SUM(A1)", 'Ann-Marie', '"5"" ball"', '-1')
     """
-    if text.startswith(FORMULA_STARTS) or unicodedata.category(text[:1] or "x") == "Cc":
+    control = unicodedata.category(text[:1] or "x") == "Cc"
+    if control or (text.startswith(FORMULA_STARTS) and not _NUMBER.fullmatch(text)):
         text = f"'{text}"
     # The csv module would leave a lone CR bare, where readers of CSV end a line.
     return '"' + text.replace('"', '""') + '"' if set(text) & set(',"\r\n') else text

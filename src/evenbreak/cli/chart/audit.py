@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.chart.show import span_text
-from evenbreak.cli.kit.options import refuse, wants_json
+from evenbreak.cli.kit.callbacks import refuse, wants_json
 from evenbreak.cli.kit.output import SCHEMA_VERSION, aligned, csv_text, print_json, to_terminal
 from evenbreak.cli.kit.plot import plot_option_for, write_plot
 

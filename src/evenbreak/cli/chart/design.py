@@ -12,7 +12,7 @@ import click
 
 from evenbreak.cli.chart.design_wish import RULES, Wish, limit_options, options_named, wish_of
 from evenbreak.cli.chart.show import span_text
-from evenbreak.cli.kit.options import chance, refuse, wants_json
+from evenbreak.cli.kit.callbacks import chance, refuse, wants_json
 from evenbreak.cli.kit.output import SCHEMA_VERSION, aligned, csv_text, print_json, to_terminal
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.progress import Progress

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from evenbreak.cli.kit.options import NUMBER, Command, pair, refuse, span
+from evenbreak.cli.kit.callbacks import NUMBER, Command, pair, refuse, span
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:

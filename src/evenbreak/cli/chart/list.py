@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from evenbreak.cli.kit.options import wants_json
+from evenbreak.cli.kit.callbacks import wants_json
 from evenbreak.cli.kit.output import SCHEMA_VERSION, print_json, print_table
 
 WHAT = {

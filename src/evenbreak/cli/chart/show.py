@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.cli.kit.options import wants_json
+from evenbreak.cli.kit.callbacks import wants_json
 from evenbreak.cli.kit.output import (
     SCHEMA_VERSION,
     aligned,

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.cli.kit.terminal import say
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -52,4 +54,4 @@ def write_plot(figure: Figure, path: str) -> None:
     place = PurePath(path)
     image = image_bytes(figure, "svg" if place.suffix.lower() == ".svg" else "png")
     write_files(str(place.parent), {place.name: image})
-    click.echo(f"Wrote {path}", err=True)
+    say(f"Wrote {path}")

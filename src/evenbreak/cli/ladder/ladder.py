@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import Whole, number, refuse, wants_json
+from evenbreak.cli.kit.callbacks import Whole, number, refuse, wants_json
 from evenbreak.cli.kit.output import aligned, paragraphs, print_json, print_table, say, to_terminal
 from evenbreak.cli.kit.plot import plot_option, write_plot
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import refuse
+from evenbreak.cli.kit.callbacks import refuse
 from evenbreak.cli.kit.output import (
     SCHEMA_VERSION,
     aligned,

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import NUMBER, refuse, refuse_both, wants_json, which_races
+from evenbreak.cli.kit.callbacks import NUMBER, refuse, refuse_both, wants_json, which_races
+from evenbreak.cli.kit.old_players import scale_note
 from evenbreak.cli.kit.output import SCHEMA_VERSION, print_json, say, to_terminal
-from evenbreak.cli.kit.players import scale_note
 from evenbreak.cli.league.matchups_html import html_option, refuse_page, write_page
 
 if TYPE_CHECKING:

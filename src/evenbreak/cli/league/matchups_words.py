@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.answers.roster_matchups import NEW, RosterMatchups, roster_matchups
+from evenbreak.cli.kit.old_players import scale_text
 from evenbreak.cli.kit.output import WIDTH, aligned, chance_text, heading_lines, paragraphs
-from evenbreak.cli.kit.players import scale_text
 from evenbreak.files.problems import printable
 from evenbreak.matches.evening import evening
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import NUMBER, refuse, wants_aliases, wants_json
+from evenbreak.cli.kit.callbacks import NUMBER, refuse, wants_aliases, wants_json
 from evenbreak.cli.kit.output import SCHEMA_VERSION, aligned, print_json, say, to_terminal
 from evenbreak.cli.league.rate_options import how_to_rate, points, rated
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import NUMBER, Command, refuse
+from evenbreak.cli.kit.callbacks import NUMBER, Command, refuse
 from evenbreak.errors import DataError
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.cli.kit.options import refuse, refuse_both, wants_aliases, which_races
+from evenbreak.cli.kit.callbacks import refuse, refuse_both, wants_aliases, which_races
 from evenbreak.cli.kit.output import say
 from evenbreak.cli.league.rate_options import how_to_rate, rated
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.cli.kit.options import refuse
+from evenbreak.cli.kit.callbacks import refuse
 from evenbreak.cli.kit.output import say
 from evenbreak.cli.kit.scale_doubts import scale_doubts
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import NUMBER, refuse, wants_aliases, wants_json
+from evenbreak.cli.kit.callbacks import NUMBER, refuse, wants_aliases, wants_json
 from evenbreak.cli.kit.output import SCHEMA_VERSION, aligned, csv_text, print_json, say, to_terminal
 from evenbreak.cli.kit.plot import plot_option, write_plot
 

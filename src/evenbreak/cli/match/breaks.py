@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import PlainCommand, chance, number, wants_json
+from evenbreak.cli.kit.callbacks import PlainCommand, chance, number, wants_json
 from evenbreak.cli.kit.output import (
     SCHEMA_VERSION,
     chance_text,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import NUMBER, wants_json
+from evenbreak.cli.kit.callbacks import NUMBER, wants_json
 from evenbreak.cli.kit.output import SCHEMA_VERSION, print_json, say
 from evenbreak.errors import AccuracyError, DataError
 

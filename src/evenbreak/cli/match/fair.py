@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import (
-    PlainCommand,
-    Whole,
-    chance,
-    refuse,
-    refuse_both,
-    wants_json,
-    which_races,
-)
-from evenbreak.cli.kit.output import chance_text, print_json, print_table, to_terminal
-from evenbreak.cli.kit.players import Players, player_options
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import PlainCommand, refuse_both, which_races
+from evenbreak.cli.kit.players import player_options, players_of
+from evenbreak.cli.kit.values import CHANCE, Whole, refuse
 
-COLUMNS = ("race_a", "race_b", "p_win_a", "mean_games", "games_p90")
-HEADINGS = ("A needs", "B needs", "A wins", "games, mean", "9 of 10 within")
+if TYPE_CHECKING:
+    from evenbreak.answers.answer import Answer
 
 MOST = 300
-"""The most races that are printed, so that no answer takes more than some seconds."""
+"""The most races that are listed, so that no answer takes more than some seconds."""
 
 EXAMPLES = """\b
 Examples:
@@ -38,8 +31,8 @@ Examples:
 @click.option(
     "--target",
     metavar="P",
-    callback=chance,
-    default="0.5",
+    type=CHANCE,
+    default=0.5,
     show_default=True,
     help="The chance that A should have to win the match.",
 )
@@ -51,24 +44,24 @@ Examples:
     show_default=True,
     help="How many.",
 )
-@wants_json
+@faces()
 def command(
     games: tuple[int, int] | None,
     race_to: int | None,
     target: float,
     top: int,
-    as_json: bool,
     **who: Any,
-) -> None:
-    """Find the races that come nearest to an even chance, the nearest first.
+) -> Answer:
+    """Find the races nearest to an even chance, the nearest first.
 
     Who plays: two ratings A B; or --p; or --p1, --p2 and --breaks. How long: --games
     or --race-to.
     """
+    from evenbreak.answers.fair import fair_answer
     from evenbreak.handicaps.charts.fair import fair_races
 
     refuse_both(games, race_to)
-    players = Players.of(**who)
+    players = players_of(**who)
     if games is None and race_to is None:
         refuse("how long is missing; give --games LO..HI or --race-to N")
     races = fair_races(
@@ -77,21 +70,7 @@ def command(
         race_to=race_to,
         target=target,
         top=top,
-        breaks=players.breaks,
+        breaks=players.break_format,
         first_breaker=players.first_breaker,
     )
-    rows = [
-        (race.race_1, race.race_2, race.p_win_1, race.mean_games, race.games_p90) for race in races
-    ]
-    if as_json:
-        print_json([dict(zip(COLUMNS, row, strict=True)) for row in rows])
-        return
-    if players.scale is not None and not to_terminal():
-        click.echo(players.description, err=True)
-    print_table(COLUMNS, rows, headings=HEADINGS, heading=players.description, text=_text)
-
-
-def _text(column: str, value: float) -> str:
-    if column == "p_win_a":
-        return chance_text(value)
-    return f"{value:.2f}" if isinstance(value, float) else str(value)
+    return fair_answer(players, races, target=target)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import NUMBER, PlainCommand, chance, wants_json
+from evenbreak.cli.kit.callbacks import NUMBER, PlainCommand, chance, wants_json
 from evenbreak.cli.kit.output import (
     SCHEMA_VERSION,
     chance_text,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from evenbreak.cli.kit.options import PlainCommand, chance, number, pair, refuse, wants_json
+from evenbreak.cli.kit.callbacks import PlainCommand, chance, number, pair, refuse, wants_json
 from evenbreak.cli.kit.output import chance_text, print_quantities, to_terminal
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.practice.runs import MOST_BALLS

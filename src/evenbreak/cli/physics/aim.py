@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from evenbreak.cli.kit.options import refuse, wants_json
+from evenbreak.cli.kit.callbacks import refuse, wants_json
 from evenbreak.cli.physics.hit_options import Hit, hit_options
 from evenbreak.cli.physics.units import Measure, Units, decimals, print_answer, wants_metric
 from evenbreak.errors import InputError

@@ -6,7 +6,7 @@ import math
 
 import click
 
-from evenbreak.cli.kit.options import wants_json
+from evenbreak.cli.kit.callbacks import wants_json
 from evenbreak.cli.physics.equipment_options import ball_of, doubts
 from evenbreak.cli.physics.units import Measure, Units, decimals, print_answer, wants_metric
 from evenbreak.physics.units import OUNCE

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from evenbreak.cli.kit.options import wants_json
+from evenbreak.cli.kit.callbacks import wants_json
 from evenbreak.cli.physics.hit_options import Hit, hit_options
 from evenbreak.cli.physics.units import decimals, print_answer
 

@@ -10,7 +10,7 @@ import click
 from evenbreak.cli.physics.units import METRIC, PLAYERS, Measure, Units
 
 if TYPE_CHECKING:
-    from evenbreak.cli.kit.options import Command
+    from evenbreak.cli.kit.callbacks import Command
     from evenbreak.physics import Ball, Cue
 
 _USUAL = {

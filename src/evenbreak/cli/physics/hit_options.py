@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import click
 
-from evenbreak.cli.kit.options import Command
+from evenbreak.cli.kit.callbacks import Command
 from evenbreak.cli.physics.units import Measure, decimals
 
 MOST_SPIN = 100.0

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
-from evenbreak.cli.kit.options import NUMBER, refuse, wants_json
+from evenbreak.cli.kit.callbacks import NUMBER, refuse, wants_json
 from evenbreak.cli.kit.output import SCHEMA_VERSION, print_json, to_terminal
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.physics.equipment_options import ball_of, cue_of, doubts, kit_options
 from evenbreak.cli.physics.units import Measure, Units, print_answer, wants_metric
 
 if TYPE_CHECKING:
-    from evenbreak.cli.kit.options import Command
+    from evenbreak.cli.kit.callbacks import Command
     from evenbreak.physics import AimedShot, Pocket, Shot, Strike, Table
 
 EXAMPLES = """\b

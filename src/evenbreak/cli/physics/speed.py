@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from evenbreak.cli.kit.options import refuse, wants_json
+from evenbreak.cli.kit.callbacks import refuse, wants_json
 from evenbreak.cli.physics.units import (
     PLAYERS,
     Measure,

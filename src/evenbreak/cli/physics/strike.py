@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import refuse, wants_json
+from evenbreak.cli.kit.callbacks import refuse, wants_json
 from evenbreak.cli.physics.equipment_options import ball_of, cue_of, doubts, kit_options
 from evenbreak.cli.physics.hit_options import spin_text
 from evenbreak.cli.physics.units import Measure, Units, decimals, print_answer, wants_metric

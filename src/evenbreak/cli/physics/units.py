@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import click
 from click.types import FloatParamType
 
-from evenbreak.cli.kit.options import number
+from evenbreak.cli.kit.callbacks import number
 from evenbreak.cli.kit.output import paragraphs, print_quantities
 from evenbreak.physics.units import CENTIMETRE, GRAM, INCH, OUNCE
 

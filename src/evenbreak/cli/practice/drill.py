@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import NUMBER, Whole, chance, refuse, wants_json
+from evenbreak.cli.kit.callbacks import NUMBER, Whole, chance, refuse, wants_json
 from evenbreak.cli.kit.output import (
     SCHEMA_VERSION,
     aligned,

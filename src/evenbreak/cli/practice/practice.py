@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import chance, number, refuse, wants_json
+from evenbreak.cli.kit.callbacks import chance, number, refuse, wants_json
 from evenbreak.cli.kit.output import say
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.practice.practice_words import (

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.cli.kit.options import LONGEST, Whole, chance, number, refuse, wants_json
+from evenbreak.cli.kit.callbacks import LONGEST, Whole, chance, number, refuse, wants_json
 from evenbreak.cli.kit.output import chance_text, print_quantities
 from evenbreak.cli.kit.plot import plot_option, write_plot
 

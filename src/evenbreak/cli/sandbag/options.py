@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.cli.kit.options import Command, number, refuse
+from evenbreak.cli.kit.callbacks import Command, number, refuse
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.charts.chart import Chart

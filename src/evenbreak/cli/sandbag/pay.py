@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from evenbreak.cli.kit.options import Whole, refuse, wants_json
+from evenbreak.cli.kit.callbacks import Whole, refuse, wants_json
 from evenbreak.cli.kit.output import (
     SCHEMA_VERSION,
     paragraphs,

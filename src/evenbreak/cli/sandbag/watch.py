@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import refuse, wants_aliases, wants_json
+from evenbreak.cli.kit.callbacks import refuse, wants_aliases, wants_json
 from evenbreak.cli.kit.output import (
     SCHEMA_VERSION,
     aligned,

@@ -1,0 +1,186 @@
+"""Match formats side by side: which suits whom, and at what strength that turns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.wording import chance, games, listed, percent, signed
+
+if TYPE_CHECKING:
+    from evenbreak.answers.two_players import TwoPlayers
+    from evenbreak.matches.crossings import Crossing, Crossings
+    from evenbreak.matches.formats import MatchFormat
+    from evenbreak.matches.odds import Odds
+
+SAME = 1e-12
+"""Two chances that differ by less are the same but for rounding."""
+
+
+class Compared(NamedTuple):
+    """A format with what it means for the two players.
+
+    Parameters
+    ----------
+    format
+        the format.
+    odds
+        its odds, as the two play now.
+    even
+        where it is even.
+    """
+
+    format: MatchFormat
+    odds: Odds
+    even: tuple[Crossing, ...]
+
+
+def compare_answer(
+    players: TwoPlayers,
+    compared: Sequence[Compared],
+    pairs: Mapping[tuple[int, int], Crossings],
+    *,
+    hold: str | None = None,
+) -> Answer:
+    """Return match formats side by side.
+
+    Parameters
+    ----------
+    players
+        who plays.
+    compared
+        the formats.
+    pairs
+        where two of them, by their places in `compared`, are worth the same.
+    hold
+        what stays the same as p1 varies, where the break matters: p2 or break.
+    """
+    names = [str(one.format) for one in compared]
+    axis = "p1" if players.rack.break_matters else "p"
+    parts: list[Part] = [_advice(compared, players), _formats(compared, players, axis)]
+    if len(compared) > 1:
+        parts.append(_turns(names, pairs, players, _stays(axis, hold)))
+    formats = Table("", [Column(name) for name in _COLUMNS], [_row(one) for one in compared])
+    return Answer(
+        players.description,
+        parts,
+        warnings=players.doubts,
+        data={
+            "formats": [
+                {
+                    **dict(zip(_COLUMNS, _row(one), strict=True)),
+                    "format": name,
+                    "even": [_point(point) for point in one.even],
+                }
+                for name, one in zip(names, compared, strict=True)
+            ],
+            "crossings": [
+                {
+                    "format_1": names[i],
+                    "format_2": names[j],
+                    "points": [_point(point) for point in found.points],
+                    "better_for_a": [(None, names[i], names[j])[k] for k in found.better],
+                    "exact": found.exact,
+                }
+                for (i, j), found in pairs.items()
+            ],
+        },
+        csv=formats,
+    )
+
+
+_COLUMNS = ("format", "p_win_a", "from_even", "mean_games", "games_p90", "even_p1", "even_places")
+
+
+def _row(one: Compared) -> tuple[Any, ...]:
+    text = str(one.format)
+    return (
+        # A bare 9:5 is a time of day to a spreadsheet.
+        f"race {text}" if text[0].isdigit() else text,
+        one.odds.p_win_1,
+        one.odds.p_win_1 - 0.5,
+        one.odds.mean_games,
+        one.odds.games_p90,
+        one.even[0].p1 if one.even else None,
+        len(one.even),
+    )
+
+
+def _point(point: Crossing) -> dict[str, float | None]:
+    return {"p1": point.p1, "p2": point.p2, "p_win_a": point.p_win_1}
+
+
+def _formats(compared: Sequence[Compared], players: TwoPlayers, axis: str) -> Table:
+    a = players.names[0]
+    columns = [
+        Column("format", "format", left=True),
+        Column("p_win_a", f"{a} wins", chance),
+        Column("from_even", "from even", signed(4)),
+        Column("mean_games", "games, on\naverage", games),
+        Column("games_p90", "9 of 10\nwithin"),
+        Column("even", f"even at {axis}"),
+    ]
+    rows = [
+        (
+            str(one.format),
+            *_row(one)[1:5],
+            listed([chance(point.p1) for point in one.even]) if one.even else "none",
+        )
+        for one in compared
+    ]
+    return Table("", columns, rows)
+
+
+def _advice(compared: Sequence[Compared], players: TwoPlayers) -> str:
+    """Return which format suits whom, and which is nearest to even, as they play now."""
+    a, b = players.names
+    wins = [one.odds.p_win_1 for one in compared]
+    if len(compared) == 1:
+        return f"{a} wins {compared[0].format} {percent(wins[0])} of the time."
+    best = [str(one.format) for one in compared if one.odds.p_win_1 > max(wins) - SAME]
+    if len(best) == len(compared):
+        return f"As they play now, all of these are worth the same to {a}."
+    worst = [str(one.format) for one in compared if one.odds.p_win_1 < min(wins) + SAME]
+    nearest = min(abs(win - 0.5) for win in wins)
+    fair = [str(one.format) for one in compared if abs(one.odds.p_win_1 - 0.5) < nearest + SAME]
+    return (
+        f"As they play now, {a} does best with {listed(best)} and {b} with {listed(worst)}; "
+        f"{listed(fair)} {'is' if len(fair) == 1 else 'are'} nearest to even."
+    )
+
+
+def _stays(axis: str, hold: str | None) -> str:
+    if axis == "p":
+        return ""
+    return ", the break's advantage as it is" if hold == "break" else ", p2 as it is"
+
+
+def _turns(
+    names: Sequence[str],
+    pairs: Mapping[tuple[int, int], Crossings],
+    players: TwoPlayers,
+    stays: str,
+) -> Table:
+    """Return for each two formats which is better for A, from weak to strong."""
+    a = players.names[0]
+    axis = "p1" if players.rack.break_matters else "p"
+    rows = [
+        (f"{names[i]} or {names[j]}", _turn(found, names[i], names[j]))
+        for (i, j), found in pairs.items()
+    ]
+    columns = [Column("formats", "", left=True), Column("better", "", left=True)]
+    return Table("", columns, rows, f"Which is better for {a}, as {axis} grows{stays}:")
+
+
+def _turn(found: Crossings, one: str, two: str) -> str:
+    names = {1: one, 2: two}
+    if found.better == (0,):
+        return "always worth the same"
+    if not found.points:
+        return f"always {names[found.better[0]]}"
+    parts = [
+        f"{names[better]} up to {chance(point.p1)}"
+        for better, point in zip(found.better, found.points, strict=False)
+    ]
+    return ", ".join([*parts, f"then {names[found.better[-1]]}"])

@@ -1,0 +1,72 @@
+"""An answer as a piece of HTML: headings, paragraphs and tables that a screen reader reads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+from typing import TYPE_CHECKING
+
+from evenbreak.answers.answer import Quantities, Table
+from evenbreak.files.problems import printable
+
+if TYPE_CHECKING:
+    from evenbreak.answers.answer import Answer, Part
+
+
+def to_html(answer: Answer) -> str:
+    """Return an answer as a section of HTML, every text in it escaped; it has no style."""
+    return "\n".join(["<section>", *_lines(answer), "</section>"]) + "\n"
+
+
+def _lines(answer: Answer) -> Iterator[str]:
+    first, *more = answer.heading.split("\n")
+    yield f"<h2>{_text(first)}</h2>"
+    yield from (f"<p>{_text(line)}</p>" for line in more)
+    for part in answer.parts:
+        yield from _part(part)
+    if answer.details:
+        yield "<details><summary>Details</summary>"
+        for part in answer.details:
+            yield from _part(part)
+        yield "</details>"
+    yield from (f'<p role="note">{_text(warning)}</p>' for warning in answer.warnings)
+
+
+def _part(part: Part) -> Iterator[str]:
+    match part:
+        case Quantities():
+            yield "<table>" + _caption(part.title)
+            for one in part.shown(verbose=True):
+                value = f'<td class="number">{_text(one.show(one.value))}</td>'
+                note = f"<td>{_text(one.note)}</td>" if one.note else ""
+                yield f'<tr><th scope="row">{_text(one.words or "")}</th>{value}{note}</tr>'
+            yield "</table>"
+        case Table():
+            shown = part.shown(verbose=True)
+            yield "<table>" + _caption(part.title)
+            heads = "".join(
+                f'<th scope="col"{_look(column.left)}>{_text(column.words or "")}</th>'
+                for _, column in shown
+            )
+            yield f"<thead><tr>{heads}</tr></thead><tbody>"
+            for row in part.rows:
+                cells = "".join(
+                    f"<td{_look(column.left)}>{_text(column.text(row[k]))}</td>"
+                    for k, column in shown
+                )
+                yield f"<tr>{cells}</tr>"
+            yield "</tbody></table>"
+        case _:
+            yield from (f"<p>{_text(line)}</p>" for line in part.split("\n"))
+
+
+def _caption(title: str) -> str:
+    return f"<caption>{_text(title)}</caption>" if title else ""
+
+
+def _look(left: bool) -> str:
+    return "" if left else ' class="number"'
+
+
+def _text(text: str) -> str:
+    return "<br>".join(escape(printable(line)) for line in text.split("\n"))

@@ -1,0 +1,69 @@
+"""An answer as JSON: every number in full precision, every sentence, one object."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.answers.answer import Quantities, Table
+
+if TYPE_CHECKING:
+    from evenbreak.answers.answer import Answer, Part
+
+
+def as_dict(answer: Answer) -> dict[str, Any]:
+    """Return what the JSON of an answer holds.
+
+    Quantities stand by their names, a table by its name as a list of objects; what is not a
+    finite number is null. Then come `heading`, `sentences`, `details` (the further sentences),
+    `warnings` and `schema_version`.
+    """
+    found: dict[str, Any] = {}
+    for part in (*answer.parts, *answer.details, *([answer.csv] if answer.csv else [])):
+        found |= _numbers(part)
+    found |= {name: plain(value) for name, value in answer.data.items()}
+    return found | {
+        "heading": answer.heading,
+        "sentences": answer.sentences,
+        "details": [part for part in answer.details if isinstance(part, str)],
+        "warnings": list(answer.warnings),
+        "schema_version": answer.schema_version,
+    }
+
+
+def to_json(answer: Answer) -> str:
+    """Return an answer as JSON text."""
+    import json
+
+    return json.dumps(as_dict(answer), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
+
+
+def _numbers(part: Part) -> dict[str, Any]:
+    match part:
+        case Quantities(of=listed, in_json=True):
+            return {one.name: plain(one.value) for one in listed}
+        case Table(name=name) if name:
+            return {name: plain(part.to_dicts())}
+    return {}
+
+
+def plain(value: Any) -> Any:
+    """Return a value as JSON knows it: numpy's numbers as Python's, NaN and infinities as None.
+
+    >>> plain({"p": float("inf"), "rows": (1, 2.5)})
+    {'p': None, 'rows': [1, 2.5]}
+    """
+    if value is None or isinstance(value, str | bool | int):
+        return value
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {str(key): plain(one) for key, one in value.items()}
+    if hasattr(value, "_asdict"):
+        return {key: plain(one) for key, one in value._asdict().items()}
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(one) for one in value]
+    return str(value)

@@ -1,0 +1,160 @@
+"""An answer on a terminal: paragraphs broken between words, numbers in columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from evenbreak.answers.answer import Quantities, Table
+from evenbreak.files.problems import printable
+
+if TYPE_CHECKING:
+    from evenbreak.answers.answer import Answer, Part
+
+WIDTH = 80
+NARROWEST, LONGEST_NAME = 20, 30
+"""Where a table is too wide, words that stand flush left are broken so that it fits, if that
+leaves them as many columns as the first; else after as many as the second."""
+
+_GAP = 2
+
+
+def to_text(answer: Answer, *, width: int = WIDTH, verbose: bool = False) -> str:
+    """Return an answer as text.
+
+    Parameters
+    ----------
+    answer
+        what is shown; its warnings are not, since they go elsewhere.
+    width
+        the columns of the terminal. Paragraphs are broken there; of a table that is wider the
+        columns are parted, each part with the columns that stand flush left.
+    verbose
+        whether to show details too.
+    """
+    parts = [answer.heading, *answer.parts, *(answer.details if verbose else ())]
+    return "\n\n".join(filter(None, (_shown(part, width, verbose) for part in parts))) + "\n"
+
+
+def paragraph(text: str, width: int = WIDTH) -> str:
+    """Return text with each of its lines broken between words where the terminal ends."""
+    import textwrap
+
+    lines = (
+        textwrap.fill(printable(line), width, break_long_words=False, break_on_hyphens=False)
+        for line in text.split("\n")
+    )
+    return "\n".join(lines)
+
+
+def _shown(part: Part, width: int, verbose: bool) -> str:
+    if isinstance(part, str):
+        return paragraph(part, width)
+    lines = [paragraph(part.title, width) + "\n"] if part.title else []
+    if isinstance(part, Quantities):
+        lines += _quantities(part, verbose)
+    else:
+        lines += _table(part, width, verbose)
+    return "\n".join(lines)
+
+
+def _quantities(part: Quantities, verbose: bool) -> Iterator[str]:
+    shown = part.shown(verbose=verbose)
+    rows = [[printable(one.words or ""), printable(one.show(one.value))] for one in shown]
+    for line, one in zip(aligned(rows, left=1), shown, strict=True):
+        yield f"{line}  {one.note}" if one.note else line
+
+
+def _table(part: Table, width: int, verbose: bool) -> Iterator[str]:
+    shown = part.shown(verbose=verbose)
+    heads = _heading_lines([column.words or "" for _, column in shown])
+    rows = [[printable(column.text(row[k])) for k, column in shown] for row in part.rows]
+    flush = [place for place, (_, column) in enumerate(shown) if column.left]
+    cells = _folded([*heads, *rows], flush, width)
+    names = next((k for k in range(len(shown)) if k not in flush), len(shown))
+    for number, block in enumerate(_blocks(cells, names, width)):
+        if number:
+            yield ""
+        picked = [[row[k] for k in block] for row in cells]
+        yield from aligned(picked, flush=[place for place, k in enumerate(block) if k in flush])
+
+
+def _folded(rows: list[list[str]], flush: Sequence[int], width: int) -> list[list[str]]:
+    """Return rows of which words that stand flush left go on below, where that makes them fit."""
+    import textwrap
+
+    wide = [max(map(text_width, column)) for column in zip(*rows, strict=True)]
+    over = sum(wide) + _GAP * len(wide) - width
+    if over <= 0 or not flush:
+        return rows
+    widest = max(flush, key=lambda k: wide[k])
+    room = wide[widest] - over
+    room = min(wide[widest], LONGEST_NAME) if room < NARROWEST else room
+    folded = []
+    for row in rows:
+        first, *more = textwrap.wrap(row[widest], room, subsequent_indent="  ") or [""]
+        for text in (first, *more):
+            line = row if text is first else [""] * len(row)
+            folded.append([*line[:widest], text, *line[widest + 1 :]])
+    return folded
+
+
+def _blocks(cells: Sequence[Sequence[str]], names: int, width: int) -> Iterator[list[int]]:
+    """Yield the columns of each part of a table, the first `names` of them in all parts."""
+    wide = [_GAP + max(map(text_width, column)) for column in zip(*cells, strict=True)]
+    first = list(range(names))
+    block, used = first.copy(), sum(wide[:names])
+    for k in range(names, len(wide)):
+        if used + wide[k] > width and len(block) > names:
+            yield block
+            block, used = first.copy(), sum(wide[:names])
+        block.append(k)
+        used += wide[k]
+    yield block
+
+
+def _heading_lines(headings: Sequence[str]) -> list[list[str]]:
+    r"""Return the lines of the headings, those of fewer lines at the bottom.
+
+    >>> _heading_lines(["shot", "you\nmake"])
+    [['', 'you'], ['shot', 'make']]
+    """
+    if not any(headings):
+        return []
+    parts = [heading.split("\n") for heading in headings]
+    tall = max(map(len, parts), default=1)
+    padded = [[""] * (tall - len(part)) + part for part in parts]
+    return [list(line) for line in zip(*padded, strict=True)]
+
+
+def aligned(
+    rows: Sequence[Sequence[str]], *, left: int = 0, flush: Sequence[int] = ()
+) -> Iterator[str]:
+    r"""Yield rows as lines of columns: the first `left` and those of `flush` stand flush left.
+
+    >>> print(*aligned([["hill-hill", "0.2"], ["shutout", "0.0123"]], left=1), sep="\n")
+      hill-hill     0.2
+      shutout    0.0123
+    """
+    if not rows:
+        return
+    widths = [max(map(text_width, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = []
+        for place, (cell, width) in enumerate(zip(row, widths, strict=True)):
+            gap = " " * (width - text_width(cell))
+            cells.append(cell + gap if place < left or place in flush else gap + cell)
+        yield ("  " + "  ".join(cells)).rstrip()
+
+
+def text_width(text: str) -> int:
+    """Return how many columns of a terminal a text takes.
+
+    >>> text_width("Zoë"), text_width("🎱"), text_width("李娜")
+    (3, 2, 4)
+    """
+    if max(text, default="") < "\u0300":  # before the first that combine with others
+        return len(text)
+    from rich.cells import cell_len  # only now: it takes a while to load
+
+    return cell_len(text)

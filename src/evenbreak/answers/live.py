@@ -1,0 +1,170 @@
+"""A match under way: how it stands, what the next game is worth, how it went."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.comebacks import comeback_tables
+from evenbreak.answers.odds import match_words
+from evenbreak.answers.wording import chance, games, percent, signed
+
+if TYPE_CHECKING:
+    from evenbreak.answers.two_players import TwoPlayers
+    from evenbreak.games.match import Match
+    from evenbreak.matches.live import LiveOdds, Standing
+
+
+_PLACE = ("score_a", "score_b", "set_a", "set_b", "next_break")
+
+
+def live_answer(
+    players: TwoPlayers, match: Match, odds: LiveOdds, *, comebacks: bool = False
+) -> Answer:
+    """Return where a match stands, as `live_odds` found it.
+
+    Parameters
+    ----------
+    players, match
+        who plays, and what.
+    odds
+        the match so far.
+    comebacks
+        whether to show the chances at every score still to come; files then hold these in
+        place of the course.
+    """
+    now, course = odds.now, _course(odds)
+    to_come = Table(
+        "comebacks",
+        [Column(name) for name in (*_PLACE, "p_win_a", "leverage")],
+        [(*_place(moment), moment.p_win_1, moment.leverage) for moment in odds.comebacks()],
+    )
+    parts: list[Part] = [_in_words(now, players)]
+    if now.leverage is not None:
+        parts.append(_now(now, players))
+    if odds.winners:
+        parts += [_as_it_went(odds, players), _turning_point(odds, players)]
+    if comebacks:
+        parts += comeback_tables(match, odds, players.names)
+    *_, last = course.records()
+    return Answer(
+        f"{players.description}\n{_standing_words(match, now, players)}",
+        [part for part in parts if part],
+        warnings=players.doubts,
+        data={
+            "now": dict(zip(course.names, last, strict=True)),
+            course.name: course.to_dicts(),
+            to_come.name: to_come.to_dicts(),
+        },
+        csv=to_come if comebacks else course,
+    )
+
+
+def _place(moment: Standing) -> tuple[Any, ...]:
+    inside = moment.scores[1] if len(moment.scores) > 1 else (None, None)
+    return (*moment.scores[0], *inside, _letter(moment.breaker))
+
+
+def _letter(player: int | None) -> str | None:
+    return None if player is None else " ab"[player]
+
+
+def _in_words(now: Standing, players: TwoPlayers) -> str:
+    a, b = players.names
+    if now.leverage is None:
+        return f"{a if now.p_win_1 else b} has won the match."
+    name, p = (a, now.p_win_1) if now.p_win_1 >= now.p_win_2 else (b, now.p_win_2)
+    after, other = now.p_win_1_after or (p, p)
+    return (
+        f"{name} wins from here {percent(p)} of the time. If {a} wins the next game, {a}'s chance "
+        f"is {percent(after)}; if {b} wins it, {percent(other)}."
+    )
+
+
+def _now(now: Standing, players: TwoPlayers) -> Quantities:
+    a, b = players.names
+    after, other = now.p_win_1_after or (None, None)
+    return Quantities(
+        [
+            Quantity("p_win_a", now.p_win_1, f"{a} wins the match", chance),
+            Quantity("p_win_b", now.p_win_2, f"{b} wins the match", chance),
+            Quantity("p_win_a_if_a", after, f"{a} wins it, if {a} wins the next game", chance),
+            Quantity("p_win_a_if_b", other, f"{a} wins it, if {b} wins the next game", chance),
+            Quantity("leverage", now.leverage, "leverage: the difference", chance),
+            Quantity("mean_racks_left", now.mean_racks, "games left, on average", games),
+            Quantity("racks_left_p90", now.racks_p90, "9 of 10 matches end within", games),
+        ],
+        in_json=False,
+    )
+
+
+def _course(odds: LiveOdds) -> Table:
+    """Return the match as it went, a row a moment, the first before any game."""
+    moments = zip(odds.course, (None, *odds.winners), (None, *odds.swings), strict=True)
+    rows = [
+        (
+            *(number, _letter(winner), *_place(moment), moment.p_win_1, moment.p_win_2, swing),
+            *(moment.p_win_1_after or (None, None)),
+            *(moment.leverage, moment.mean_racks, moment.racks_p90),
+        )
+        for number, (moment, winner, swing) in enumerate(moments)
+    ]
+    names = [
+        *("rack", "won_by", *_PLACE, "p_win_a", "p_win_b", "swing_a"),
+        *("p_win_a_if_a", "p_win_a_if_b", "leverage", "mean_racks_left", "racks_left_p90"),
+    ]
+    return Table("course", [Column(name) for name in names], rows)
+
+
+def _as_it_went(odds: LiveOdds, players: TwoPlayers) -> Table:
+    """Return the games played so far, each with what hung on it and what it changed."""
+    a = players.names[0]
+    rows = [
+        (number, players.names[winner - 1], _score_words(after), after.p_win_1, swing, leverage)
+        for number, (winner, after, swing, leverage) in enumerate(
+            zip(
+                odds.winners,
+                odds.course[1:],
+                odds.swings,
+                [moment.leverage for moment in odds.course[:-1]],
+                strict=True,
+            ),
+            1,
+        )
+    ]
+    columns = [
+        Column("rack", "game"),
+        Column("won_by", "won by"),
+        Column("score", "score"),
+        Column("p_win_a", f"{a} wins", chance),
+        Column("swing_a", "change", signed(4)),
+        Column("leverage", "leverage", chance),
+    ]
+    return Table("", columns, rows)
+
+
+def _turning_point(odds: LiveOdds, players: TwoPlayers) -> str:
+    most = max(range(len(odds.swings)), key=lambda i: abs(odds.swings[i]))
+    swing = odds.swings[most]
+    if not swing:
+        return ""
+    winner = players.names[odds.winners[most] - 1]
+    return (
+        f"Game {most + 1} was the turning point: it gave {winner} {chance(abs(swing))} more of a "
+        "chance to win the match."
+    )
+
+
+def _standing_words(match: Match, now: Standing, players: TwoPlayers) -> str:
+    """Return what is played and how it stands."""
+    text = f"{match_words(replace(match, score=(0, 0)))}, score {_score_words(now)}"
+    if now.leverage is None:
+        return text
+    return text + (f", {players.names[now.breaker - 1]} breaks" if now.breaker else "")
+
+
+def _score_words(moment: Standing) -> str:
+    """Return a score, with that of the set under way: 1:0 (2:2)."""
+    (a, b), *inside = moment.scores
+    return f"{a}:{b}" + "".join(f" ({c}:{d})" for c, d in inside)

@@ -1,0 +1,86 @@
+"""Warnings about ratings that do not look like those of the scale by which they are read."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from evenbreak.ratings.scale import Scale
+
+USUAL = {"npl": (20, 130), "fargo": (200, 850)}
+"""Where most ratings of a scale lie."""
+
+FAR = 3.0
+"""Doublings of the odds; the average of a league is nearer to the middle of its scale."""
+
+APART = 6.0
+"""Doublings of the odds; every player is nearer to the average of the league: 64 games to 1."""
+
+
+def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:
+    """Return a warning if a few ratings look like those of another scale.
+
+    Only their difference counts, so somebody may give it as one rating and 0 as the other.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> two_ratings_doubts(SCALES["npl"], 612, 521)
+    ['most npl ratings are between 20 and 130; for fargo ratings add --scale fargo']
+    >>> two_ratings_doubts(SCALES["fargo"], 1750, 1612)
+    ['most fargo ratings are between 200 and 850; for elo ratings add --scale elo']
+    """
+    if scale.name in USUAL and max(ratings) > 1000:
+        other = "elo"
+    elif scale.name == "npl" and max(ratings) > 200:
+        other = "fargo"
+    elif scale.name == "fargo" and 0 < min(ratings) <= max(ratings) < 150:
+        other = "npl"
+    else:
+        return []
+    low, high = USUAL[scale.name]
+    return [
+        f"most {scale.name} ratings are between {low} and {high}; "
+        f"for {other} ratings add --scale {other}"
+    ]
+
+
+def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
+    """Return a warning for each thing that is unusual in the ratings of a league.
+
+    Parameters
+    ----------
+    scale
+        by which they are read.
+    ratings
+        NaN is no rating.
+    remedy
+        what to do if they are ratings of another scale.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> league_doubts(SCALES["npl"], [560, 600, 640], "say which with --scale")
+    ['npl ratings average about 80, but these average about 600; say which with --scale']
+    >>> league_doubts(SCALES["npl"], [70, 80, 94, 560], "")
+    ['1 of 4 ratings is more than 180 points from the median of 87; are all on the same scale?']
+    """
+    import numpy as np
+
+    known = np.asarray(ratings, dtype=float)
+    known = known[~np.isnan(known)]
+    if not len(known):
+        return []
+    doubts = []
+    middle = float(np.median(known))  # one slip makes no other scale
+    if scale.centre and abs(middle - scale.centre) > FAR * scale.points_per_doubling:
+        doubts.append(
+            f"{scale.name} ratings average about {scale.centre:g}, but these average about "
+            f"{middle:.0f}; {remedy}"
+        )
+    edge = APART * scale.points_per_doubling
+    apart = int((np.abs(known - middle) > edge).sum())
+    if apart:
+        doubts.append(
+            f"{apart:,} of {len(known):,} ratings {'is' if apart == 1 else 'are'} more than "
+            f"{edge:.0f} points from the median of {middle:.0f}; are all on the same scale?"
+        )
+    return doubts

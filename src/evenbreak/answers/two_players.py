@@ -1,0 +1,104 @@
+"""Who plays a match: two players by their ratings, or by their chances in a game."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from evenbreak.answers.scale_doubts import two_ratings_doubts
+from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
+from evenbreak.games.rack import Rack
+from evenbreak.ratings.scale import Scale
+
+FORMATS = {
+    "winner": BREAK_FORMATS["winner"],
+    "loser": BREAK_FORMATS["loser"],
+    "alternate": BREAK_FORMATS["alternate"],
+    "a": BREAK_FORMATS["player 1"],
+    "b": BREAK_FORMATS["player 2"],
+}
+"""Break formats as people name them; A is player 1."""
+
+
+@dataclass(frozen=True)
+class TwoPlayers:
+    """Two players, A and B, and how a game between them goes.
+
+    Parameters
+    ----------
+    rack
+        their chances in a game.
+    breaks, first_breaker
+        who breaks, where that matters: the name of a format (`FORMATS`), and 1 or 2.
+    ratings, scale
+        what the chances come from, if they come from ratings.
+    names
+        what the two are called.
+
+    >>> from evenbreak.ratings import scale_of
+    >>> print(TwoPlayers.rated(612, 521, scale_of("fargo")).description)
+    A rated 612, B rated 521, on the fargo scale (100 points double the odds)
+    >>> print(TwoPlayers(Rack(0.6, 0.5), "winner", 2).description)
+    The breaker wins a game with chance 0.6 (A) or 0.5 (B); winner breaks, B breaks first
+    """
+
+    rack: Rack
+    breaks: str | None = None
+    first_breaker: int = 1
+    ratings: tuple[float, float] | None = None
+    scale: Scale | None = None
+    names: tuple[str, str] = ("A", "B")
+
+    @classmethod
+    def rated(
+        cls, rating_a: float, rating_b: float, scale: Scale, names: tuple[str, str] = ("A", "B")
+    ) -> TwoPlayers:
+        """Return two players of whom the ratings are known."""
+        rack = Rack(scale.win_probability(rating_a - rating_b))
+        return cls(rack, ratings=(rating_a, rating_b), scale=scale, names=names)
+
+    @property
+    def break_format(self) -> BreakFormat | None:
+        """Who breaks the next game, or None where it does not matter."""
+        return None if self.breaks is None else FORMATS[self.breaks]
+
+    @property
+    def p_game_a(self) -> float | None:
+        """P(A wins a game), or None where that depends on who breaks."""
+        return None if self.rack.break_matters else float(self.rack.p1)
+
+    @property
+    def doubts(self) -> list[str]:
+        """What is unusual in the ratings."""
+        if self.ratings is None or self.scale is None:
+            return []
+        return two_ratings_doubts(self.scale, *self.ratings)
+
+    @property
+    def description(self) -> str:
+        """Who they are, in a line."""
+        a, b = self.names
+        if self.ratings is not None and self.scale is not None:
+            first, second = self.ratings
+            return f"{a} rated {first:g}, {b} rated {second:g}, {scale_words(self.scale)}"
+        if self.breaks is None:
+            return f"{a} wins a game with chance {self.rack.p1:g}"
+        text = (
+            f"The breaker wins a game with chance {self.rack.p1:g} ({a}) or {self.rack.p2:g} ({b})"
+        )
+        usual = 2 if self.breaks == "b" else 1
+        always = self.breaks in ("a", "b")
+        who = self.names["ab".index(self.breaks)] if always else self.breaks
+        text += f"; {who} {'always breaks' if always else 'breaks'}"
+        if self.first_breaker != usual or not always:
+            text += f", {self.names[self.first_breaker - 1]} breaks first"
+        return text
+
+
+def scale_words(scale: Scale) -> str:
+    """Return a scale in words.
+
+    >>> from evenbreak.ratings import scale_of
+    >>> scale_words(scale_of("fargo"))
+    'on the fargo scale (100 points double the odds)'
+    """
+    return f"on the {scale.name} scale ({scale.points_per_doubling:.6g} points double the odds)"

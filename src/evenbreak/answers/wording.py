@@ -1,0 +1,114 @@
+"""Numbers and lists as people read them: chances, decimals, counts, times, names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from evenbreak.answers.answer import Show
+
+
+def chance(p: float) -> str:
+    """Return a probability, to four places, or to two digits where it is small.
+
+    >>> chance(0.65263), chance(0.00101), chance(1.234e-9), chance(1 - 1e-9)
+    ('0.6526', '0.0010', '1.2e-09', '1.0000')
+    """
+    return f"{p:.2g}" if 0.0 < p < 5e-5 else f"{p:.4f}"
+
+
+def percent(p: float) -> str:
+    """Return a probability in a sentence, in per cent; never 0 or 100 where it is neither.
+
+    >>> percent(0.653), percent(0.0042), percent(0.99999), percent(1.0), percent(3e-9)
+    ('65 %', '0.4 %', 'more than 99.9 %', '100 %', 'less than 0.1 %')
+    """
+    if p in (0.0, 1.0):
+        return f"{100 * p:.0f} %"
+    if p < 0.001:
+        return "less than 0.1 %"
+    if p > 0.999:
+        return "more than 99.9 %"
+    return f"{100 * p:.1f} %" if p < 0.0995 or p >= 0.995 else f"{100 * p:.0f} %"
+
+
+def decimals(places: int) -> Show:
+    """Return how a number is shown with so many decimals; one that rounds to 0 has no sign.
+
+    >>> decimals(2)(1.005), decimals(1)(-0.04), decimals(0)(1234.5)
+    ('1.00', '0.0', '1,234')
+    """
+
+    def show(value: float) -> str:
+        text = f"{value:,.{places}f}"
+        return text.removeprefix("-") if not text.strip("-0.,") else text
+
+    return show
+
+
+def signed(places: int) -> Show:
+    """Return how a difference is shown: with its sign.
+
+    >>> signed(4)(0.0521), signed(1)(-3.26)
+    ('+0.0521', '-3.3')
+    """
+    return lambda value: f"{value:+.{places}f}"
+
+
+def games(value: float) -> str:
+    """Return a number of games, racks or matches: whole as it is, else with two decimals.
+
+    >>> games(13), games(10.2743), games(3.2e11)
+    ('13', '10.27', '3.2e+11')
+    """
+    if value >= 1e9:
+        return f"{value:.3g}"
+    return f"{value:.2f}" if isinstance(value, float) else f"{value:,}"
+
+
+def race(needs: tuple[int, int]) -> str:
+    """Return a race.
+
+    >>> race((7, 5))
+    '7:5'
+    """
+    return f"{needs[0]}:{needs[1]}"
+
+
+def count_of(number: int, one: str, many: str = "") -> str:
+    """Return a number with the noun that it counts; `many` is `one` with an s where not given.
+
+    >>> count_of(1, "game"), count_of(2599, "game"), count_of(2, "match", "matches")
+    ('1 game', '2,599 games', '2 matches')
+    """
+    return f"{number:,} {one if number == 1 else many or one + 's'}"
+
+
+def listed(words: Sequence[Any], last: str = "and") -> str:
+    """Return words as a list in a sentence.
+
+    >>> listed(["Ann"]), listed(["Ann", "Bo"]), listed(["winner", "loser", "alternate"], "or")
+    ('Ann', 'Ann and Bo', 'winner, loser or alternate')
+    """
+    *most, end = map(str, words)
+    return f"{', '.join(most)} {last} {end}" if most else end
+
+
+def some_of(words: Sequence[str], most: int = 8) -> str:
+    """Return the first of many names, and how many more there are.
+
+    >>> some_of(["Ann", "Bo", "Cy"], most=2)
+    'Ann, Bo and 1 more'
+    """
+    more = len(words) - most
+    return f"{', '.join(words[:most])} and {more:,} more" if more > 0 else ", ".join(words)
+
+
+def clock(minutes: float) -> str:
+    """Return minutes as hours and minutes.
+
+    >>> clock(52.4), clock(119.7), clock(185.0)
+    ('52 min', '2 h 00', '3 h 05')
+    """
+    whole = round(minutes)
+    return f"{whole} min" if whole < 60 else f"{whole // 60} h {whole % 60:02d}"

@@ -1,0 +1,109 @@
+"""How a command's answer is printed: text on a terminal, CSV into a pipe, JSON or HTML if asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import update_wrapper
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from evenbreak.cli.kit.terminal import say, to_terminal, write
+
+if TYPE_CHECKING:
+    from evenbreak.answers.answer import Answer
+
+Function = Callable[..., "Answer"]
+
+
+def faces(*, page: bool = True, always_text: bool = False) -> Callable[[Function], Function]:
+    """Return a decorator that prints the `Answer` of a command, as its options ask.
+
+    Parameters
+    ----------
+    page
+        whether `--html FILE` writes the answer as a page; False where a command has an
+        option `--html` of its own.
+    always_text
+        whether a pipe gets text too, as the answer's tables are written to files.
+    """
+
+    def decorate(function: Function) -> Function:
+        def run(
+            *, face: str | None, verbose: bool, page_file: str | None = None, **options: Any
+        ) -> None:
+            answer = function(**options)
+            chosen = face or ("text" if always_text or to_terminal() else "csv")
+            print_answer(answer, chosen, verbose=verbose)
+            if page_file is not None:
+                _write_page(answer, page_file)
+
+        command: Any = update_wrapper(run, function)
+        for add in reversed(_options(page=page, csv=not always_text)):
+            command = add(command)
+        return command  # type: ignore[no-any-return]
+
+    return decorate
+
+
+def _options(*, page: bool, csv: bool) -> list[Callable[[Any], Any]]:
+    def face(name: str, text: str) -> Callable[[Any], Any]:
+        return click.option(f"--{name}", "face", flag_value=name, help=text)
+
+    options = [face("text", "Print text, into a pipe too.")]
+    if csv:
+        options.append(face("csv", "Print CSV, on a terminal too."))
+    options.append(face("json", "Print JSON, with floats in full precision."))
+    if page:
+        options.append(
+            click.option(
+                "--html",
+                "page_file",
+                metavar="FILE",
+                callback=page_name,
+                help="Also write the answer to FILE as a page.",
+            )
+        )
+    more = click.option("-v", "--verbose", is_flag=True, help="Add the details: statistics.")
+    return [*options, more]
+
+
+def page_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Return the name of a page to be written, if it ends as one."""
+    if value is not None and PurePath(value).suffix.lower() not in (".html", ".htm"):
+        raise click.BadParameter(f"{value!r}; name a file that ends in .html", ctx=ctx, param=param)
+    return value
+
+
+def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
+    """Print an answer in one of its faces: text, csv or json; its warnings go to stderr.
+
+    With CSV on stdout, what the answer says in words goes to stderr too.
+    """
+    if face == "json":
+        from evenbreak.answers.faces.to_json import to_json
+
+        click.echo(to_json(answer).encode(), nl=False)
+    elif face == "csv":
+        from evenbreak.answers.faces.to_csv import to_csv
+
+        for sentence in (answer.heading, *answer.sentences):
+            say(sentence)
+        for line in to_csv(answer):
+            click.echo(line.encode(), nl=False)
+    else:
+        from evenbreak.answers.faces.to_text import to_text
+
+        write(to_text(answer, verbose=verbose))
+    for warning in answer.warnings:
+        say(f"Warning: {warning}")
+
+
+def _write_page(answer: Answer, path: str) -> None:
+    from evenbreak.files.folder import write_files
+    from evenbreak.sheets.answer_page import answer_page
+
+    place = PurePath(path)
+    write_files(str(place.parent), {place.name: answer_page(answer)})
+    say(f"Wrote {path}")

@@ -1,0 +1,28 @@
+"""The two streams of a command: the answer on stdout, all else on stderr."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from evenbreak.answers.faces.to_text import WIDTH, paragraph
+from evenbreak.files.problems import printable
+
+
+def to_terminal() -> bool:
+    """Return whether a person reads the output directly."""
+    return sys.stdout is not None and sys.stdout.isatty()
+
+
+def write(text: str) -> None:
+    """Write text for people to stdout; letters that the terminal lacks become question marks."""
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    click.echo(text.encode(encoding, "replace"), nl=False)
+
+
+def say(message: str) -> None:
+    """Say something beside the answer, on stderr; on a terminal broken between words."""
+    terminal = sys.stderr is not None and sys.stderr.isatty()
+    # Names of files stay whole, so that they can be copied.
+    click.echo(paragraph(message, WIDTH) if terminal else printable(message), err=True)

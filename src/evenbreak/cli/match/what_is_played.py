@@ -1,0 +1,84 @@
+"""What is played: a race, or n-ahead, perhaps in sets, from a score on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from evenbreak.cli.kit.values import LONGEST, PAIR, SCORE, Whole, refuse
+from evenbreak.games.race import Race
+
+if TYPE_CHECKING:
+    from evenbreak.answers.two_players import TwoPlayers
+    from evenbreak.cli.kit.options import Command
+    from evenbreak.games.match import Match
+
+MOST_SCORES = 10_000
+"""Scores that a match other than the plain race may have, so that each answer takes seconds."""
+
+
+def match_options(command: Command) -> Command:
+    """Add the options that say what is played."""
+    for add in (
+        click.option(
+            "--win-by",
+            type=Whole(1, LONGEST),
+            metavar="K",
+            help="The race goes on until one leads by K, counted from what each needs.",
+        ),
+        click.option(
+            "--score", metavar="I:J", type=SCORE, help="The score so far: I for A, J for B."
+        ),
+        click.option(
+            "--set",
+            "set_",
+            metavar="N|M:N",
+            type=PAIR,
+            help="Play sets, each a race M:N; --race then counts sets.",
+        ),
+        click.option(
+            "--ahead",
+            metavar="N|M:N",
+            type=PAIR,
+            help="A wins by leading by M games, B by leading by N.",
+        ),
+        click.option(
+            "--race",
+            metavar="N|M:N",
+            type=PAIR,
+            help="A needs M games, B needs N; 7 means 7:7.",
+        ),
+    ):
+        command = add(command)
+    return command
+
+
+def match_of(
+    players: TwoPlayers,
+    *,
+    race: tuple[int, int] | None,
+    ahead: tuple[int, int] | None,
+    set_: tuple[int, int] | None,
+    score: tuple[int, int] | None,
+    win_by: int | None,
+) -> Match:
+    """Return the match that the options describe, or refuse what contradicts itself."""
+    if race is not None and ahead is not None:
+        refuse("--race and --ahead exclude each other; leave one out")
+    if win_by is not None and (ahead or set_):
+        refuse(f"--win-by does not combine with {'--ahead' if ahead else '--set'}; leave it out")
+    rack: Any = players.rack
+    breaks, first = players.break_format, players.first_breaker
+    start = score or (0, 0)
+    if set_ is not None:  # the break format goes on across the sets: only the set has to know it
+        rack = Race(set_[0], set_[1], rack, breaks=breaks, first_breaker=first)
+        breaks = None
+    if ahead is not None:
+        from evenbreak.games.ahead import Ahead
+
+        return Ahead(ahead[0], ahead[1], rack, breaks=breaks, first_breaker=first, score=start)
+    if race is None:
+        refuse("what is played is missing; give --race M:N or --ahead M:N")
+    m, n = race
+    return Race(m, n, rack, breaks=breaks, first_breaker=first, score=start, win_by=win_by or 1)
