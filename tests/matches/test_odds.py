@@ -24,7 +24,7 @@ from evenbreak.matches import (
     hill_hill_probability,
     match_length,
     match_odds,
-    race_law,
+    race_odds,
     shutout_probability,
     win_probability,
 )
@@ -157,7 +157,7 @@ def test_arrays_are_for_the_other_kernels() -> None:
 
 def test_the_scalar_path_needs_no_numpy() -> None:
     code = (
-        "import sys; from evenbreak.matches.odds import match_odds, race_law; "
+        "import sys; from evenbreak.matches.odds import match_odds, race_odds; "
         "from evenbreak.games import *; "
         "match_odds(Race(7, 7, Rack(0.6, 0.5), breaks=winner_breaks)); "
         "match_odds(Race(3, 3, Race(7, 7, Rack(0.6)))); match_odds(Ahead(3, 3, Rack(0.6))); "
@@ -170,7 +170,7 @@ def test_the_scalar_path_needs_no_numpy() -> None:
 
 class TestRaceLaw:
     def test_its_parts_are_one_distribution(self) -> None:
-        law = race_law(7, 5, 0.6, 0.4, loser_breaks, 2, (1, 2))
+        law = race_odds(7, 5, 0.6, 0.4, loser_breaks, 2, (1, 2))
         assert law.games == [3, 4, 5, 6, 7, 8]
         assert sum(law.probability) == pytest.approx(1.0, rel=1e-15)
         assert law.p_win_1 + law.p_win_2 == pytest.approx(1.0, rel=1e-15)
@@ -181,12 +181,12 @@ class TestRaceLaw:
         assert odds.games_p90 == law.quantile(0.9)
 
     def test_the_start_score_is_a_head_start(self) -> None:
-        assert race_law(7, 7, 0.6, score=(2, 3)) == race_law(5, 4, 0.6)
+        assert race_odds(7, 7, 0.6, score=(2, 3)) == race_odds(5, 4, 0.6)
 
     def test_a_player_who_needs_nothing_has_won(self) -> None:
-        law = race_law(7, 5, 0.6, score=(7, 2))
+        law = race_odds(7, 5, 0.6, score=(7, 2))
         assert (law.games, law.p_win_1, law.p_win_2, law.mean) == ([0], 1.0, 0.0, 0.0)
-        assert race_law(7, 5, 0.6, score=(0, 5)).p_win_2 == 1.0
+        assert race_odds(7, 5, 0.6, score=(0, 5)).p_win_2 == 1.0
 
     @pytest.mark.parametrize(
         ("changes", "message"),
@@ -206,11 +206,11 @@ class TestRaceLaw:
     )
     def test_wrong_parameters_are_refused(self, changes: dict[str, Any], message: str) -> None:
         with pytest.raises(InputError, match=message):
-            race_law(**({"m": 5, "n": 5, "p1": 0.6} | changes))
+            race_odds(**({"m": 5, "n": 5, "p1": 0.6} | changes))
 
     def test_a_level_outside_0_1_is_refused(self) -> None:
         with pytest.raises(InputError, match="q is 2, not a probability"):
-            race_law(5, 5, 0.6).quantile(2)
+            race_odds(5, 5, 0.6).quantile(2)
 
 
 def test_the_score_moves_through_the_match() -> None:

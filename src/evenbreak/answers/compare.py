@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from evenbreak.answers.two_players import TwoPlayers
     from evenbreak.matches.crossings import Crossing, Crossings
     from evenbreak.matches.formats import MatchFormat
-    from evenbreak.matches.odds import Odds
+    from evenbreak.matches.odds import MatchOdds
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""
@@ -32,7 +32,7 @@ class Compared(NamedTuple):
     """
 
     format: MatchFormat
-    odds: Odds
+    odds: MatchOdds
     even: tuple[Crossing, ...]
 
 

@@ -12,7 +12,7 @@ from evenbreak.matches.odds import match_odds
 if TYPE_CHECKING:
     from evenbreak.answers.two_players import TwoPlayers
     from evenbreak.games.match import Match
-    from evenbreak.matches.odds import Odds
+    from evenbreak.matches.odds import MatchOdds
 
 
 def odds_answer(players: TwoPlayers, match: Match) -> Answer:
@@ -62,7 +62,7 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     )
 
 
-def _in_words(odds: Odds, match: Match, players: TwoPlayers) -> str:
+def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
     a, b = players.names
     if (winner := match.decided(*match.score)) is not None:
         return f"{players.names[winner - 1]} has won the match."

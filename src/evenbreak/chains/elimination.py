@@ -49,6 +49,8 @@ class Elimination:
         heapq.heapify(heap)
         # (state, its pivot, arcs to and from the states that are eliminated later)
         self.steps: list[tuple[int, Any, dict[int, Any], dict[int, Any]]] = []
+        self.stays: dict[int, Any] = {}
+        """States that no path leaves, with True, or where that is so in arrays of chances."""
         done = [False] * len(leak)
         while heap:
             cost, k = heapq.heappop(heap)
@@ -64,6 +66,9 @@ class Elimination:
                     "many to eliminate in wider numbers; split the chain or scale its arcs"
                 )
             pivot = sum(out.values(), leak[k])
+            stays = pivot == 0
+            if stays is True or (stays is not False and stays.any()):
+                self.stays[k], pivot = stays, pivot + stays
             self.steps.append((k, pivot, out, back))
             for i in out:
                 del into[i][k]
@@ -71,7 +76,7 @@ class Elimination:
                 row = arcs[j]
                 del row[k]
                 share = chance / pivot
-                leak[j] += share * leak[k]
+                leak[j] = leak[j] + share * leak[k]
                 for i, onward in out.items():
                     if i != j:
                         row[i] = into[i][j] = row.get(i, 0) + share * onward
@@ -90,10 +95,10 @@ class Elimination:
         """Return x = (I - T)^-1 b: the expected visits to each state from the density b."""
         x = list(b)
         for k, pivot, out, _ in self.steps:
-            if x[k]:
+            if not _is_nothing(x[k]):
                 share = x[k] / pivot
                 for i, chance in out.items():
-                    x[i] += share * chance
+                    x[i] = x[i] + share * chance
         for k, pivot, _, back in reversed(self.steps):
             x[k] = sum((chance * x[j] for j, chance in back.items()), x[k]) / pivot
         return x
@@ -102,10 +107,14 @@ class Elimination:
         """Return y = (I - T)^-T r: the expected sum of r over the visits from each state."""
         y = list(r)
         for k, pivot, _, back in self.steps:
-            if y[k]:
+            if not _is_nothing(y[k]):
                 share = y[k] / pivot
                 for j, chance in back.items():
-                    y[j] += share * chance
+                    y[j] = y[j] + share * chance
         for k, pivot, out, _ in reversed(self.steps):
             y[k] = sum((chance * y[i] for i, chance in out.items()), y[k]) / pivot
         return y
+
+
+def _is_nothing(value: Any) -> bool:
+    return not hasattr(value, "shape") and not value

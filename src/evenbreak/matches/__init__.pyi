@@ -13,10 +13,10 @@ from .length import match_length as match_length
 from .live import LiveOdds as LiveOdds
 from .live import Standing as Standing
 from .live import live_odds as live_odds
-from .odds import Odds as Odds
+from .odds import MatchOdds as MatchOdds
 from .odds import match_odds as match_odds
-from .races import RaceLaw as RaceLaw
-from .races import race_law as race_law
+from .races import RaceOdds as RaceOdds
+from .races import race_odds as race_odds
 from .scores import FinalScores as FinalScores
 from .scores import final_scores as final_scores
 from .scores import hill_hill_probability as hill_hill_probability

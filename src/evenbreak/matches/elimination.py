@@ -1,11 +1,8 @@
-"""Absorption in a small chain by elimination of states, without one subtraction.
+"""What follows from each score of a match, by elimination of scores.
 
-To eliminate a state is to watch the chain only while it is elsewhere: who led to the
-state now leads, in proportion, to where the state leads. The chance of leaving a
-state is summed from the ways out, never formed as 1 minus the chance of staying
-(Grassmann, Taksar & Heyman 1985; O'Cinneide 1993), so every answer keeps its relative
-accuracy however long play goes on. All values may be floats or arrays of one shape:
-the order of elimination does not depend on them.
+Only positive numbers are added, multiplied and divided (see `evenbreak.chains.elimination`), so
+every answer keeps its relative accuracy however long play goes on. All values may be floats or
+arrays of one shape.
 """
 
 from __future__ import annotations
@@ -13,8 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from typing import Any
 
+from evenbreak.chains.elimination import Elimination
+
 NEVER = "never"
-"""Where a chain goes that can neither end nor leave a set of states."""
+"""Where play goes that can neither end nor leave a set of states."""
 
 
 def ratio(x: Any, y: Any) -> Any:
@@ -31,47 +30,29 @@ def ratio(x: Any, y: Any) -> Any:
     return np.divide(x, y, out=np.zeros(y.shape), where=y > 0.0)
 
 
-class Elimination:
-    """The eliminated form of an absorbing chain; solves for any rewards.
+class ScoreChain:
+    """The absorbing chain of a match's scores, solved for any rewards.
 
     Parameters
     ----------
     rows
         for each state that is not final, the probability of each next state; states
-        without a row are final. The first row is that of the state in which play starts.
+        without a row are final.
 
-    >>> walk = Elimination({0: {1: 0.5, -1: 0.5}, 1: {2: 0.5, 0: 0.5}})
+    >>> walk = ScoreChain({0: {1: 0.5, -1: 0.5}, 1: {2: 0.5, 0: 0.5}})
     >>> round(walk.solve({2: 1.0})[0], 12)
     0.333333333333
     """
 
     def __init__(self, rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> None:
-        self.order = _farthest_first(rows)
-        self._before: dict[Hashable, dict[Hashable, Any]] = {}
-        self._after: dict[Hashable, dict[Hashable, Any]] = {}
-        self._out: dict[Hashable, Any] = {}
-        self._eliminate({state: dict(row) for state, row in rows.items()})
-
-    def _eliminate(self, rows: dict[Hashable, dict[Hashable, Any]]) -> None:
-        leading_to: dict[Hashable, set[Hashable]] = {state: set() for state in rows}
-        for state, row in rows.items():
-            for target in row:
-                if target in leading_to:
-                    leading_to[target].add(state)
-        for state in self.order:
-            row = rows.pop(state)
-            row.pop(state, None)
-            out = _keep_positive(row)
-            shares = {target: chance / out for target, chance in row.items()}
-            before = {}
-            for source in leading_to.pop(state):
-                if source in rows:
-                    before[source] = weight = rows[source].pop(state)
-                    for target, share in shares.items():
-                        rows[source][target] = rows[source].get(target, 0.0) + weight * share
-                        if target in leading_to:
-                            leading_to[target].add(source)
-            self._before[state], self._after[state], self._out[state] = before, shares, out
+        self._place = {state: k for k, state in enumerate(reversed(rows))}
+        self._ends: list[dict[Hashable, Any]] = []
+        among: list[dict[int, Any]] = []
+        for state in self._place:
+            row = {t: chance for t, chance in rows[state].items() if t != state}
+            self._ends.append({t: chance for t, chance in row.items() if t not in self._place})
+            among.append({self._place[t]: chance for t, chance in row.items() if t in self._place})
+        self._factor = Elimination(among, [sum(row.values(), 0.0) for row in self._ends])
 
     def solve(
         self,
@@ -93,50 +74,12 @@ class Elimination:
         dict
             the expected total, given the state; final states with a reward included.
         """
-        total: dict[Hashable, Any] = dict(final or {})
-        own = {}
-        if reward is not None:
-            own = {state: reward(state) for state in self.order}
-            for state in self.order:
-                own[state] = own[state] / self._out[state]
-                for source, weight in self._before[state].items():
-                    own[source] = own[source] + weight * own[state]
-        for state in reversed(self.order):
-            value = own.get(state, 0.0)
-            for target, share in self._after[state].items():
-                if target in total:
-                    value = value + share * total[target]
-            total[state] = value
-        return total
-
-
-def _keep_positive(row: dict[Hashable, Any]) -> Any:
-    """Return the chance of leaving; where it is zero, play stays for ever: lead to NEVER."""
-    out = sum(row.values(), 0.0)
-    if isinstance(out, float):
-        if out == 0.0:
-            row[NEVER] = out = 1.0
-        return out
-    import numpy as np
-
-    stuck = out == 0.0
-    if stuck.any():
-        row[NEVER] = row.get(NEVER, 0.0) + stuck
-        out = np.where(stuck, 1.0, out)
-    return out
-
-
-def _farthest_first(rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> list[Hashable]:
-    """Return the states by the steps that they are away from the first one, most steps first.
-
-    Scores then come after all scores that they lead to, and leads from the two ends of
-    the line inwards, so that elimination hardly lengthens a row.
-    """
-    order = list(rows)[:1]
-    seen = set(order)
-    for state in order:
-        for target in rows[state]:
-            if target in rows and target not in seen:
-                seen.add(target)
-                order.append(target)
-    return order[::-1] + [state for state in rows if state not in seen]
+        final = final or {}
+        own = [0.0 if reward is None else reward(state) for state in self._place]
+        for k, row in enumerate(self._ends):
+            for target in row.keys() & final.keys():
+                own[k] = own[k] + row[target] * final[target]
+        if NEVER in final:
+            for k, stays in self._factor.stays.items():
+                own[k] = own[k] + stays * final[NEVER]
+        return {**final, **dict(zip(self._place, self._factor.values(own), strict=True))}

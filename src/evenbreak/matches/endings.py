@@ -18,7 +18,8 @@ from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import Endings, race_endings
-from evenbreak.matches.parameters import shape_of, with_rack
+from evenbreak.matches.parameters import shape_of
+from evenbreak.matches.rack_graph import rack_moves
 
 _LONGEST = 100_000
 _MOST_CELLS = 20_000_000
@@ -56,7 +57,7 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
         need_1, need_2 = match.m - match.score[0], match.n - match.score[1]
         return race_endings(need_1, need_2, rack, match.breaks, match.first_breaker)
     size = math.prod(shape)
-    play = _play_of(match, rack, size)
+    play = _play_of(match, size)
     if is_bounded(match):
         wins = _followed(play, np.zeros(size), math.inf)
     else:
@@ -76,42 +77,24 @@ class _Play:
     alive: int
 
 
-def _play_of(match: Match, rack: Rack, size: int) -> _Play:
-    even = Rack(0.5, 0.5) if rack.break_matters else Rack(0.5)
-    template = with_rack(match, even)
-    after: dict[Any, list[Any]] = {}
-    queue = [template.start]
-    for state in queue:
-        if state not in after:
-            after[state] = list(template.moves(state))
-            queue.extend(after[state])
-    alive = [state for state, targets in after.items() if targets]
-    row = {state: i for i, state in enumerate(alive)}
-    # The two rows after the states that go on collect the wins of player 1 and of player 2.
-    row |= {
-        state: len(alive) + (template.winner(state) == 2) for state in after if state not in row
-    }
-    ones, columns = np.ones(len(alive)), np.arange(len(alive))
-    shape = (len(alive) + 2, len(alive))
-    # A state's moves are listed with the one that player 1 wins first.
-    won, lost = (
-        csr_array((ones, ([row[after[state][i]] for state in alive], columns)), shape=shape)
-        for i in (0, 1)
-    )
-    breakers = [_breaker(state) if rack.break_matters else 1 for state in alive]
-    chance = {
-        (player, breaker): np.broadcast_to(np.ravel(rack.chance(player, breaker)), (size,))
-        for player in (1, 2)
-        for breaker in set(breakers)
-    }
-    p_won, p_lost = (
-        np.array([chance[player, breaker] for breaker in breakers]) for player in (1, 2)
-    )
-    return _Play(won, lost, p_won, p_lost, len(alive))
+def _play_of(match: Match, size: int) -> _Play:
+    moves = rack_moves(match)
+    row = {state: i for i, state in enumerate(moves)}
+    alive, columns = len(moves), np.arange(len(moves))
 
+    def place(state: Any) -> int:
+        """Return a state's row; the wins of player 1, player 2 are collected in the last two."""
+        return row[state] if state in row else alive + (match.winner(state) == 2)
 
-def _breaker(state: Any) -> int:
-    return _breaker(state[-1]) if isinstance(state[-1], tuple) else int(state[-1])
+    def after(player: int) -> tuple[csr_array, NDArray[np.float64]]:
+        targets, chances = zip(*(pair[player - 1] for pair in moves.values()), strict=True)
+        rows = [place(state) for state in targets]
+        matrix = csr_array((np.ones(alive), (rows, columns)), shape=(alive + 2, alive))
+        flat = {id(p): np.broadcast_to(np.ravel(p), (size,)) for p in chances}
+        return matrix, np.array([flat[id(p)] for p in chances])
+
+    (won, p_won), (lost, p_lost) = after(1), after(2)
+    return _Play(won, lost, p_won, p_lost, alive)
 
 
 def _followed(play: _Play, enough: NDArray[np.float64], most: float) -> NDArray[np.float64]:

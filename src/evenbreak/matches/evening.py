@@ -97,7 +97,7 @@ def evening(
     ----------
     lengths
         the law of each match's length in games, in the order of the list: a `Length`, a
-        `MatchLength`, a `RaceLaw`.
+        `MatchLength`, a `RaceOdds`.
     tables
         how many tables there are.
     players
@@ -214,8 +214,7 @@ def _exact(end: Floats) -> Evening:
     times = np.arange(len(end))
     mean = float(times @ end)
     sd = math.sqrt(float((times - mean) ** 2 @ end))
-    p90 = quantile_of(end.tolist(), 0.9)
-    return Evening(mean, sd, int(p90 or 0), 0, 0.0)
+    return Evening(mean, sd, quantile_of(end.tolist(), 0.9), 0, 0.0)
 
 
 def _played_out(

@@ -11,16 +11,14 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-import numpy as np
-from scipy.sparse import csr_array
-
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
-from evenbreak.matches.elimination import NEVER, Elimination
-from evenbreak.matches.parameters import checked_match, with_rack
-from evenbreak.matches.quantiles import TIE
+from evenbreak.matches.elimination import NEVER, ScoreChain
+from evenbreak.matches.parameters import checked_match
+from evenbreak.matches.rack_by_rack import racks_within
+from evenbreak.matches.rack_graph import breaker_in, rack_moves
 
 _LONGEST = 100_000
 """Racks after which a length that is not reached is given up."""
@@ -141,22 +139,22 @@ def live_odds(
     >>> [(standing.scores[0], standing.p_win_1) for standing in live.comebacks()]
     [((1, 1), 0.25), ((2, 1), 0.5)]
     """
-    rack = checked_match(match).innermost_rack.of_numbers()
-    values = _Values(match, rack, _state_at(match, set_score))
+    checked_match(match).innermost_rack.of_numbers()
+    values = _Values(match, _state_at(match, set_score))
     state, scores = values.start, _scores_of(match, values.start)
     scores = (match.score, *scores[1:])
     states, told = [state], [scores]
     for i, winner in enumerate(winners, 1):
         one_of(winner, f"winner of rack {i}", (1, 2))
-        if state not in values.after:
+        if state not in values.moves:
             raise InputError(
                 f"the match is over after {i - 1} of {len(winners)} racks, at "
                 f"{scores[0][0]}:{scores[0][1]}; leave out the racks after it"
             )
-        state, scores = values.after[state][winner - 1], _counted(match, scores, winner)
+        state, scores = values.moves[state][winner - 1][0], _counted(match, scores, winner)
         states.append(state)
         told.append(scores)
-    ends = values.racks_within(0.9, states)
+    ends = racks_within(values.moves, [(state, 0.9) for state in states], values.never)
     course = [
         values.standing(state)._replace(scores=scores, racks_p90=end)
         for state, scores, end in zip(states, told, ends, strict=True)
@@ -167,44 +165,29 @@ def live_odds(
 class _Values:
     """The chances at every state that can be reached from `start`."""
 
-    def __init__(self, match: Match, rack: Rack, start: Any) -> None:
+    def __init__(self, match: Match, start: Any) -> None:
         self.match, self.start = match, start
-        self.after = _graph(match, rack, start)
-        self.breaker = {
-            state: _breaker(state) if rack.p2 is not None else 1 for state in self.after
-        }
-        self.chances = {
-            state: (rack.chance(1, breaker), rack.chance(2, breaker))
-            for state, breaker in self.breaker.items()
-        }
-        ends = {t for pair in self.after.values() for t in pair if t not in self.after} | (
-            {start} - set(self.after)
-        )
+        self.moves = rack_moves(match, start)
+        reached = {start} | {state for row in self.moves.values() for state, _ in row}
         won: dict[int, dict[Any, float]] = {1: {}, 2: {}}
-        for state in ends:
+        for state in reached - self.moves.keys():
             won[match.winner(state) or 0][state] = 1.0
-        chain = Elimination(
-            {
-                state: dict(zip(self.after[state], self.chances[state], strict=True))
-                for state in self.after
-            }
-        )
+        chain = ScoreChain({state: dict(row) for state, row in self.moves.items()})
         self.win = {player: chain.solve(won[player]) for player in (1, 2)}
         self.never = chain.solve({NEVER: 1.0})
         self.mean = chain.solve(reward=lambda _: 1.0)
 
     def standing(self, state: Any) -> Standing:
         """Return the moment at a state, without the 90 % length."""
-        pair = self.after.get(state)
-        over = pair is None
+        row = self.moves.get(state)
+        after = None if row is None else [self._chance(1, target) for target, _ in row]
+        breaks = self.match.break_matters and row is not None
         return Standing(
             scores=_scores_of(self.match, state),
-            breaker=self.breaker[state] if self.match.break_matters and not over else None,
+            breaker=breaker_in(self.match, state) if breaks else None,
             p_win_1=self._chance(1, state),
             p_win_2=self._chance(2, state),
-            p_win_1_after=None
-            if pair is None
-            else (self._chance(1, pair[0]), self._chance(1, pair[1])),
+            p_win_1_after=None if after is None else (after[0], after[1]),
             mean_racks=None if self.never.get(state, 0.0) > 0.0 else self.mean.get(state, 0.0),
             racks_p90=None,
         )
@@ -214,57 +197,13 @@ class _Values:
 
     def from_(self, state: Any) -> Iterator[Any]:
         """Yield the states at which the match goes on that can be reached from `state`."""
-        queue = [state] if state in self.after else []
-        seen = set(queue)
+        queue = [state]
+        seen = set()
         for here in queue:
-            yield here
-            for target in self.after[here]:
-                if target in self.after and target not in seen:
-                    seen.add(target)
-                    queue.append(target)
-
-    def racks_within(self, q: float, states: Sequence[Any]) -> list[int | None]:
-        """Return, for each state, the least k with P(over within k racks) >= q."""
-        row = {state: i for i, state in enumerate(self.after)}
-        arcs = [
-            (i, row[target], chance)
-            for state, i in row.items()
-            for target, chance in zip(self.after[state], self.chances[state], strict=True)
-            if target in row
-        ]
-        rows, columns, chances = zip(*arcs, strict=True) if arcs else ((), (), ())
-        moves = csr_array((chances, (rows, columns)), shape=(len(row), len(row)))
-        allowed = (1.0 - q) * (1.0 + TIE)
-        found: dict[Any, int | None] = {state: 0 if state not in row else None for state in states}
-        missing = {s for s in states if s in row and self.never.get(s, 0.0) <= allowed}
-        left: Any = np.ones(len(row))  # P(the match goes on after k racks | state)
-        for k in range(1, _LONGEST + 1):
-            if not missing:
-                break
-            left = moves @ left
-            reached = {state for state in missing if left[row[state]] <= allowed}
-            found.update(dict.fromkeys(reached, k))
-            missing -= reached
-        return [found[state] for state in states]
-
-
-def _graph(match: Match, rack: Rack, start: Any) -> dict[Any, tuple[Any, Any]]:
-    """Return, for each state that goes on, the next one if player 1, player 2 wins the rack.
-
-    All of them, also where the chance of a rack is 0 or 1: people win racks that a model
-    gives them no chance of.
-    """
-    template = with_rack(match, Rack(0.5, 0.5) if rack.break_matters else Rack(0.5))
-    after: dict[Any, tuple[Any, Any]] = {}
-    queue = [start]
-    for state in queue:
-        if state in after or template.winner(state) is not None:
-            continue
-        # A state's moves are listed with the one that player 1 wins first.
-        won, lost = template.moves(state)
-        after[state] = won, lost
-        queue += [won, lost]
-    return after
+            if here in self.moves and here not in seen:
+                seen.add(here)
+                yield here
+                queue += [target for target, _ in self.moves[here]]
 
 
 def _state_at(match: Match, set_score: Score | None) -> Any:
@@ -282,10 +221,6 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     if match.decided(*match.score) is not None:
         raise InputError("set_score is given and the match is over; leave it out")
     return (*match.start[:-1], under_way.start)
-
-
-def _breaker(state: Any) -> int:
-    return _breaker(state[-1]) if isinstance(state[-1], tuple) else int(state[-1])
 
 
 def _scores_of(match: Match, state: Any) -> tuple[Score, ...]:

@@ -9,10 +9,10 @@ from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.matches.parameters import checked_match
-from evenbreak.matches.races import race_law
+from evenbreak.matches.races import race_odds
 
 
-class Odds(NamedTuple):
+class MatchOdds(NamedTuple):
     """What there is to know about one match before its next rack.
 
     Everything is conditional on the match's start score and first breaker.
@@ -50,7 +50,7 @@ class Odds(NamedTuple):
     p_shutout_2: float | None
 
 
-def match_odds(match: Match) -> Odds:
+def match_odds(match: Match) -> MatchOdds:
     """Return the odds of `match`: who wins, how long it takes, how close it gets.
 
     Parameters
@@ -76,10 +76,10 @@ def match_odds(match: Match) -> Odds:
     if not isinstance(rack.p1, float) or not isinstance(rack.p2, float | None):
         raise InputError("match holds arrays; use win_probability and match_length for those")
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
-        law = race_law(
+        law = race_odds(
             match.m, match.n, rack.p1, rack.p2, match.breaks, match.first_breaker, match.score
         )
-        return Odds(
+        return MatchOdds(
             p_win_1=law.p_win_1,
             p_win_2=law.p_win_2,
             p_never_ends=0.0,
@@ -93,14 +93,17 @@ def match_odds(match: Match) -> Odds:
         )
     # A plain race, the commonest question by far, is answered without loading what follows.
     from evenbreak.matches.outcomes import outcomes_of
-    from evenbreak.matches.rack_by_rack import length_quantiles
+    from evenbreak.matches.rack_by_rack import racks_within
+    from evenbreak.matches.rack_graph import rack_moves
     from evenbreak.matches.shutout import shutout_probability
 
     outcomes = outcomes_of(match)
     ends = outcomes.never == 0.0
     length = outcomes.length
-    p50, p90 = length_quantiles(match, length.chance, (0.5, 0.9))
-    return Odds(
+    start = match.start
+    moves = rack_moves(match)
+    p50, p90 = racks_within(moves, [(start, 0.5), (start, 0.9)], {start: outcomes.never})
+    return MatchOdds(
         p_win_1=outcomes.p_win(1),
         p_win_2=outcomes.p_win(2),
         p_never_ends=outcomes.never,

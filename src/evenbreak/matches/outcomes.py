@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
-from evenbreak.matches.elimination import NEVER, Elimination, ratio
+from evenbreak.matches.elimination import NEVER, ScoreChain, ratio
 from evenbreak.matches.parameters import first_breaker
 
 
@@ -136,7 +136,7 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
     start = (*match.fold(*score), breaker)
     units = unit_outcomes(match, lengths=lengths)
     arcs = _score_chain(match, start, units)
-    chain = Elimination(
+    chain = ScoreChain(
         {
             state: {target: outcome.chance for target, outcome in row.items()}
             | {NEVER: units[state[2]].never}
@@ -182,7 +182,7 @@ def _score_chain(match: Match, start: _State, units: dict[int, Outcomes]) -> _Ar
 
 
 def _with_length(
-    chain: Elimination, arcs: _Arcs, reach: dict[Hashable, Any], start: _State
+    chain: ScoreChain, arcs: _Arcs, reach: dict[Hashable, Any], start: _State
 ) -> Outcome:
     """Return the outcome whose chance from each state is `reach`, with its length.
 

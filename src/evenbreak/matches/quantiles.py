@@ -14,44 +14,37 @@ from evenbreak.checks import number_probability
 TIE = 1e-12
 
 
-def quantile_of(probability: Sequence[float], q: float, *, beyond: float = 0.0) -> int | None:
+def quantile_of(probability: Sequence[float], q: float) -> int:
     """Return the first position whose cumulative probability reaches `q`.
 
     Parameters
     ----------
     probability
-        P(position k), in order.
+        P(position k), in order; they sum to 1.
     q
         the level, 0 to 1.
-    beyond
-        the mass that lies after the last position.
-
-    Returns
-    -------
-    int or None
-        None if the level is not reached by the last position.
 
     Raises
     ------
     InputError
         if q is not a probability.
 
-    >>> quantile_of([0.5, 0.3, 0.2], 0.5), quantile_of([0.5, 0.3], 0.9, beyond=0.2)
-    (0, None)
+    >>> quantile_of([0.5, 0.3, 0.2], 0.5), quantile_of([0.5, 0.3, 0.2], 0.9)
+    (0, 2)
     """
     q = number_probability(q, "q")
+    found = 0
     if q <= 0.5:
         reached = 0.0
-        for k, chance in enumerate(probability):
+        for found, chance in enumerate(probability):
             reached += chance
             if chance > 0.0 and reached >= q * (1.0 - TIE):
-                return k
-        return None
+                break
+        return found
     # The upper levels are read off the tail, which is a small sum of small terms there.
-    allowed = (1.0 - q) * (1.0 + TIE)
-    tail, found = beyond, None
+    tail = 0.0
     for k in range(len(probability) - 1, -1, -1):
-        if tail > allowed:
+        if tail > (1.0 - q) * (1.0 + TIE):
             break
         if probability[k] > 0.0:
             found = k

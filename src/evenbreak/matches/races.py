@@ -17,7 +17,7 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.quantiles import quantile_of
 
 
-class RaceLaw(NamedTuple):
+class RaceOdds(NamedTuple):
     """Who wins a race and after how many racks, as one joint distribution.
 
     Parameters
@@ -72,13 +72,10 @@ class RaceLaw(NamedTuple):
 
     def quantile(self, q: float) -> int:
         """Return the smallest k with P(length <= k) >= q; a tie in the last ulps counts."""
-        at = quantile_of(self.probability, q)
-        if at is None:
-            raise InputError(f"q is {q!r}; give a number from 0 to 1")
-        return self.games[at]
+        return self.games[quantile_of(self.probability, q)]
 
 
-def race_law(
+def race_odds(
     m: int,
     n: int,
     p1: float,
@@ -86,7 +83,7 @@ def race_law(
     breaks: BreakFormat | None = None,
     first_breaker: int = 1,
     score: tuple[int, int] = (0, 0),
-) -> RaceLaw:
+) -> RaceOdds:
     """Return who wins the race m:n and after how many racks, from the start score on.
 
     Parameters
@@ -112,7 +109,7 @@ def race_law(
     -----
     Source: problems P5.5 and P5.6 (the race), P5.24 (break formats).
 
-    >>> law = race_law(3, 2, 2 / 3)
+    >>> law = race_odds(3, 2, 2 / 3)
     >>> round(law.p_win_1, 12), law.games
     (0.592592592593, [2, 3, 4])
     """
@@ -142,7 +139,7 @@ def race_law(
         win_2.append(sum(row[lost_at] for row in after) if lost_at >= 0 else 0.0)
         at = after
     shortest = min(need_1, need_2)
-    return RaceLaw(
+    return RaceOdds(
         games=list(range(shortest, need_1 + need_2)),
         win_1=win_1[shortest:],
         win_2=win_2[shortest:],
@@ -176,8 +173,8 @@ def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, flo
     ]
 
 
-def _already_won(need_1: int, need_2: int) -> RaceLaw:
+def _already_won(need_1: int, need_2: int) -> RaceOdds:
     if need_1 <= 0 and need_2 <= 0:
         raise InputError("score has both players where they have won; give a score before the end")
     won_1 = float(need_1 <= 0)
-    return RaceLaw([0], [won_1], [1.0 - won_1], 0.0, won_1, 1.0 - won_1)
+    return RaceOdds([0], [won_1], [1.0 - won_1], 0.0, won_1, 1.0 - won_1)

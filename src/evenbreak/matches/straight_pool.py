@@ -179,8 +179,8 @@ def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
         p_never_ends=0.0,
         mean_innings=mean,
         sd_innings=math.sqrt(float(((innings - mean) ** 2 * ends).sum())),
-        innings_p50=None if half is None else half + 1,
-        innings_p90=None if most is None else most + 1,
+        innings_p50=half + 1,
+        innings_p90=most + 1,
     )
 
 

@@ -10,7 +10,7 @@ from evenbreak.checks import one_of
 from evenbreak.plots.contours import contour_axes
 from evenbreak.plots.point_labels import mark_points
 from evenbreak.plots.style import new_axes
-from evenbreak.practice.shots import LOOK_AHEADS, Shot, one_ball_win
+from evenbreak.practice.shots import LOOK_AHEADS, ShotChoice, one_ball_win
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,7 +21,7 @@ _TITLES = {
 }
 
 
-def shots_figure(shots: Sequence[Shot], *, look_ahead: str = "infinite") -> Figure:
+def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -> Figure:
     """Draw P(player 1 wins the one-ball game) over (p1, p2), each shot a dot with its name.
 
     The thick line is the critical one: below it player 1, called you, is the favourite.
@@ -42,7 +42,7 @@ def shots_figure(shots: Sequence[Shot], *, look_ahead: str = "infinite") -> Figu
     -----
     Source: Fig. 5.3.
 
-    >>> figure = shots_figure([Shot("bank", 0.4, 0.8)])
+    >>> figure = shots_figure([ShotChoice("bank", 0.4, 0.8)])
     >>> figure.axes[0].get_title()
     'P(you win), the shots repeated'
     """

@@ -147,7 +147,7 @@ def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> flo
 
 
 @dataclass(frozen=True)
-class Shot:
+class ShotChoice:
     """A shot that player 1 may choose: what it makes, and what it leaves.
 
     Parameters
@@ -164,7 +164,7 @@ class Shot:
     InputError
         if p1 or p2 is not a probability.
 
-    >>> Shot("bank", 0.4, 0.8).region
+    >>> ShotChoice("bank", 0.4, 0.8).region
     'sell-out'
     """
 
@@ -195,7 +195,7 @@ class Shot:
 class RankedShot(NamedTuple):
     """A shot among the others that player 1 may choose."""
 
-    shot: Shot
+    shot: ShotChoice
     win: float
     """P(player 1 wins the game | he takes this shot)."""
     behind: float
@@ -206,7 +206,7 @@ class RankedShot(NamedTuple):
     there is no such p2, or no other shot."""
 
 
-def compare_shots(shots: Iterable[Shot], *, look_ahead: str = "infinite") -> tuple[RankedShot, ...]:
+def compare_shots(shots: Iterable[ShotChoice], *, look_ahead: str = "infinite") -> tuple[RankedShot, ...]:
     """Return the shots by the chance to win the game with each, the best first.
 
     Of equally good ones (to 1e-12) the first named comes first.
@@ -229,7 +229,7 @@ def compare_shots(shots: Iterable[Shot], *, look_ahead: str = "infinite") -> tup
     -----
     Source: P5.22, where the shot that makes less wins more.
 
-    >>> best, other = compare_shots([Shot("bank", 0.4, 0.8), Shot("safety", 0.3, 0.3)])
+    >>> best, other = compare_shots([ShotChoice("bank", 0.4, 0.8), ShotChoice("safety", 0.3, 0.3)])
     >>> best.shot.name, round(best.win, 4), round(other.behind, 4)
     ('safety', 0.5882, 0.1337)
     >>> round(best.turning_p2, 4), round(other.turning_p2, 4)
@@ -238,7 +238,7 @@ def compare_shots(shots: Iterable[Shot], *, look_ahead: str = "infinite") -> tup
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
     ranked = sorted(shots, key=lambda shot: -round(shot.win(look_ahead), 12))
     if not ranked:
-        raise InputError("shots is empty; give one Shot or more")
+        raise InputError("shots is empty; give one ShotChoice or more")
     wins = [shot.win(look_ahead) for shot in ranked]
     best = max(wins)
     rivals = [wins[1] if len(wins) > 1 else None] + [wins[0]] * (len(wins) - 1)

@@ -10,7 +10,7 @@ from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
 from evenbreak.handicaps.charts.uncertain import win_given_ratings
 from evenbreak.matches.evening import Length, evening
-from evenbreak.matches.races import race_law
+from evenbreak.matches.races import race_odds
 from places import DATA
 
 CLUB = "player,rating\nAnn,92\nBo,71\nCy,80\nDi,60\n"
@@ -166,7 +166,7 @@ def test_the_evening(run, roster):
     found = answer(run, *words, "--tables", "2")
     (end,) = found["evening"]
     laws = [
-        race_law(row["chart_race_a"], row["chart_race_b"], row["p_game_a"])
+        race_odds(row["chart_race_a"], row["chart_race_b"], row["p_game_a"])
         for row in found["pairs"]
     ]
     exact = evening([Length(law.games, law.probability) for law in laws], tables=2)

@@ -100,10 +100,10 @@ def command(
     P1 is your chance to make the shot, P2 the opponent's chance to make what your miss
     leaves. Each --or is another shot that you could take instead.
     """
-    from evenbreak.practice.shots import Shot, compare_shots
+    from evenbreak.practice.shots import ShotChoice, compare_shots
 
     shots = [
-        Shot(str(number), *chances) for number, chances in enumerate([(p1, p2), *others], start=1)
+        ShotChoice(str(number), *chances) for number, chances in enumerate([(p1, p2), *others], start=1)
     ]
     ahead = LOOK_AHEADS[look_ahead]
     ranked = compare_shots(shots, look_ahead=ahead)
@@ -165,8 +165,8 @@ def advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot]) -> str
     ranked, otherwise
         the shots as ranked by the look-ahead asked for, and by the other one.
 
-    >>> from evenbreak.practice import Shot, compare_shots
-    >>> shots = [Shot("1", 0.4, 0.8), Shot("2", 0.3, 0.3)]
+    >>> from evenbreak.practice import ShotChoice, compare_shots
+    >>> shots = [ShotChoice("1", 0.4, 0.8), ShotChoice("2", 0.3, 0.3)]
     >>> print(advice(compare_shots(shots), compare_shots(shots, look_ahead="two shots")))
     Take shot 2: it wins 0.1337 more than shot 1, and is the best while it leaves less than 0.5143.
     """
