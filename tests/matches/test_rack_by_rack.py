@@ -7,8 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks, winner_breaks
-from evenbreak.matches import match_length
-from evenbreak.matches import rack_by_rack
+from evenbreak.matches import match_length, rack_by_rack
 from evenbreak.matches.rack_by_rack import racks_within
 from evenbreak.matches.rack_graph import rack_moves
 

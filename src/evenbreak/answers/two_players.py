@@ -41,7 +41,7 @@ class TwoPlayers:
     The breaker wins a game with chance 0.6 (A) or 0.5 (B); winner breaks, B breaks first
     """
 
-    rack: Rack
+    rack: Rack[float]
     breaks: str | None = None
     first_breaker: int = 1
     ratings: tuple[float, float] | None = None

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from evenbreak.games.match import Match, Score
+from evenbreak.games.rack import ChanceT
 
 
 @dataclass(frozen=True)
-class Ahead(Match):
+class Ahead(Match[ChanceT]):
     """First to lead by the games needed: m for player 1, n for player 2 (P5.27, Fig. 5.10).
 
     Only the lead matters, so a state's score is the lead: (2, 0) is player 1 ahead by

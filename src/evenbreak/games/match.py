@@ -9,18 +9,18 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, TypeAlias
+from typing import Any, Generic, TypeAlias
 
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, checked_format
-from evenbreak.games.rack import Rack
+from evenbreak.games.rack import ChanceT, Rack
 
 Score: TypeAlias = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Match(ABC):
+class Match(ABC, Generic[ChanceT]):
     """Base of `Race` and `Ahead`: a score a:b that grows by racks until it is decided.
 
     Parameters
@@ -50,7 +50,7 @@ class Match(ABC):
 
     m: int
     n: int
-    rack: Rack | Match
+    rack: Rack[ChanceT] | Match[ChanceT]
     _: KW_ONLY
     breaks: BreakFormat | None = None
     first_breaker: int = 1
@@ -115,7 +115,7 @@ class Match(ABC):
         return self.rack.break_matters
 
     @property
-    def innermost_rack(self) -> Rack:
+    def innermost_rack(self) -> Rack[ChanceT]:
         """The rack of the racks, where sets are made of sets."""
         return self.rack if isinstance(self.rack, Rack) else self.rack.innermost_rack
 

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 from evenbreak.checks import whole
 from evenbreak.games.match import Match, Score
-from evenbreak.games.rack import Rack
+from evenbreak.games.rack import ChanceT, Rack
 
 if TYPE_CHECKING:
     from evenbreak.game import ArcArrays
 
 
 @dataclass(frozen=True)
-class Race(Match):
+class Race(Match[ChanceT]):
     """First to the games needed: m for player 1, n for player 2 (P5.5, P5.6).
 
     Parameters

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
 from evenbreak.checks import one_of, probability
 from evenbreak.errors import InputError
 
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+    from typing_extensions import TypeVar
+
+    ChanceT = TypeVar("ChanceT", covariant=True, default=Any)
+else:
+    from typing import TypeVar
+
+    ChanceT = TypeVar("ChanceT", covariant=True)
+
 
 @dataclass(frozen=True)
-class Rack:
+class Rack(Generic[ChanceT]):
     """One rack of 9-ball, 8-ball or any other game, of which one player wins.
 
     Parameters
@@ -40,8 +51,8 @@ class Rack:
     0.5
     """
 
-    p1: Any
-    p2: Any = None
+    p1: ChanceT
+    p2: ChanceT | float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "p1", probability(self.p1, "p1"))
@@ -55,7 +66,11 @@ class Rack:
         """Whether the chances depend on who breaks."""
         return self.p2 is not None
 
-    def chance(self, player: int, breaker: int = 1) -> Any:
+    @overload
+    def chance(self: Rack[float], player: int, breaker: int = 1) -> float: ...
+    @overload
+    def chance(self: Rack[Any], player: int, breaker: int = 1) -> NDArray[np.float64]: ...
+    def chance(self: Rack[Any], player: int, breaker: int = 1) -> Any:
         """Return P(`player` wins the rack | `breaker` breaks it)."""
         one_of(player, "player", (1, 2))
         one_of(breaker, "breaker", (1, 2))
@@ -64,7 +79,7 @@ class Rack:
         own = self.p1 if breaker == 1 else self.p2
         return own if player == breaker else 1.0 - own
 
-    def of_numbers(self) -> Rack:
+    def of_numbers(self) -> Rack[float]:
         """Return the rack itself if it holds numbers: a graph has no room for arrays.
 
         Raises
@@ -80,7 +95,7 @@ class Rack:
         for name, value in (("p1", self.p1), ("p2", self.p2)):
             if value is not None and not isinstance(value, float):
                 raise InputError(f"{name} is an array; a graph takes one number, loop over them")
-        return self
+        return cast("Rack[float]", self)
 
 
 def _check_shapes(p1: Any, p2: Any) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,14 +11,26 @@ from numpy.typing import NDArray
 from evenbreak.checks import number_probability
 from evenbreak.errors import AccuracyError
 from evenbreak.games.match import Match, Score
+from evenbreak.games.rack import ChanceT
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.parameters import at_score, broadcast, plain
 from evenbreak.matches.quantiles import TIE
 
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
+    MeanT = TypeVar("MeanT", covariant=True, default=Any)
+else:
+    from typing import TypeVar
+
+    MeanT = TypeVar("MeanT", covariant=True)
+
+Floats: TypeAlias = NDArray[np.float64]
+
 
 @dataclass(frozen=True, eq=False)
-class MatchLength:
+class MatchLength(Generic[ChanceT, MeanT]):
     """The distribution of the length of a match in racks, from its start score on.
 
     Parameters
@@ -40,11 +52,11 @@ class MatchLength:
     """
 
     games: NDArray[np.int64]
-    probability: NDArray[np.float64]
-    mean: Any
-    sd: Any
-    p_never_ends: Any
-    tail_mass: Any
+    probability: Floats
+    mean: MeanT
+    sd: MeanT
+    p_never_ends: ChanceT
+    tail_mass: ChanceT
     bounded: bool
 
     @property
@@ -52,7 +64,11 @@ class MatchLength:
         """The longest length in `games`."""
         return int(self.games[-1])
 
-    def quantile(self, q: float) -> Any:
+    @overload
+    def quantile(self: MatchLength[float, Any], q: float) -> int | None: ...
+    @overload
+    def quantile(self: MatchLength[Any, Any], q: float) -> Floats: ...
+    def quantile(self: MatchLength[Any, Any], q: float) -> Any:
         """Return the smallest k with P(length <= k) >= q; a tie in the last ulps counts.
 
         Parameters
@@ -98,7 +114,17 @@ class MatchLength:
         return at if found.all() else np.where(found, at, np.nan)
 
 
-def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-12) -> MatchLength:
+@overload
+def match_length(
+    match: Match[float], score: Score | None = None, *, tail: float = 1e-12
+) -> MatchLength[float, float | None]: ...
+@overload
+def match_length(
+    match: Match[Any], score: Score | None = None, *, tail: float = 1e-12
+) -> MatchLength[Floats, Floats]: ...
+def match_length(
+    match: Match, score: Score | None = None, *, tail: float = 1e-12
+) -> MatchLength[Any, Any]:
     """Return the distribution of the racks that `match` still takes.
 
     Parameters

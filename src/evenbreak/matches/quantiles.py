@@ -8,6 +8,7 @@ counts as reached.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate
 
 from evenbreak.checks import number_probability
 
@@ -33,20 +34,15 @@ def quantile_of(probability: Sequence[float], q: float) -> int:
     (0, 2)
     """
     q = number_probability(q, "q")
-    found = 0
+    possible = [k for k, chance in enumerate(probability) if chance > 0.0]
     if q <= 0.5:
-        reached = 0.0
-        for found, chance in enumerate(probability):
-            reached += chance
-            if chance > 0.0 and reached >= q * (1.0 - TIE):
-                break
-        return found
+        totals = accumulate(probability[k] for k in possible)
+        reached = (k for k, total in zip(possible, totals, strict=True) if total >= q * (1.0 - TIE))
+        return next(reached)
     # The upper levels are read off the tail, which is a small sum of small terms there.
     tail = 0.0
-    for k in range(len(probability) - 1, -1, -1):
-        if tail > (1.0 - q) * (1.0 + TIE):
-            break
-        if probability[k] > 0.0:
-            found = k
+    for k in reversed(possible):
         tail += probability[k]
-    return found
+        if tail > (1.0 - q) * (1.0 + TIE):
+            return k
+    return possible[0]

@@ -30,9 +30,7 @@ def rack_moves(match: Match, start: Any = None) -> RackMoves:
     """
     rack = match.innermost_rack
     template = with_rack(match, Rack(0.5, 0.5) if rack.break_matters else Rack(0.5))
-    chances = {
-        breaker: (rack.chance(1, breaker), rack.chance(2, breaker)) for breaker in (1, 2)
-    }
+    chances = {breaker: (rack.chance(1, breaker), rack.chance(2, breaker)) for breaker in (1, 2)}
     moves: RackMoves = {}
     queue = [template.start if start is None else start]
     for state in queue:

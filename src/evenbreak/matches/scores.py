@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.checks import number_probability
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
-from evenbreak.games.rack import Rack
+from evenbreak.games.rack import ChanceT, Rack
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of, unit_outcomes
 from evenbreak.matches.parameters import at_score, broadcast, first_breaker, plain
@@ -20,7 +21,7 @@ _MOST_SETS = 10_000
 
 
 @dataclass(frozen=True, eq=False)
-class FinalScores:
+class FinalScores(Generic[ChanceT]):
     """The distribution of the final score of a match.
 
     Parameters
@@ -37,13 +38,23 @@ class FinalScores:
         the racks (or sets) up to which final scores are listed, from the start score on.
     """
 
-    probability: dict[Score, Any]
-    p_never_ends: Any
-    tail_mass: Any
+    probability: dict[Score, ChanceT]
+    p_never_ends: ChanceT
+    tail_mass: ChanceT
     span: int
 
 
-def final_scores(match: Match, score: Score | None = None, *, tail: float = 1e-12) -> FinalScores:
+@overload
+def final_scores(
+    match: Match[float], score: Score | None = None, *, tail: float = 1e-12
+) -> FinalScores[float]: ...
+@overload
+def final_scores(
+    match: Match[Any], score: Score | None = None, *, tail: float = 1e-12
+) -> FinalScores[NDArray[np.float64]]: ...
+def final_scores(
+    match: Match, score: Score | None = None, *, tail: float = 1e-12
+) -> FinalScores[Any]:
     """Return the distribution of the final score of `match`.
 
     Parameters
@@ -93,6 +104,12 @@ def final_scores(match: Match, score: Score | None = None, *, tail: float = 1e-1
     )
 
 
+@overload
+def hill_hill_probability(match: Match[float], score: Score | None = None) -> float | None: ...
+@overload
+def hill_hill_probability(
+    match: Match[Any], score: Score | None = None
+) -> NDArray[np.float64] | None: ...
 def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     """Return P(the last possible rack decides): the race m:n comes to m - 1 : n - 1.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
 from evenbreak.checks import one_of
 from evenbreak.games.match import Match, Score
@@ -10,7 +10,19 @@ from evenbreak.games.race import Race
 from evenbreak.matches.outcomes import unit_outcomes
 from evenbreak.matches.parameters import at_score, broadcast, first_breaker, plain
 
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
+
+@overload
+def shutout_probability(
+    match: Match[float], score: Score | None = None, *, player: int = 1
+) -> float | None: ...
+@overload
+def shutout_probability(
+    match: Match[Any], score: Score | None = None, *, player: int = 1
+) -> NDArray[np.float64] | None: ...
 def shutout_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins and the other scores nothing from the start score on).
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import betainc
 
 from evenbreak.checks import one_of, probability
@@ -18,6 +18,14 @@ from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.parameters import at_score, broadcast, plain
 
 
+@overload
+def win_probability(
+    match: Match[float], score: Score | None = None, *, player: int = 1
+) -> float: ...
+@overload
+def win_probability(
+    match: Match[Any], score: Score | None = None, *, player: int = 1
+) -> NDArray[np.float64]: ...
 def win_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins the match).
 
@@ -78,6 +86,10 @@ def _win(match: Match, player: int) -> Any:
     return outcomes_of(match, lengths=False).p_win(player)
 
 
+@overload
+def race_win_probability(p: float, m: int, n: int) -> float: ...
+@overload
+def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> NDArray[np.float64]: ...
 def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     """Return W(p; m, n): P(player 1 wins m games before player 2 wins n), elementwise.
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.contour import QuadContourSet
     from numpy.typing import NDArray
 
-Surface: TypeAlias = "Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]"
+Surface: TypeAlias = Callable[[Any, Any], Any]
 
 TENTHS = tuple(tenth / 10 for tenth in range(1, 10))
 """The levels 0.1, 0.2, ..., 0.9 of a probability."""

@@ -36,7 +36,7 @@ class Breakers(NamedTuple):
         checked_format(breaks)
         if p2 is None:
             raise InputError("p2 is missing; give P(player 2 wins a rack that player 2 breaks)")
-        one, two = np.broadcast_arrays(rack.p1, rack.p2)
+        one, two = np.broadcast_arrays(rack.chance(1, 1), rack.chance(2, 2))
         lose_1, win_2 = 1.0 - one, 1.0 - two
         return cls(
             one,

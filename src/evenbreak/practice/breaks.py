@@ -14,9 +14,10 @@ breaks a = b = 1 (P5.24). Sums and products of positive numbers only: no digits 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
@@ -26,6 +27,14 @@ from evenbreak.matches.parameters import plain
 from evenbreak.practice.breakers import Breakers
 
 
+@overload
+def long_run_share(
+    p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int = 1
+) -> float: ...
+@overload
+def long_run_share(
+    p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
+) -> NDArray[np.float64]: ...
 def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
     """Return the fraction of racks that player 1 wins in the long run; elementwise.
 
@@ -68,6 +77,12 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     return plain(racks.won(first_breaker), racks.shape)
 
 
+@overload
+def long_run_sd(p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int = 1) -> float: ...
+@overload
+def long_run_sd(
+    p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
+) -> NDArray[np.float64]: ...
 def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
     """Return the standard deviation of the racks that player 1 wins, per root of racks.
 
@@ -114,6 +129,10 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
     return plain(np.sqrt(variance), racks.shape)
 
 
+@overload
+def first_break_worth(p1: float, p2: float, breaks: BreakFormat) -> float: ...
+@overload
+def first_break_worth(p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat) -> NDArray[np.float64]: ...
 def first_break_worth(p1: Any, p2: Any, breaks: BreakFormat) -> Any:
     """Return how many racks more player 1 wins in all if he, not player 2, breaks first.
 

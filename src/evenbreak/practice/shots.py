@@ -14,9 +14,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.checks import number_probability, one_of, probability
 from evenbreak.errors import InputError
@@ -27,6 +28,12 @@ LOOK_AHEADS = ("infinite", "two shots")
 """What is supposed of the shots after the first two: the same for ever, or an even game."""
 
 
+@overload
+def one_ball_win(p1: float, p2: float, *, look_ahead: str = "infinite") -> float: ...
+@overload
+def one_ball_win(
+    p1: ArrayLike, p2: ArrayLike, *, look_ahead: str = "infinite"
+) -> NDArray[np.float64]: ...
 def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     """Return P(player 1 wins the one-ball game), given that he shoots first; elementwise.
 
@@ -88,6 +95,10 @@ def look_ahead_win(game: OneBallLookAhead) -> float:
     return win
 
 
+@overload
+def critical_p2(p1: float) -> float: ...
+@overload
+def critical_p2(p1: ArrayLike) -> NDArray[np.float64]: ...
 def critical_p2(p1: Any) -> Any:
     """Return the p2 above which player 2 is the favourite, p1 / (1 - p1); elementwise.
 
@@ -206,7 +217,9 @@ class RankedShot(NamedTuple):
     there is no such p2, or no other shot."""
 
 
-def compare_shots(shots: Iterable[ShotChoice], *, look_ahead: str = "infinite") -> tuple[RankedShot, ...]:
+def compare_shots(
+    shots: Iterable[ShotChoice], *, look_ahead: str = "infinite"
+) -> tuple[RankedShot, ...]:
     """Return the shots by the chance to win the game with each, the best first.
 
     Of equally good ones (to 1e-12) the first named comes first.

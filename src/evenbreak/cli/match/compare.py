@@ -141,15 +141,14 @@ def _read(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
 
 def _line(players: TwoPlayers, hold: str | None) -> dict[str, Any]:
     """Return along which players the formats are compared, as options of `crossings`."""
-    rack = players.rack
-    if not rack.break_matters:
+    p1, p2 = players.rack.p1, players.rack.p2
+    if p2 is None:
         if hold is not None:
             refuse("--hold says what stays of --p1 and --p2, which are not given; leave it out")
         return {}
     line: dict[str, Any] = {"breaks": players.break_format, "first_breaker": players.first_breaker}
     if hold != "break":
-        return line | {"p2": rack.p2}
-    if not (0.0 < rack.p1 < 1.0 and 0.0 < rack.p2 < 1.0):
+        return line | {"p2": p2}
+    if not (0.0 < p1 < 1.0 and 0.0 < p2 < 1.0):
         refuse("--hold break needs --p1 and --p2 between 0 and 1; take --hold p2")
-    odds: float = rack.p1 / (1.0 - rack.p1) * rack.p2 / (1.0 - rack.p2)
-    return line | {"break_odds": odds}
+    return line | {"break_odds": p1 / (1.0 - p1) * p2 / (1.0 - p2)}

@@ -103,7 +103,8 @@ def command(
     from evenbreak.practice.shots import ShotChoice, compare_shots
 
     shots = [
-        ShotChoice(str(number), *chances) for number, chances in enumerate([(p1, p2), *others], start=1)
+        ShotChoice(str(number), *chances)
+        for number, chances in enumerate([(p1, p2), *others], start=1)
     ]
     ahead = LOOK_AHEADS[look_ahead]
     ranked = compare_shots(shots, look_ahead=ahead)
