@@ -231,13 +231,13 @@ def test_race_win_probability_is_the_beta_function_of_the_text() -> None:
     ("p", "m", "n", "message"),
     [
         (1.5, 3, 2, "p is 1.5, not a probability"),
-        ([0.5, float("nan")], 3, 2, "not a probability"),
+        ([0.5, float("nan")], 3, 2, "p holds nan"),
         (0.5, -1, 2, "m is -1; give whole numbers"),
         (0.5, 3, [2, 2.5], "give whole numbers"),
         (0.5, "3", 2, "m is '3'; give whole numbers"),
         (0.5, 3, float("inf"), "n is inf; give whole numbers"),
         (0.5, [1, 0], 0, "both 0 somewhere"),
-        ([0.5, 0.6], [1, 2, 3], 4, r"shapes \(2,\) and \(3,\) and \(\); give shapes"),
+        ([0.5, 0.6], [1, 2, 3], 4, r"p has shape \(2,\), m has shape \(3,\)"),
     ],
 )
 def test_wrong_needs_are_refused(p: Any, m: Any, n: Any, message: str) -> None:

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import shape_of
 
 # Parameters are taken in blocks whose masses stay in the processor's cache.
 _BLOCK = 1 << 16
@@ -51,7 +50,7 @@ def race_endings(
     >>> endings.win_1.tolist(), endings.win_2.tolist()
     ([0.0, 0.0, 0.25], [0.0, 0.5, 0.25])
     """
-    shape = shape_of(rack)
+    shape = rack.shape
     kinds, chances = _kinds(rack, breaks if rack.break_matters else None, shape)
     first = first_breaker - 1 if rack.break_matters else 0
     ends = np.zeros((2, need_1 + need_2, chances.shape[2]))

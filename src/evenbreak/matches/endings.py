@@ -18,7 +18,6 @@ from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import Endings, race_endings
-from evenbreak.matches.parameters import shape_of
 from evenbreak.matches.rack_graph import rack_moves
 
 _LONGEST = 100_000
@@ -50,7 +49,7 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
     """
     winner = match.decided(*match.score)
     rack = match.innermost_rack
-    shape = shape_of(rack)
+    shape = rack.shape
     if winner is not None:
         return Endings(*(np.full((1, *shape), float(winner == player)) for player in (1, 2)))
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:

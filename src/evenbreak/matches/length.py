@@ -14,7 +14,7 @@ from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import ChanceT
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, broadcast, plain
+from evenbreak.matches.parameters import at_score, broadcast, in_shape
 from evenbreak.matches.quantiles import TIE
 
 if TYPE_CHECKING:
@@ -180,8 +180,8 @@ def match_length(
         probability=chances[..., first:],
         mean=_unless_endless(mean, never, shape),
         sd=_unless_endless(sd, never, shape),
-        p_never_ends=plain(never, shape),
-        tail_mass=plain(left, shape),
+        p_never_ends=in_shape(never, shape),
+        tail_mass=in_shape(left, shape),
         bounded=bounded,
     )
 
@@ -189,4 +189,4 @@ def match_length(
 def _unless_endless(value: Any, never: Any, shape: tuple[int, ...]) -> Any:
     if not shape:
         return None if never > 0.0 else float(value)
-    return plain(np.where(np.asarray(never) > 0.0, np.nan, value), shape)
+    return in_shape(np.where(np.asarray(never) > 0.0, np.nan, value), shape)

@@ -42,7 +42,7 @@ def with_rack(match: AnyMatch, rack: Rack) -> AnyMatch:
 def broadcast(match: AnyMatch) -> tuple[AnyMatch, tuple[int, ...]]:
     """Return the match with p1 and p2 of one shape, and the shape; () for numbers."""
     rack = match.innermost_rack
-    shape = shape_of(rack)
+    shape = rack.shape
     if not shape or rack.p2 is None:
         return match, shape
     import numpy as np
@@ -51,22 +51,13 @@ def broadcast(match: AnyMatch) -> tuple[AnyMatch, tuple[int, ...]]:
     return with_rack(match, Rack(p1, p2)), shape
 
 
-def shape_of(rack: Rack) -> tuple[int, ...]:
-    """Return the shape that p1 and p2 have together; () for numbers."""
-    if isinstance(rack.p1, float) and isinstance(rack.p2, float | None):
-        return ()
-    import numpy as np
-
-    return np.broadcast_shapes(np.shape(rack.p1), () if rack.p2 is None else np.shape(rack.p2))
-
-
 def at_score(match: AnyMatch, score: Score | None) -> AnyMatch:
     """Return the match from `score` on; its first breaker breaks the next rack."""
     match = checked_match(match)
     return match if score is None else replace(match, score=score)
 
 
-def plain(value: Any, shape: tuple[int, ...]) -> Any:
+def in_shape(value: Any, shape: tuple[int, ...]) -> Any:
     """Return a float where the parameters were numbers, else an array of their shape."""
     if not shape:
         return float(value)

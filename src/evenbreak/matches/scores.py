@@ -15,7 +15,7 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import ChanceT, Rack
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of, unit_outcomes
-from evenbreak.matches.parameters import at_score, broadcast, first_breaker, plain
+from evenbreak.matches.parameters import at_score, broadcast, first_breaker, in_shape
 
 _MOST_SETS = 10_000
 
@@ -97,9 +97,9 @@ def final_scores(
         ends, span = _by_sets(match, never, None if bounded else tail)
     left = 0.0 if bounded else np.maximum(1.0 - never - sum(ends.values(), 0.0), 0.0)
     return FinalScores(
-        probability={at: plain(chance, shape) for at, chance in ends.items()},
-        p_never_ends=plain(never, shape),
-        tail_mass=plain(left, shape),
+        probability={at: in_shape(chance, shape) for at, chance in ends.items()},
+        p_never_ends=in_shape(never, shape),
+        tail_mass=in_shape(left, shape),
         span=span,
     )
 
@@ -125,10 +125,12 @@ def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
         return None
     match, shape = broadcast(at_score(match, score))
     if match.decided(*match.score) is not None:
-        return plain(0.0, shape)
+        return in_shape(0.0, shape)
     ends = final_scores(match).probability
     decider = match.m + match.n - 1
-    return plain(sum((chance for (a, b), chance in ends.items() if a + b == decider), 0.0), shape)
+    return in_shape(
+        sum((chance for (a, b), chance in ends.items() if a + b == decider), 0.0), shape
+    )
 
 
 def _final(match: Match, player: int, k: int) -> Score:

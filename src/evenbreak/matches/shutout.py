@@ -8,7 +8,7 @@ from evenbreak.checks import one_of
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.matches.outcomes import unit_outcomes
-from evenbreak.matches.parameters import at_score, broadcast, first_breaker, plain
+from evenbreak.matches.parameters import at_score, broadcast, first_breaker, in_shape
 
 if TYPE_CHECKING:
     import numpy as np
@@ -69,4 +69,4 @@ def shutout_probability(match: Match, score: Score | None = None, *, player: int
                 if winner == player:
                     after[then] = after.get(then, 0.0) + held * outcome.chance
         run = after
-    return plain(sum(run.values(), 0.0) if match.decided(a, b) == player else 0.0, shape)
+    return in_shape(sum(run.values(), 0.0) if match.decided(a, b) == player else 0.0, shape)

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import betainc
 
-from evenbreak.checks import one_of, probability
+from evenbreak.checks import one_of, plain, probability, together, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, broadcast, plain
+from evenbreak.matches.parameters import at_score, broadcast, in_shape
 
 
 @overload
@@ -65,7 +65,7 @@ def win_probability(match: Match, score: Score | None = None, *, player: int = 1
     """
     one_of(player, "player", (1, 2))
     match, shape = broadcast(at_score(match, score))
-    return plain(_win(match, player), shape)
+    return in_shape(_win(match, player), shape)
 
 
 def _win(match: Match, player: int) -> Any:
@@ -120,15 +120,10 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     >>> race_win_probability(0.5, [1, 2, 3], 2)
     array([0.75  , 0.5   , 0.3125])
     """
-    needs_1, needs_2 = _needs(m, "m"), _needs(n, "n")
+    needs_1, needs_2 = whole_numbers(m, "m", at_least=0), whole_numbers(n, "n", at_least=0)
     chances = probability(p, "p")
-    try:
-        chance = betainc(needs_1, needs_2, chances)
-    except ValueError:
-        shapes = " and ".join(str(np.shape(part)) for part in (chances, needs_1, needs_2))
-        raise InputError(
-            f"p, m and n have shapes {shapes}; give shapes that broadcast together"
-        ) from None
+    together(p=chances, m=needs_1, n=needs_2)
+    chance = betainc(needs_1, needs_2, chances)
     if not (needs_1.all() and needs_2.all()):
         won_1, won_2 = needs_1 == 0, needs_2 == 0
         if (won_1 & won_2).any():
@@ -136,17 +131,4 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
                 "m and n are both 0 somewhere; one player has won, the other still needs 1 or more"
             )
         chance = np.where(won_1, 1.0, np.where(won_2, 0.0, chance))
-    return plain(chance, np.shape(chance))
-
-
-def _needs(games: ArrayLike, name: str) -> Any:
-    needed = np.asarray(games)
-    if needed.dtype.kind not in "iuf" or not needed.size:
-        right = not needed.size
-    else:
-        right = bool(needed.min() >= 0) and bool(
-            needed.dtype.kind != "f" or (np.isfinite(needed) & (needed == np.floor(needed))).all()
-        )
-    if not right:
-        raise InputError(f"{name} is {games!r}; give whole numbers, 0 or more")
-    return needed
+    return plain(np.asarray(chance))

@@ -19,11 +19,10 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.checks import one_of
+from evenbreak.checks import number, one_of, plain
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import plain
 from evenbreak.practice.breakers import Breakers
 
 
@@ -74,7 +73,7 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     """
     one_of(first_breaker, "first_breaker", (1, 2))
     racks = Breakers.of(p1, p2, breaks)
-    return plain(racks.won(first_breaker), racks.shape)
+    return plain(racks.won(first_breaker))
 
 
 @overload
@@ -126,7 +125,7 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
             strict=True,
         )
     )
-    return plain(np.sqrt(variance), racks.shape)
+    return plain(np.sqrt(variance))
 
 
 @overload
@@ -159,7 +158,7 @@ def first_break_worth(p1: Any, p2: Any, breaks: BreakFormat) -> Any:
     1.0
     """
     racks = Breakers.of(p1, p2, breaks)
-    return plain(racks.first_break, racks.shape)
+    return plain(racks.first_break)
 
 
 class BreakFormatValue(NamedTuple):
@@ -223,7 +222,9 @@ def compare_break_formats(
         raise InputError(f"rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)")
     rack.of_numbers()
     one_of(first_breaker, "first_breaker", (1, 2))
-    prize, price = _stake(win, "win"), _stake(lose, "lose")
+    wanted = "the points of a rack, 0 or more"
+    prize = number(win, "win", low=0.0, wanted=wanted)
+    price = number(lose, "lose", low=0.0, wanted=wanted)
     values = [
         _value(name, rack, prize, price, {"player 1": 1, "player 2": 2}.get(name, first_breaker))
         for name in BREAK_FORMATS
@@ -245,13 +246,3 @@ def _value(name: str, rack: Rack, win: float, lose: float, first: int) -> BreakF
         memory=float(1.0 - (racks.pass_1 + racks.pass_2)),
         first_break=float(racks.first_break),
     )
-
-
-def _stake(points: Any, name: str) -> float:
-    try:
-        number = float(points)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not 0.0 <= number < math.inf:
-        raise InputError(f"{name} is {points!r}; give the points of a rack, 0 or more")
-    return number

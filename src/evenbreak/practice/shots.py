@@ -19,10 +19,9 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.checks import number_probability, one_of, probability
+from evenbreak.checks import number_probability, one_of, plain, probability, together
 from evenbreak.errors import InputError
 from evenbreak.games.one_ball import OneBallLookAhead
-from evenbreak.matches.parameters import plain
 
 LOOK_AHEADS = ("infinite", "two shots")
 """What is supposed of the shots after the first two: the same for ever, or an even game."""
@@ -72,10 +71,10 @@ def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
     make, leave = _pair(p1, p2)
     if look_ahead == "two shots":
-        return plain(make + (1.0 - make) * (1.0 - leave) / 2.0, np.shape(make))
+        return plain(make + (1.0 - make) * (1.0 - leave) / 2.0)
     someone = make + (1.0 - make) * leave  # 1 - q1 q2 without its subtraction
     win = np.divide(make, someone, out=np.zeros_like(someone), where=someone > 0.0)
-    return plain(win, np.shape(win))
+    return plain(win)
 
 
 def look_ahead_win(game: OneBallLookAhead) -> float:
@@ -120,7 +119,7 @@ def critical_p2(p1: Any) -> Any:
     make = np.asarray(probability(p1, "p1"), dtype=float)
     miss = 1.0 - make
     critical = np.divide(make, miss, out=np.full_like(miss, math.inf), where=miss > 0.0)
-    return plain(critical, np.shape(critical))
+    return plain(critical)
 
 
 def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> float | None:
@@ -268,11 +267,6 @@ def compare_shots(
 
 def _pair(p1: Any, p2: Any) -> tuple[Any, Any]:
     make, leave = probability(p1, "p1"), probability(p2, "p2")
-    try:
-        first, second = np.broadcast_arrays(make, leave)
-    except ValueError:
-        raise InputError(
-            f"p1 and p2 have shapes {np.shape(make)} and {np.shape(leave)}; "
-            "give shapes that broadcast together"
-        ) from None
+    together(p1=make, p2=leave)
+    first, second = np.broadcast_arrays(make, leave)
     return first, second
