@@ -16,12 +16,10 @@ COMMANDS = {
     "rate": Entry(
         "league.rate", "Rate players from their results, and say how sure each rating is."
     ),
-    "odds": Entry("match.odds", "Answer what the chances of a match are, and how long it lasts."),
-    "live": Entry("match.live", "Tell the odds of a match under way, rack by rack."),
-    "compare": Entry(
-        "match.compare", "Compare match formats: who gains by which, and where they cross."
-    ),
-    "fair": Entry("match.fair", "Find the race that is nearest to an even chance."),
+    "odds": Entry("match.odds", "Give the odds of a match, and how long it lasts."),
+    "live": Entry("match.live", "Follow a match under way: the odds after every game."),
+    "compare": Entry("match.compare", "Compare match formats: which is better for whom."),
+    "fair": Entry("match.fair", "Find the fairest races for two players."),
     "matchups": Entry("league.matchups", "Tell tonight's races for a list of rated players."),
     "chart": Entry("chart", "List and show handicap charts, audit one, or design one."),
     "ladder": Entry("ladder.ladder", "Tell how wrong a league's ratings are, how fair its nights."),
@@ -30,14 +28,10 @@ COMMANDS = {
         "league.simulate", "Simulate a league's season: ratings, nights, who profits."
     ),
     "validate": Entry("league.validate", "Tell how far the ratings of a league can be trusted."),
-    "oneball": Entry("match.oneball", "Answer who wins the one-ball game, and which shot is best."),
-    "breaks": Entry(
-        "match.breaks", "Weigh break formats and stakes for two players, in the long run."
-    ),
+    "oneball": Entry("match.oneball", "Choose the best shot in the one-ball game."),
+    "breaks": Entry("match.breaks", "Compare break formats and stakes over a long session."),
     "runs": Entry("practice.runs", "Answer how long runs are, and what several innings bring."),
-    "straight": Entry(
-        "match.straight", "Answer who wins at straight pool, and what handicap is even."
-    ),
+    "straight": Entry("match.straight", "Give the odds of a straight pool match, and a fair spot."),
     "drill": Entry(
         "practice.drill", "Find where a progressive drill settles, and what to practise."
     ),
@@ -48,7 +42,7 @@ COMMANDS = {
     "reproduce": Entry(
         "reproduce", "Write all numbers and figures of the source text, computed anew."
     ),
-    "chain": Entry("match.chain", "Find the stochastic limit of any chain, from a file of arcs."),
+    "chain": Entry("match.chain", "Find where any Markov chain ends, from a file of arcs."),
 }
 """Each command, with its module and its line of help."""
 

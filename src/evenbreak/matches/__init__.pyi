@@ -21,10 +21,12 @@ from .scores import FinalScores as FinalScores
 from .scores import final_scores as final_scores
 from .scores import hill_hill_probability as hill_hill_probability
 from .shutout import shutout_probability as shutout_probability
-from .straight_pool import EvenPoints as EvenPoints
 from .straight_pool import StraightPool as StraightPool
 from .straight_pool import StraightPoolOdds as StraightPoolOdds
-from .straight_pool import even_points as even_points
 from .straight_pool import straight_pool_odds as straight_pool_odds
+from .straight_pool_spot import EvenPoints as EvenPoints
+from .straight_pool_spot import Spot as Spot
+from .straight_pool_spot import even_points as even_points
+from .straight_pool_spot import even_spot as even_spot
 from .win import race_win_probability as race_win_probability
 from .win import win_probability as win_probability

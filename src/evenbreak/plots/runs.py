@@ -80,36 +80,36 @@ def plot_score(
     return figure
 
 
-def plot_spot(match: StraightPool, *, weaker: int, even: int | None, title: str = "") -> Figure:
+def plot_spot(match: StraightPool) -> Figure:
     """Return a figure of A's chance in straight pool against the points that the weaker needs.
+
+    The match as it is, is a dot on the curve; the points that are nearest to even are a dashed
+    line, where any number of points makes it even (see `even_spot`).
 
     Parameters
     ----------
     match
-        the match as it is, a dot on the curve; player 1 is A.
-    weaker
-        the player whose points vary, 1 or 2.
-    even
-        the points of that player that are nearest to even, a dashed line; None draws none.
-    title
-        who plays.
+        the match; player 1 is A.
 
     >>> from evenbreak.matches import StraightPool
-    >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8), weaker=2, even=21)
+    >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8))
     >>> figure.axes[0].get_xlabel()
     'points that B needs'
     """
     import numpy as np
 
     from evenbreak.matches.straight_pool import straight_pool_odds
+    from evenbreak.matches.straight_pool_spot import even_spot
 
+    weaker, even, _ = even_spot(match)
     name = f"points_{weaker}"
     now = getattr(match, name)
     most = max(now, min(2 * (even or now), match.points_1 + match.points_2 - now))
     points = np.unique(np.linspace(1, most, _POINTS).round().astype(int)).tolist()
     wins = [straight_pool_odds(replace(match, **{name: n})).p_win_1 for n in points]
+    shots = f"A makes a shot with {float(match.p1):.4g}, B with {float(match.p2):.4g}"
     figure, axes = new_axes(
-        f"points that {'AB'[weaker - 1]} needs", "P(A wins the match)", title=title
+        f"points that {' AB'[weaker]} needs", "P(A wins the match)", title=shots
     )
     curve, half = LINES[:2]
     axes.plot(points, wins, color=curve.color, linestyle=curve.linestyle)
@@ -122,8 +122,8 @@ def plot_spot(match: StraightPool, *, weaker: int, even: int | None, title: str 
     )
     axes.axhline(0.5, color="0.7", linewidth=0.8)
     if even is not None:
-        told = f"nearest to even: {even}"
-        axes.axvline(even, color=half.color, linestyle=half.linestyle, label=told)
+        name = f"nearest to even: {even}"
+        axes.axvline(even, color=half.color, linestyle=half.linestyle, label=name)
     axes.set_ylim(-0.02, 1.02)
     axes.margins(x=0.02)
     axes.legend(frameon=False)

@@ -1,4 +1,4 @@
-"""Who plays: ratings, a game probability, or one for each breaker with a break format."""
+"""The two players: ratings, or the chance of a game, or a chance for each breaker."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def players_of(
     by_break = p1 is not None or p2 is not None
     ways = bool(ratings) + (p is not None) + by_break
     if ways != 1:
-        refuse(("who plays is given twice; " if ways else "who plays is missing; ") + MEND)
+        refuse(f"the players are {'given twice' if ways else 'missing'}; {MEND}")
     if scale is not None and not ratings:
-        refuse("--scale says what ratings mean, and there are none; leave it out")
+        refuse("--scale goes with ratings, and there are none; leave it out")
     if by_break:
         if p1 is None or p2 is None or breaks is None:
             refuse("--p1, --p2 and --breaks go together; give all three")
@@ -44,12 +44,12 @@ def players_of(
         refuse(f"{len(ratings)} rating(s) given, {', '.join(ratings)}; {MEND}")
     a, b = (float(rating) for rating in ratings)
     if not math.isfinite(a - b):
-        refuse("the ratings are too far apart to calculate with; give two usual numbers")
+        refuse("the ratings are too far apart; give two usual numbers")
     return TwoPlayers.rated(a, b, scale or scale_of("npl"))
 
 
 def player_options(command: Command) -> Command:
-    """Add the arguments and options that say who plays."""
+    """Add the arguments and options that describe the players."""
     for add in (
         click.option(
             "--first-break",

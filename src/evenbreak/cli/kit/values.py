@@ -14,6 +14,9 @@ import click
 LONGEST = 1000
 """The most games that a race, a lead or a score can have here."""
 
+MOST_BALLS = 100_000
+"""The most balls that an option can name."""
+
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 """What reads as a finite number."""
 

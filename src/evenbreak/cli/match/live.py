@@ -27,11 +27,13 @@ Examples:
 
 
 def _racks(ctx: click.Context, param: click.Parameter, value: str | None) -> list[int]:
-    """Return who won each rack, 1 or 2."""
+    """Return the winner of each rack, 1 or 2."""
     letters = "".join((value or "").lower().replace(",", " ").split())
     for letter in letters:
         if letter not in "ab":
-            message = f"{letter!r} is nobody; write a letter a rack, a or b, such as abbab"
+            message = (
+                f"{letter!r} is neither a nor b; write one of them for each rack, such as abbab"
+            )
             raise click.BadParameter(message, ctx=ctx, param=param)
     return ["ab".index(letter) + 1 for letter in letters]
 
@@ -43,12 +45,14 @@ def _racks(ctx: click.Context, param: click.Parameter, value: str | None) -> lis
     "--set-score",
     metavar="I:J",
     type=SCORE,
-    help="The score of the set under way before the games of --racks.",
+    help="The score of the set under way, before the games of --racks.",
 )
 @click.option(
     "--racks", metavar="abbab...", callback=_racks, help="Who won each game since --score."
 )
-@click.option("--table", is_flag=True, help="Add the comeback table: every score to come.")
+@click.option(
+    "--table", is_flag=True, help="Add the comeback table: the odds at each score to come."
+)
 @plot_option
 @faces()
 def command(
@@ -63,10 +67,10 @@ def command(
     plot: str | None,
     **who: Any,
 ) -> Answer:
-    """Give the odds of a match under way, what the next game is worth, and how it went.
+    """Follow a match under way: the odds now, what the next game is worth, how it went.
 
-    Who plays and what is played: as for odds. Where it stands: --racks, or --score, or
-    both, the racks then being those after that score.
+    The players and the match: as for odds. The score: --racks, or --score, or both, the
+    racks then being those played since that score.
     """
     from evenbreak.answers.live import live_answer
     from evenbreak.matches.live import live_odds

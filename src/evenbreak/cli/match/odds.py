@@ -1,4 +1,4 @@
-"""`evenbreak odds`: the chances of a match, and how long it lasts."""
+"""`evenbreak odds`: the odds of a match, and how long it lasts."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ def command(
     win_by: int | None,
     **who: Any,
 ) -> Answer:
-    """Give the chances of a match, and how long it lasts.
+    """Give the odds of a match, and how long it lasts.
 
-    Who plays: two ratings A B; or --p; or --p1, --p2 and --breaks. What is played:
-    --race or --ahead, perhaps in sets.
+    The players: two ratings A B; or --p; or --p1, --p2 and --breaks. The match: --race or
+    --ahead, perhaps in sets.
     """
     from evenbreak.answers.odds import odds_answer
 
