@@ -34,7 +34,7 @@ def chain_answer(chain: Chain, *, steps: int | None = None, warnings: Sequence[s
 
     >>> from evenbreak.chains import chain_of
     >>> arcs = [("S1", "W", 0.3), ("S1", "S2", 0.7), ("S2", "L", 0.2), ("S2", "S1", 0.8)]
-    >>> print(chain_answer(chain_of(arcs)).sentences[0])
+    >>> print(chain_answer(chain_of(arcs, start="S1")).sentences[0])
     The chain ends in 'W' (0.6818) or 'L' (0.3182), after 3.86 steps on average.
     """
     limit = stochastic_limit(chain)
