@@ -180,7 +180,7 @@ def test_a_long_unbounded_match():
         (Race(2, 2, Rack([0.5, 0.6])), [], {}, "one number"),
         (Rack(0.5), [], {}, "give a Race or an Ahead"),
         (Race(2, 2, Rack(0.5)), [], {"set_score": (1, 0)}, "leave it out"),
-        (SETS, [], {"set_score": (3, 1)}, "count it in the score"),
+        (SETS, [], {"set_score": (3, 1)}, "set_score is 3:1"),
         (SETS, [], {"set_score": (4, 1)}, "cannot be reached"),
         (Race(1, 1, SETS.rack, score=(1, 0)), [], {"set_score": (1, 0)}, "is over; leave"),
     ],

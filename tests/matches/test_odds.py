@@ -200,7 +200,7 @@ class TestRaceLaw:
             ({"m": 2.5}, r"m is 2\.5; give a whole number"),
             ({"p2": 0.5}, "breaks is missing"),
             ({"first_breaker": 0}, "first_breaker is 0; give 1 or 2"),
-            ({"score": (5, 5)}, "score has both players where they have won"),
+            ({"score": (5, 5)}, "both players"),
             ({"score": (-1, 0)}, "score of player 1 is -1"),
         ],
     )

@@ -1,4 +1,4 @@
-"""One rack: the smallest thing that two players win or lose."""
+"""One rack: the smallest game that two players win or lose."""
 
 from __future__ import annotations
 
@@ -32,14 +32,13 @@ class Rack(Generic[ChanceT]):
     p2
         P(player 2 wins the rack | player 2 breaks it); None if the break does not matter.
 
-    Either may be an array for the vectorised kernels of `evenbreak.matches`; a game's
-    graph takes numbers only. The probability of losing is formed once from the one
-    that was given (1 - p), never from a difference of differences.
+    Either may be an array for the vectorised kernels of `evenbreak.matches`; the graph of a
+    game takes numbers only. The probability of losing is 1 - p, formed once.
 
     Raises
     ------
     InputError
-        if p1 or p2 is not a probability, or arrays of them do not broadcast together.
+        if p1 or p2 is not a probability, or their shapes do not broadcast.
 
     Notes
     -----
@@ -86,7 +85,7 @@ class Rack(Generic[ChanceT]):
         return own if player == breaker else 1.0 - own
 
     def of_numbers(self) -> Rack[float]:
-        """Return the rack itself if it holds numbers: a graph has no room for arrays.
+        """Return the rack itself if it holds numbers, which a graph needs.
 
         Raises
         ------
@@ -96,9 +95,9 @@ class Rack(Generic[ChanceT]):
         >>> Rack([0.4, 0.5]).of_numbers()
         Traceback (most recent call last):
         ...
-        evenbreak.errors.InputError: p1 is an array; a graph takes one number, loop over them
+        evenbreak.errors.InputError: p1 is an array; give one number, or loop over them
         """
         for name, value in (("p1", self.p1), ("p2", self.p2)):
             if value is not None and not isinstance(value, float):
-                raise InputError(f"{name} is an array; a graph takes one number, loop over them")
+                raise InputError(f"{name} is an array; give one number, or loop over them")
         return cast("Rack[float]", self)

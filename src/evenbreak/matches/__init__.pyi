@@ -4,7 +4,7 @@ from .crossings import crossings as crossings
 from .crossings import even_probability as even_probability
 from .evening import Evening as Evening
 from .evening import Length as Length
-from .evening import LengthLaw as LengthLaw
+from .evening import LengthLike as LengthLike
 from .evening import evening as evening
 from .formats import MatchFormat as MatchFormat
 from .formats import match_format as match_format

@@ -1,7 +1,7 @@
-"""After how many racks a match ends, and who has won it then: the one distribution.
+"""After how many racks a match ends, and who wins it then.
 
-Races of racks go by antidiagonals. Every other match is played rack by rack over all
-its states at once: a rack from any state leads to one of two, by who wins it.
+Races of racks are solved on antidiagonals. Every other match is played rack by rack over all
+its states at once: a rack leads from each state to one of two, depending on who wins it.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
     Parameters
     ----------
     match
-        a match whose parameters have one shape.
+        a match whose p1 and p2 have the same shape.
     never
         P(the match never ends), of that shape.
     tail
-        a match without a longest length is followed until no more than this much
-        mass has not ended (beyond what never ends), or for 100,000 racks, or for
-        fewer where there are so many parameters that this would not fit in memory.
+        a match without a longest length is followed until the probability that it is still
+        going on (and ends some time) is at most this; for 100,000 racks at most, or fewer if
+        there are so many parameters that they would not fit in memory.
     """
     winner = match.decided(*match.score)
     rack = match.innermost_rack
@@ -67,7 +67,7 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
 
 @dataclass(frozen=True)
 class _Play:
-    """The states of a match as arrays: what a won and a lost rack do to the mass on them."""
+    """The states of a match as arrays: where a won and a lost rack lead, and how likely each is."""
 
     won: csr_array
     lost: csr_array

@@ -40,15 +40,15 @@ class MatchLength(Generic[ChanceT, MeanT]):
     probability
         P(the match takes exactly games[i] racks), shape `(*parameters, k)`.
     mean, sd
-        mean and standard deviation in racks, right also where `games` leaves out a
-        tail; None (NaN in arrays) where the match may never end.
+        mean and standard deviation in racks, exact even where `games` leaves out a tail;
+        None (NaN in arrays) if the match may never end.
     p_never_ends
         P(the match goes on for ever).
     tail_mass
-        P(the match ends, but after more than games[-1] racks); 0 where it has a
-        longest length.
+        P(the match ends, but after more than games[-1] racks); 0 if there is a longest
+        length.
     bounded
-        whether it has a longest length.
+        whether there is a longest length.
     """
 
     games: NDArray[np.int64]
@@ -69,7 +69,7 @@ class MatchLength(Generic[ChanceT, MeanT]):
     @overload
     def quantile(self: MatchLength[Any, Any], q: float) -> Floats: ...
     def quantile(self: MatchLength[Any, Any], q: float) -> Any:
-        """Return the smallest k with P(length <= k) >= q; a tie in the last ulps counts.
+        """Return the smallest k with P(length <= k) >= q; ties within rounding count.
 
         Parameters
         ----------
@@ -79,14 +79,14 @@ class MatchLength(Generic[ChanceT, MeanT]):
         Returns
         -------
         int, None or numpy.ndarray
-            None (NaN in arrays) where the chance of ending never reaches q.
+            None (NaN in arrays) if the probability of ending never reaches q.
 
         Raises
         ------
         InputError
             if q is not a probability.
         AccuracyError
-            if the quantile lies in the tail that was left out.
+            if the quantile lies in the tail that is left out.
 
         >>> from evenbreak.games import Race, Rack
         >>> match_length(Race(2, 2, Rack(0.5))).quantile(0.5)
@@ -97,7 +97,7 @@ class MatchLength(Generic[ChanceT, MeanT]):
         if q <= 0.5:
             reached = (np.cumsum(chances, axis=-1) >= q * (1.0 - TIE)) & (chances > 0.0)
         else:
-            # The upper levels are read off the tail, a small sum of small terms there.
+            # The upper levels are read off the tail, a small sum of small terms.
             beyond = np.asarray(self.tail_mass + self.p_never_ends)[..., np.newaxis]
             tail = np.cumsum(np.concatenate([beyond, chances[..., :0:-1]], axis=-1), axis=-1)
             reached = tail[..., ::-1] <= (1.0 - q) * (1.0 + TIE)
@@ -105,8 +105,8 @@ class MatchLength(Generic[ChanceT, MeanT]):
         ends = np.asarray(1.0 - self.p_never_ends)
         if not self.bounded and ((ends >= q) & (q < 1.0) & ~found).any():
             raise AccuracyError(
-                f"the {q:g} quantile lies beyond the span of {self.span} racks; "
-                "ask for the length with a smaller tail, or match_odds for the .5 and .9 quantiles"
+                f"the {q:g} quantile lies beyond {self.span} racks, where the distribution is cut "
+                "off; give a smaller tail, or use match_odds for the .5 and .9 quantiles"
             )
         at = self.games[reached.argmax(axis=-1)]
         if chances.ndim == 1:
@@ -125,7 +125,7 @@ def match_length(
 def match_length(
     match: Match, score: Score | None = None, *, tail: float = 1e-12
 ) -> MatchLength[Any, Any]:
-    """Return the distribution of the racks that `match` still takes.
+    """Return the distribution of the number of racks that `match` still takes.
 
     Parameters
     ----------
@@ -134,9 +134,9 @@ def match_length(
     score
         the score now (see `win_probability`); None: the match's own start score.
     tail
-        how much mass of a match without a longest length may be left out of the
-        distribution. It is cut off after 100,000 racks in any case (fewer for many
-        parameters); the answer says what was left out.
+        how much probability may be left out of the distribution if there is no longest
+        length. It is cut off after 100,000 racks in any case (fewer for large arrays);
+        `tail_mass` is what was left out.
 
     Raises
     ------
@@ -145,9 +145,8 @@ def match_length(
 
     Notes
     -----
-    Source: problems P5.5, P5.24, P5.27. Mean and standard deviation of matches without
-    a longest length come from the absorbing chain of the score, not from the cut
-    distribution.
+    Source: problems P5.5, P5.24, P5.27. If there is no longest length, mean and standard
+    deviation come from the absorbing chain of the score, not from the cut distribution.
 
     >>> from evenbreak.games import Ahead, Race, Rack
     >>> length = match_length(Race(2, 2, Rack(0.5)))
@@ -160,7 +159,7 @@ def match_length(
     match, shape = broadcast(at_score(match, score))
     tail = number_probability(tail, "tail")
     bounded = is_bounded(match)
-    # A race of racks is too large for the chain of its scores, and needs no tail.
+    # A race of racks has too many scores for a chain, and no tail.
     outcomes = None if bounded else outcomes_of(match)
     never = 0.0 if outcomes is None else outcomes.never
     endings = endings_of(match, never, tail)

@@ -1,7 +1,7 @@
-"""A match under way: the chances at every score, and what the next rack is worth.
+"""A match under way: the odds at every score, and what the next rack is worth.
 
-One pass over the scores that can still come gives the chances at all of them at once:
-the match as it went, the leverage of a rack and the comeback table are read off it.
+One pass over the scores that can still come gives the odds at all of them: the course of the
+match, the leverage of a rack and the comeback table are read off it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _LONGEST = 100_000
 
 
 class Standing(NamedTuple):
-    """What there is to know at one moment of a match; all chances are given that moment.
+    """Where a match stands at one moment; all probabilities are given that moment.
 
     Parameters
     ----------
@@ -34,16 +34,16 @@ class Standing(NamedTuple):
     breaker
         who breaks the next rack; None if the break does not matter or the match is over.
     p_win_1, p_win_2
-        P(player 1, 2 wins the match); they add up to 1 minus the chance that it never ends.
+        P(player 1, 2 wins the match); they add up to 1 minus P(it never ends).
     p_win_1_after
         P(player 1 wins the match), given that player 1, player 2 wins the next rack; None
-        when the match is over.
+        if the match is over.
     mean_racks
         the mean number of racks still to be played; None if the match may never end.
     racks_p90
-        the least number of racks within which the match ends with chance .9; None if it
-        never reaches that chance, or only after more than 100,000 racks, and in a comeback
-        table.
+        the smallest number of racks within which the match ends with probability .9; None
+        in a comeback table, if the match never ends with that probability, or if it takes
+        more than 100,000 racks and has more than 1,000 states.
     """
 
     scores: tuple[Score, ...]
@@ -56,19 +56,19 @@ class Standing(NamedTuple):
 
     @property
     def leverage(self) -> float | None:
-        """How much the next rack moves the match: W if player 1 wins it less W if not."""
+        """What the next rack is worth: player 1's chance after winning it minus after losing it."""
         after = self.p_win_1_after
         return None if after is None else after[0] - after[1]
 
 
 @dataclass(frozen=True, eq=False)
 class LiveOdds:
-    """A match as it went and as it can still go.
+    """A match so far, and how it can still go.
 
     Parameters
     ----------
     course
-        the moment before the first rack, and the one after each rack.
+        where the match stood before the first rack, and after each rack.
     winners
         who won each rack, 1 or 2.
     """
@@ -80,7 +80,7 @@ class LiveOdds:
 
     @property
     def now(self) -> Standing:
-        """The last moment of the course."""
+        """Where the match stands now: the last entry of the course."""
         return self.course[-1]
 
     @property
@@ -90,10 +90,10 @@ class LiveOdds:
         return tuple(after - before for before, after in pairwise(wins))
 
     def comebacks(self) -> list[Standing]:
-        """Return the moments that can still come, by score: the comeback table.
+        """Return the standing at every score that can still come: the comeback table.
 
-        Scores that differ only in racks that no longer matter are one moment: an n-ahead
-        match tells the lead. Moments at which the match is over are left out.
+        Scores that differ only in racks that no longer matter are one entry: in an n-ahead
+        match the lead. Scores at which the match is over are left out.
         """
         states = self._values.from_(self._state)
         return sorted(
@@ -110,25 +110,25 @@ def live_odds(
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks or of sets, with numbers as chances. The course
-        begins at its start score, and its first breaker breaks the first of the racks.
+        a race or an n-ahead match, of racks or of sets, with plain numbers as probabilities.
+        The course begins at its start score; its first breaker breaks the first rack.
     winners
         who won each rack since then, 1 or 2.
     set_score
-        the score of the set under way at the beginning of the course, in a match of sets
-        of racks; None: the set's own start score. Where the match has a break format of its
-        own for sets, the first breaker is taken to have begun that set too.
+        in a match of sets of racks, the score of the set under way at the beginning of the
+        course; None: the set's own start score. If the match has its own break format for
+        sets, the first breaker is taken to have begun that set too.
 
     Raises
     ------
     InputError
-        if the chances are arrays, a winner is not 1 or 2, the match is over before the last
-        rack, or the set cannot stand at `set_score`.
+        if the probabilities are arrays, a winner is not 1 or 2, the match is over before the
+        last rack, or the set cannot have the score `set_score`.
 
     Notes
     -----
-    Source: problems P5.5 and P5.6, whose table W(p; m, n) holds every score of a race on the
-    way to the last one; P5.8, P5.24 and P5.27 for the other matches.
+    Source: problems P5.5 and P5.6, whose table W(p; m, n) has every score on the way through
+    a race; P5.8, P5.24 and P5.27 for the other matches.
 
     >>> from evenbreak.games import Race, Rack
     >>> live = live_odds(Race(3, 2, Rack(0.5)), [1, 2])
@@ -143,27 +143,27 @@ def live_odds(
     values = _Values(match, _state_at(match, set_score))
     state, scores = values.start, _scores_of(match, values.start)
     scores = (match.score, *scores[1:])
-    states, told = [state], [scores]
+    states, listed = [state], [scores]
     for i, winner in enumerate(winners, 1):
         one_of(winner, f"winner of rack {i}", (1, 2))
         if state not in values.moves:
             raise InputError(
                 f"the match is over after {i - 1} of {len(winners)} racks, at "
-                f"{scores[0][0]}:{scores[0][1]}; leave out the racks after it"
+                f"{scores[0][0]}:{scores[0][1]}; leave out the other racks"
             )
         state, scores = values.moves[state][winner - 1][0], _counted(match, scores, winner)
         states.append(state)
-        told.append(scores)
+        listed.append(scores)
     ends = racks_within(values.moves, [(state, 0.9) for state in states], values.never)
     course = [
         values.standing(state)._replace(scores=scores, racks_p90=end)
-        for state, scores, end in zip(states, told, ends, strict=True)
+        for state, scores, end in zip(states, listed, ends, strict=True)
     ]
     return LiveOdds(tuple(course), tuple(winners), values, state)
 
 
 class _Values:
-    """The chances at every state that can be reached from `start`."""
+    """The odds at every state that can be reached from `start`."""
 
     def __init__(self, match: Match, start: Any) -> None:
         self.match, self.start = match, start
@@ -178,7 +178,7 @@ class _Values:
         self.mean = chain.solve(reward=lambda _: 1.0)
 
     def standing(self, state: Any) -> Standing:
-        """Return the moment at a state, without the 90 % length."""
+        """Return where the match stands in a state, without `racks_p90`."""
         row = self.moves.get(state)
         after = None if row is None else [self._chance(1, target) for target, _ in row]
         breaks = self.match.break_matters and row is not None
@@ -196,7 +196,7 @@ class _Values:
         return min(1.0, float(self.win[player].get(state, 0.0)))  # rounding may bring a sum above 1
 
     def from_(self, state: Any) -> Iterator[Any]:
-        """Yield the states at which the match goes on that can be reached from `state`."""
+        """Yield the states that can be reached from `state` and at which the match goes on."""
         queue = [state]
         seen = set()
         for here in queue:
@@ -212,19 +212,19 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     inside = match.rack
     if isinstance(inside, Rack) or not isinstance(inside.rack, Rack):
         raise InputError(
-            "set_score is given and the match is not one of sets of racks; leave it out"
+            "set_score is given, but the match is not one of sets of racks; leave it out"
         )
     under_way = replace(inside, score=set_score, first_breaker=match.first_breaker)
     if under_way.decided(*under_way.score) is not None:
         a, b = under_way.score
-        raise InputError(f"set_score is {a}:{b}, where the set is over; count it in the score")
+        raise InputError(f"set_score is {a}:{b}, where the set is over; count the set in the score")
     if match.decided(*match.score) is not None:
-        raise InputError("set_score is given and the match is over; leave it out")
+        raise InputError("set_score is given, but the match is over; leave it out")
     return (*match.start[:-1], under_way.start)
 
 
 def _scores_of(match: Match, state: Any) -> tuple[Score, ...]:
-    """Return the scores that a state tells, the match's first."""
+    """Return the scores in a state, that of the match first."""
     own = (state[0], state[1])
     if isinstance(match.rack, Rack) or match.winner(state) is not None:
         return (own,)
@@ -232,7 +232,7 @@ def _scores_of(match: Match, state: Any) -> tuple[Score, ...]:
 
 
 def _counted(match: Match, scores: tuple[Score, ...], winner: int) -> tuple[Score, ...]:
-    """Return the scores after a rack, with the racks that a state leaves out."""
+    """Return the scores after a rack, including the racks that a state leaves out."""
     (a, b), *inside = scores
     rack = match.rack
     if not isinstance(rack, Rack):

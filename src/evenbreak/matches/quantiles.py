@@ -1,8 +1,8 @@
-"""Quantiles of a distribution on whole numbers, with ties decided as on paper.
+"""Quantiles of a distribution on whole numbers, with exact ties recognised.
 
-P(length <= k) is often exactly the level asked for (an even race 2:2 lasts two racks
-with chance 1/2), and floating sums miss it by an ulp; a tie within 1e-12 of the level
-counts as reached.
+P(length <= k) is often exactly the level asked for (an even race 2:2 lasts two racks with
+probability 1/2), and sums of floats miss it by the last digit. So the level counts as reached
+within a relative 1e-12.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def quantile_of(probability: Sequence[float], q: float) -> int:
         totals = accumulate(probability[k] for k in possible)
         reached = (k for k, total in zip(possible, totals, strict=True) if total >= q * (1.0 - TIE))
         return next(reached)
-    # The upper levels are read off the tail, which is a small sum of small terms there.
+    # The upper levels are read off the tail, a small sum of small terms.
     tail = 0.0
     for k in reversed(possible):
         tail += probability[k]

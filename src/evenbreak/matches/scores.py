@@ -1,4 +1,4 @@
-"""With what score a match ends."""
+"""The final score of a match."""
 
 from __future__ import annotations
 
@@ -28,14 +28,13 @@ class FinalScores(Generic[ChanceT]):
     ----------
     probability
         P(the match ends a:b) by (a, b): racks, or sets for a match of sets. The wins of
-        player 1 come first, then those of player 2, the shortest matches first.
+        player 1 come first, then those of player 2, each with the shortest matches first.
     p_never_ends
         P(the match goes on for ever).
     tail_mass
-        P(the match ends with a score that is not listed); 0 where it has a longest
-        length.
+        P(the match ends with a score that is not listed); 0 if there is a longest length.
     span
-        the racks (or sets) up to which final scores are listed, from the start score on.
+        final scores are listed up to this many racks (or sets) after the start score.
     """
 
     probability: dict[Score, ChanceT]
@@ -65,7 +64,7 @@ def final_scores(
     score
         the score now (see `win_probability`); None: the match's own start score.
     tail
-        how much mass of a match without a longest length may be left out.
+        how much probability may be left out if there is no longest length.
 
     Raises
     ------
@@ -74,7 +73,7 @@ def final_scores(
 
     Notes
     -----
-    Source: problem P5.5, where W is the sum of the chances of the final scores.
+    Source: problem P5.5, where W is the sum of the probabilities of the final scores.
 
     >>> from evenbreak.games import Race, Rack
     >>> final_scores(Race(2, 1, Rack(0.5))).probability
@@ -113,9 +112,9 @@ def hill_hill_probability(
 def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     """Return P(the last possible rack decides): the race m:n comes to m - 1 : n - 1.
 
-    None for n-ahead matches and races won by 2 or more, where no rack is the last
-    possible one. In a match of sets the last possible set is meant. Parameters and
-    errors are those of `final_scores`; 0 where the match is over at the start.
+    None for n-ahead matches and races won by 2 or more, which have no last possible rack. In
+    a match of sets it is about the last possible set. Parameters and errors are those of
+    `final_scores`; 0 if the match is over at the start.
 
     >>> from evenbreak.games import Race, Rack
     >>> hill_hill_probability(Race(2, 2, Rack(0.5)))
@@ -149,9 +148,9 @@ def _final(match: Match, player: int, k: int) -> Score:
 
 
 def _by_sets(match: Match, never: Any, tail: float | None) -> tuple[dict[Score, Any], int]:
-    """Return the final scores of a match of sets, and the sets up to which they are listed.
+    """Return the final scores of a match of sets, and up to how many sets they are listed.
 
-    With `tail` None the match is followed until its longest possible length.
+    If `tail` is None, the match is followed up to its longest possible length.
     """
     units = unit_outcomes(match, lengths=False)
     mass: dict[tuple[int, int, int], Any] = {(*match.score, first_breaker(match)): 1.0}

@@ -34,7 +34,7 @@ LONGEST = 10_000
 """The most innings, on average, that a player may need here."""
 
 _TAIL = 60.0
-"""Innings are left out from where exp(-60) of the largest chance is still to come."""
+"""Innings are cut off once less than exp(-60) of the largest probability is still to come."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class StraightPool:
         float means the decimal that it prints as.
     safety_1, safety_2
         P(player 1, 2 makes the first shot of an inning) is safety_1 p1, safety_2 p2: below 1
-        where the opponent leaves a hard shot.
+        if the opponent leaves a hard shot.
     first
         who has the first inning, 1 or 2.
 
@@ -92,12 +92,13 @@ class StraightPoolOdds:
     p_win_1, p_win_2
         P(player 1, 2 wins the match).
     p_never_ends
-        P(nobody ever wins): 1 where neither player can make the first shot, else 0.
+        P(nobody ever wins): 1 if neither player can make the first shot, else 0.
     mean_innings, sd_innings
         mean and standard deviation of the innings that the winner has had at the end; None
-        where the match never ends.
+        if the match never ends.
     innings_p50, innings_p90
-        the smallest number of innings within which it ends with chance .5, .9; None likewise.
+        the smallest number of innings within which it ends with probability .5, .9; None if
+        it never ends.
     """
 
     p_win_1: float
@@ -120,19 +121,19 @@ def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
     Raises
     ------
     InputError
-        if a player would take more than 10,000 innings on average, but not for ever.
+        if a player would take more than 10,000 innings on average, but would get there.
 
     Notes
     -----
     P(player 1 wins) is the sum over i of P(player 1 gets there in inning i) times P(player 2
-    has not got there before). Runs as in problems P5.11 and P5.15.
+    has not got there before). Runs are those of problems P5.11 and P5.15.
 
     >>> odds = straight_pool_odds(StraightPool(100, 100, 0.9, 0.85))
     >>> round(odds.p_win_1, 4), round(odds.p_win_2, 4), round(odds.mean_innings, 2)
     (0.8916, 0.1084, 11.76)
     """
     (reach_1, left_1), (reach_2, left_2) = _aligned(match)
-    # The second player has his i-th inning only if the first has missed in his own.
+    # The second player has their i-th inning only if the first has missed in theirs.
     if match.first == 1:
         win_1, win_2 = reach_1 * left_2[:-1], reach_2 * left_1[1:]
     else:
@@ -191,7 +192,7 @@ def _innings_to(points: int, p: Fraction, safety: Fraction, *, at_least: int) ->
             to_come = log_chance - math.log1p(-ratio)
             if to_come < peak - _TAIL:
                 break
-    # From the largest chance outward, so that none is the product of very many roundings.
+    # From the largest probability outwards, so that none collects very many roundings.
     turn = sum(ratio > 1.0 for ratio in ratios)
     before = np.cumprod(1.0 / np.array(ratios[:turn][::-1]))[::-1]
     chances = np.concatenate([before, [1.0], np.cumprod(ratios[turn:])])

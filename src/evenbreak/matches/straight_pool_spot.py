@@ -68,8 +68,9 @@ def even_spot(match: StraightPool) -> Spot:
     InputError
         as `straight_pool_odds` does.
 
-    >>> even_spot(StraightPool(100, 100, 0.9, 0.85))
-    Spot(weaker=2, points=60, p_win_1=0.4970...)
+    >>> spot = even_spot(StraightPool(100, 100, 0.9, 0.85))
+    >>> spot.weaker, spot.points, round(spot.p_win_1, 3)
+    (2, 60, 0.497)
     """
     points = match.points_1, match.points_2
     shots = (match.p1, match.safety_1), (match.p2, match.safety_2)

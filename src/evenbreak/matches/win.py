@@ -1,4 +1,4 @@
-"""Who wins: the chance of winning a match, for one pair of chances or arrays of them."""
+"""The chance of winning a match, for one pair of probabilities or for arrays of them."""
 
 from __future__ import annotations
 
@@ -32,15 +32,14 @@ def win_probability(match: Match, score: Score | None = None, *, player: int = 1
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks or of sets. The chances of its innermost
+        a race or an n-ahead match, of racks or of sets. The probabilities of its innermost
         rack may be arrays; p1 and p2 are broadcast together.
     score
         the score now, in racks (in sets for a match of sets); the match's first breaker
         breaks the next rack. None: the match's own start score.
     player
-        1 or 2. Each player's chance is worked out by itself, never as 1 minus the
-        other's, so both are right when tiny. They add up to 1 minus the chance that
-        the match never ends.
+        1 or 2. Each player's chance is worked out by itself, never as 1 minus the other's, so
+        both are accurate even if tiny. They add up to 1 minus P(the match never ends).
 
     Returns
     -------
@@ -82,7 +81,7 @@ def _win(match: Match, player: int) -> Any:
         return betainc(mine, theirs, one)
     if isinstance(rack, Rack):
         endings = race_endings(*need, rack, match.breaks, match.first_breaker)[player - 1]
-        return np.minimum(endings.sum(axis=0), 1.0)  # rounding may bring a sum above 1
+        return np.minimum(endings.sum(axis=0), 1.0)  # rounding may take a sum above 1
     return outcomes_of(match, lengths=False).p_win(player)
 
 
@@ -99,13 +98,13 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
         P(player 1 wins a game), whoever breaks.
     m, n
         the games that player 1 and player 2 need: whole numbers, 0 for a player who has
-        won already; not both 0. The three are broadcast together.
+        already won; not both 0. The three are broadcast together.
 
     Returns
     -------
     float or numpy.ndarray
         the regularised incomplete beta function I_p(m, n). Player 2's chance is
-        W(1 - p; n, m), right also when it is tiny.
+        W(1 - p; n, m), which is accurate even if it is tiny.
 
     Raises
     ------
@@ -128,7 +127,8 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
         won_1, won_2 = needs_1 == 0, needs_2 == 0
         if (won_1 & won_2).any():
             raise InputError(
-                "m and n are both 0 somewhere; one player has won, the other still needs 1 or more"
+                "m and n are both 0 somewhere, but only one player can have won; give 1 or more "
+                "for the other"
             )
         chance = np.where(won_1, 1.0, np.where(won_2, 0.0, chance))
     return plain(np.asarray(chance))

@@ -1,4 +1,4 @@
-"""Pictures of a score, with its mean, median and mode, and of a spot in straight pool."""
+"""Pictures of a score, with its mean, median and mode, and of the spot in straight pool."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from evenbreak.stats.runs import RunLength
 
 _SHOWN = (0.001, 0.995)
-"""The quantiles from which and up to which scores are drawn."""
+"""The quantiles between which scores are drawn."""
 
 _COLORS = ("#CC79A7", "#009E73", "#E69F00")
 _HATCHES = ("////", "\\\\\\\\", "....")
-"""How the spans of scores that were asked for are shaded."""
+"""The shading of the spans of scores that were asked for."""
 
 _POINTS = 150
-"""How many numbers of points a curve is drawn through, at the most."""
+"""The most points that a curve is drawn through."""
 
 
 def plot_score(
@@ -37,11 +37,11 @@ def plot_score(
     Parameters
     ----------
     law
-        the law of the score.
+        the distribution of the score.
     innings
-        in how many innings it is made, for the words beside the axes.
+        the number of innings, for the label of the axis.
     asked
-        spans of scores to shade, each with its name: the fewest balls and the most, or None.
+        spans of scores to shade, each with its name: the fewest balls, and the most or None.
 
     >>> from evenbreak.stats import RunLength
     >>> figure = plot_score(RunLength(0.9))
@@ -81,10 +81,10 @@ def plot_score(
 
 
 def plot_spot(match: StraightPool) -> Figure:
-    """Return a figure of A's chance in straight pool against the points that the weaker needs.
+    """Return a figure of A's chance in straight pool against the weaker player's points.
 
-    The match as it is, is a dot on the curve; the points that are nearest to even are a dashed
-    line, where any number of points makes it even (see `even_spot`).
+    The match as it stands is a dot on the curve. If any number of points makes it even (see
+    `even_spot`), a dashed line marks the one nearest to even.
 
     Parameters
     ----------
