@@ -80,23 +80,23 @@ def test_races(breaks: Any) -> None:
     for m, n, first in product(range(1, 5), range(1, 5), (1, 2)):
         played = list(courses((m, n), breaks, first))
         race = Race(m, n, Rack(float(P1), float(P2)), breaks=breaks, first_breaker=first)
-        law = race_odds(m, n, float(P1), float(P2), breaks, first)
+        odds = race_odds(m, n, float(P1), float(P2), breaks, first)
         by_score = summed((end, chance) for end, _, _, chance in played)
         by_length = summed((racks, chance) for _, racks, _, chance in played)
         assert final_scores(race).probability == pytest.approx(by_score, rel=1e-14, abs=0)
         assert lengths_of(match_length(race)) == pytest.approx(by_length, rel=1e-14, abs=0)
-        scalar = {k: chance for k, chance in zip(law.games, law.probability, strict=True) if chance}
+        scalar = {k: chance for k, chance in zip(odds.games, odds.probability, strict=True) if chance}
         assert scalar == pytest.approx(by_length, rel=1e-14, abs=0)
         one = sum(chance for (a, _), chance in by_score.items() if a == m)
         assert win_probability(race) == pytest.approx(one, rel=1e-14, abs=0)
-        assert law.p_win_1 == pytest.approx(one, rel=1e-14, abs=0)
-        assert match_odds(race).p_win_1 == law.p_win_1
+        assert odds.p_win_1 == pytest.approx(one, rel=1e-14, abs=0)
+        assert match_odds(race).p_win_1 == odds.p_win_1
         decider = by_score[m, n - 1] + by_score[m - 1, n]
         assert hill_hill_probability(race) == pytest.approx(decider, rel=1e-14, abs=0)
-        assert law.p_hill_hill == pytest.approx(decider, rel=1e-14, abs=0)
+        assert odds.p_hill_hill == pytest.approx(decider, rel=1e-14, abs=0)
         for player, scalar_chance, nil in (
-            (1, law.p_shutout_1, (m, 0)),
-            (2, law.p_shutout_2, (0, n)),
+            (1, odds.p_shutout_1, (m, 0)),
+            (2, odds.p_shutout_2, (0, n)),
         ):
             assert scalar_chance == pytest.approx(by_score[nil], rel=1e-14, abs=0)
             assert shutout_probability(race, player=player) == pytest.approx(
