@@ -19,7 +19,7 @@ def test_the_rows_are_the_formats_best_for_a_first():
 )
 def test_the_best_format_for_each(p1, p2, for_a, for_b):
     words = breaks_answer(Rack(p1, p2)).sentences[0]
-    assert words.index(f"A does best with {for_a} breaks") < words.index(f"B with {for_b} breaks")
+    assert words.index(f"A does best with {for_a} breaks") < words.index(f"with {for_b} breaks")
 
 
 def test_where_the_stakes_turn():

@@ -85,7 +85,9 @@ def test_races(breaks: Any) -> None:
         by_length = summed((racks, chance) for _, racks, _, chance in played)
         assert final_scores(race).probability == pytest.approx(by_score, rel=1e-14, abs=0)
         assert lengths_of(match_length(race)) == pytest.approx(by_length, rel=1e-14, abs=0)
-        scalar = {k: chance for k, chance in zip(odds.games, odds.probability, strict=True) if chance}
+        scalar = {
+            k: chance for k, chance in zip(odds.games, odds.probability, strict=True) if chance
+        }
         assert scalar == pytest.approx(by_length, rel=1e-14, abs=0)
         one = sum(chance for (a, _), chance in by_score.items() if a == m)
         assert win_probability(race) == pytest.approx(one, rel=1e-14, abs=0)

@@ -36,7 +36,7 @@ def breaks_answer(
 
     >>> from evenbreak.games import Rack
     >>> print(breaks_answer(Rack(0.9, 0.5), lose=2).sentences[0])
-    A does best with winner breaks (A wins 83 % of the racks), B with loser breaks (64 %).
+    A does best with winner breaks, winning 83 % of the racks, and B with loser breaks, ...
     At these stakes A gains with winner and alternate breaks and loses with loser breaks.
     In 100 racks with winner breaks A comes out 50 points ahead on average, give or take 17.
     """
@@ -93,8 +93,8 @@ def _who_gains(usual: Sequence[BreakFormatValue]) -> str:
     if best.share - worst.share < SAME:
         return "Winner, loser and alternate breaks are worth the same to both."
     text = (
-        f"A does best with {best.name} breaks (A wins {percent(best.share)} of the racks), "
-        f"B with {worst.name} breaks ({percent(worst.share)})."
+        f"A does best with {best.name} breaks, winning {percent(best.share)} of the racks, and B "
+        f"with {worst.name} breaks, winning {percent(1.0 - worst.share)}."
     )
     gains = [value.name for value in usual if value.points > SAME]
     losses = [value.name for value in usual if value.points < -SAME]
