@@ -21,6 +21,8 @@ import numpy as np
 from scipy.linalg.blas import dgemm, dtrsm
 from scipy.sparse import csc_array, csgraph
 
+from evenbreak.chains.arcs import put_back
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -93,8 +95,7 @@ class BandedElimination:
             back = np.asfortranarray(W[:size, size:])
             left = W[size:, size:].copy()
             self._windows.append(_Window(first, last, factor, onward, back))
-        self.pivots = np.empty(n)
-        self.pivots[order] = pivots
+        self.pivots = put_back(pivots, order)
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
@@ -105,7 +106,7 @@ class BandedElimination:
         for first, last, factor, onward, back in reversed(self._windows):
             top = x[first:last] + back @ x[last : last + len(onward)]
             x[first:last] = _solve(factor, top, "units")
-        return self._restored(x)
+        return put_back(x, self._order)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
@@ -116,12 +117,7 @@ class BandedElimination:
         for first, last, factor, onward, _ in reversed(self._windows):
             top = y[first:last] + onward.T @ y[last : last + len(onward)]
             y[first:last] = _solve(factor, top, "pivots", trans=1)
-        return self._restored(y)
-
-    def _restored(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        y = np.empty_like(x)
-        y[self._order] = x
-        return y
+        return put_back(y, self._order)
 
 
 def _solve(

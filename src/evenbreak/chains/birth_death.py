@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class BirthDeath:
     """A chain whose states stand in a line.
 
     Parameters
@@ -60,7 +60,7 @@ class Line:
         """
         lo, hi = self._stretch(start)
         if hi - lo + 1 == len(self.loops):
-            return line_law(self.up, self.down), 1 if self.loops.any() else 2
+            return birth_death_law(self.up, self.down), 1 if self.loops.any() else 2
         limit = np.zeros(len(self.loops))
         # Beyond a cut there is no way back; the first arc missing outwards is the end.
         left = lo > 0 and self.down[lo - 1] > 0.0
@@ -100,16 +100,16 @@ class Line:
 
     def _settle(self, limit: NDArray[np.float64], lo: int, hi: int, mass: float) -> int:
         """Spread `mass` over the closed class lo..hi; return its period."""
-        law = line_law(self.up[lo:hi], self.down[lo:hi])
+        law = birth_death_law(self.up[lo:hi], self.down[lo:hi])
         law *= mass
         limit[lo : hi + 1] += law
         return 1 if lo == hi or self.loops[lo : hi + 1].any() else 2
 
 
-def line_law(up: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.float64]:
+def birth_death_law(up: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the stationary law of a closed line; shape (n,) for n - 1 arcs each way.
 
-    >>> line_law(np.array([0.5, 0.5]), np.array([0.25, 0.5]))
+    >>> birth_death_law(np.array([0.5, 0.5]), np.array([0.25, 0.5]))
     array([0.2, 0.4, 0.4])
     """
     law, exponent = prefix_products(up, down)
@@ -118,7 +118,7 @@ def line_law(up: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.f
     return law
 
 
-def line_of(matrix: csc_array) -> Line | None:
+def birth_death_of(matrix: csc_array) -> BirthDeath | None:
     """Return the chain as a line, or None if its states do not stand in one as numbered."""
     n = matrix.shape[0]
     if n < 3 or matrix.nnz > 3 * n - 2:
@@ -127,10 +127,10 @@ def line_of(matrix: csc_array) -> Line | None:
     if np.any(np.abs(middle - n // 2) > 1):
         return None
     if matrix.nnz == 3 * n - 2 and _is_full(matrix):
-        return Line(matrix.data[1::3], matrix.data[2::3], matrix.data[0::3])
+        return BirthDeath(matrix.data[1::3], matrix.data[2::3], matrix.data[0::3])
     up, down, loops = matrix.diagonal(-1), matrix.diagonal(1), matrix.diagonal()
     stored = np.count_nonzero(up) + np.count_nonzero(down) + np.count_nonzero(loops)
-    return Line(up, down, loops) if stored == matrix.nnz else None
+    return BirthDeath(up, down, loops) if stored == matrix.nnz else None
 
 
 def _is_full(matrix: csc_array) -> bool:

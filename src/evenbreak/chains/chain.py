@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.chains.arcs import Arcs, arcs_of
-from evenbreak.chains.birth_death import Line, line_of
+from evenbreak.chains.birth_death import BirthDeath, birth_death_of
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
@@ -86,9 +86,9 @@ class Chain:
         return arcs_of(self.matrix)
 
     @cached_property
-    def line(self) -> Line | None:
-        """The chain as a line of states, where each moves to its neighbours only."""
-        return line_of(self.matrix)
+    def birth_death(self) -> BirthDeath | None:
+        """The chain as a line of states, if each moves to its neighbours only."""
+        return birth_death_of(self.matrix)
 
     @cached_property
     def structure(self) -> Structure:

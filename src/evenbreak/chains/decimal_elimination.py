@@ -37,7 +37,7 @@ def rows_of(arcs: Arcs) -> list[dict[int, float]]:
     return rows
 
 
-class WideElimination:
+class DecimalElimination:
     """(I - T) factored in wide numbers; answers are floats, inf where they are beyond all floats.
 
     Parameters
@@ -75,7 +75,7 @@ class WideElimination:
             return np.array([_floats(solve(column)) for column in columns]).T
 
 
-def wide_solve(
+def decimal_solve(
     arcs: Arcs, leak: NDArray[np.float64], b: NDArray[np.float64], *, transposed: bool
 ) -> NDArray[np.float64]:
     """Return (I - T)^-1 b, or (I - T)^-T b, for b >= 0 of shape (m, k); inf beyond all floats.
@@ -85,11 +85,11 @@ def wide_solve(
     AccuracyError
         if the elimination would take too long.
     """
-    factor = WideElimination(arcs, leak, _MOST_ARCS)
+    factor = DecimalElimination(arcs, leak, _MOST_ARCS)
     return factor.values(b) if transposed else factor.visits(b)
 
 
-def wide_law(arcs: Arcs) -> NDArray[np.float64]:
+def decimal_law(arcs: Arcs) -> NDArray[np.float64]:
     """Return the stationary law of one closed class, whose arcs these are; shape (m,).
 
     Raises

@@ -3,7 +3,7 @@
 How often eigenvalue 1 repeats, and where its vectors live, is known from the structure: once
 for each closed class, of which the right vector is the stationary law and the left one the
 chance to end there. Each is found by itself, so that other eigenvalues may come as near to
-1 as they like without mixing in, and comes with a bound on its error (see `lu_solves`). A
+1 as they like without mixing in, and comes with a bound on its error (see `certified_lu`). A
 closed class of period d has the other d-th roots of 1 too. All others are projected off
 these and made biorthogonal: L = (Y R)^-1 Y for left vectors Y and right vectors R, which
 exists where neither set is defective and both belong to the same eigenvalues.
@@ -20,7 +20,7 @@ import scipy.sparse
 import scipy.sparse.linalg
 from scipy.sparse import csc_array
 
-from evenbreak.chains.lu_solves import LUSolves
+from evenbreak.chains.certified_lu import CertifiedLU
 from evenbreak.chains.powers import evened
 from evenbreak.errors import AccuracyError
 
@@ -37,6 +37,7 @@ TOLERANCE = 1e-8
 SHIFT = 1.0 + 1e-10
 """As near to eigenvalue 1 as a factorisation bears."""
 EPS = float(np.finfo(float).eps)
+_FLOOR = 1e-3
 
 
 class UnitPairs:
@@ -74,14 +75,14 @@ class UnitPairs:
         states = np.flatnonzero(~chain.structure.recurrent)
         if not len(states):
             return 0.0
-        solves = LUSolves(chain.arcs, states)
+        solves = CertifiedLU.of_states(chain.arcs, states)
         into = (chain.arcs.matrix().astype(np.longdouble)[:, states]).tocsr()
-        missed = np.zeros(len(states))
+        missed = np.zeros(len(states), dtype=np.longdouble)
         for row in self.left:
             entered = into.T @ row.astype(np.longdouble)
             row[states] = solves.solve(entered.astype(np.float64), transposed=True)
             missed += solves.missed(row[states], entered, transposed=True)
-        return float(solves.error(missed, transposed=True).max())
+        return float(solves.error(missed, transposed=True, floor=_FLOOR).max())
 
     @cached_property
     def _factors(self) -> Any:
@@ -117,13 +118,13 @@ def _law(chain: Chain, states: Places) -> tuple[NDArray[np.float64], float]:
     guess = scipy.sparse.linalg.splu(_shifted(M, m)).solve(np.full(m, 1.0 / m))
     cut = int(np.argmax(guess))
     rest = np.delete(np.arange(m), cut)
-    solves = LUSolves(chain.arcs, states[rest])
+    solves = CertifiedLU.of_states(chain.arcs, states[rest])
     out = chain.arcs.matrix()[:, [int(states[cut])]].toarray()[states[rest], 0]
     law = np.ones(m)
     law[rest] = solves.solve(out)
     law /= law.sum()
     missed = solves.missed(law[rest], out.astype(np.longdouble) * law[cut])
-    return law, 2.0 * float(solves.error(missed).sum()) + m * EPS
+    return law, 2.0 * float(solves.error(missed, floor=_FLOOR).sum()) + m * EPS
 
 
 def leading_pairs(

@@ -20,15 +20,15 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-from scipy.sparse import csc_array, csgraph
+from scipy.sparse import csc_array
 
-from evenbreak.chains.arcs import arcs_of
+from evenbreak.chains.arcs import arcs_of, put_back
 from evenbreak.chains.banded import BandedElimination, band_order
-from evenbreak.chains.decimal_elimination import WideElimination
-from evenbreak.chains.line_elimination import PathElimination
-from evenbreak.chains.sparse_lu import SparseFactorisation
+from evenbreak.chains.certified_lu import CertifiedSolve
+from evenbreak.chains.decimal_elimination import DecimalElimination
+from evenbreak.chains.line_elimination import LineElimination, line_order
 from evenbreak.chains.structure import Structure, structure_of
-from evenbreak.chains.triangular_solve import Flow
+from evenbreak.chains.triangular_solve import TriangularSolve
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -78,40 +78,18 @@ class _Piece:
         if len(self.chances):
             leak = leak + np.bincount(self.sources - self.first, self.chances, size)
         if len(self._offsets) > 2 or size <= SMALL:
-            return Flow(*self._inner, leak, self._outflow, self._offsets)
+            return TriangularSolve(*self._inner, leak, self._outflow, self._offsets)
         sources, targets, chances = self._inner
         T = csc_array((chances, (targets, sources)), shape=(size, size))
-        order = path_order(T)
+        order = line_order(T)
         if order is not None:
-            return _Path(T, leak, order)
+            return LineElimination(T, leak, order)
         order, width = band_order(T)
         if width <= _NARROW:
-            return WideElimination(arcs_of(T), leak)
+            return DecimalElimination(arcs_of(T), leak)
         if size * min(size, 3 * width) <= _MOST_ENTRIES:
             return BandedElimination(T, leak, order, width)
-        return SparseFactorisation(T, leak)
-
-
-class _Path:
-    """A line of states that are numbered in another order."""
-
-    def __init__(self, T: csc_array, leak: NDArray[np.float64], order: Places) -> None:
-        line = csc_array(T[:, order])[order]
-        path = PathElimination(line.diagonal(-1), line.diagonal(1), leak[order])
-        self._path = path
-        self._order = order
-        self.pivots = self._restored(path.pivots)
-
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self._restored(self._path.visits(b[self._order]))
-
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self._restored(self._path.values(r[self._order]))
-
-    def _restored(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        y = np.empty_like(x)
-        y[self._order] = x
-        return y
+        return CertifiedSolve(T, leak)
 
 
 class Factorisation:
@@ -161,7 +139,7 @@ class Factorisation:
     def residual(self) -> float | None:
         """The largest residual of an answer so far that could not be certified, or None."""
         solvers = (p.__dict__.get("solver") for p in self._pieces)
-        residuals = [s.residual for s in solvers if isinstance(s, SparseFactorisation)]
+        residuals = [s.residual for s in solvers if isinstance(s, CertifiedSolve)]
         return max((r for r in residuals if r is not None), default=None)
 
     @property
@@ -174,7 +152,7 @@ class Factorisation:
         for piece in self._pieces:
             if "solver" in piece.__dict__:
                 pivots[piece.first : piece.last] = piece.solver.pivots
-        return self._restored(pivots)
+        return pivots if self.order is None else put_back(pivots, self.order)
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the visits to each state from b >= 0, shape (m, k): (I - T)^-1 b."""
@@ -184,7 +162,7 @@ class Factorisation:
             if part.any():
                 part[:] = piece.solver.visits(part)
                 np.add.at(f, piece.targets, f[piece.sources] * piece.chances[:, None])
-        return self._restored(f)
+        return f if self.order is None else put_back(f, self.order)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the sum of r >= 0, shape (m, k), over the visits from each: (I - T)^-T r."""
@@ -194,14 +172,7 @@ class Factorisation:
             part = y[piece.first : piece.last]
             if part.any():
                 part[:] = piece.solver.values(part)
-        return self._restored(y)
-
-    def _restored(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        if self.order is None:
-            return x
-        y = np.empty_like(x)
-        y[self.order] = x
-        return y
+        return y if self.order is None else put_back(y, self.order)
 
 
 def _runs(offsets: Places) -> list[Places]:
@@ -211,18 +182,3 @@ def _runs(offsets: Places) -> list[Places]:
         return [offsets]
     marks = np.unique(np.concatenate(([0, len(offsets) - 1], large, large + 1)))
     return [offsets[a : b + 1] for a, b in pairwise(marks)]
-
-
-def path_order(T: csc_array) -> Places | None:
-    """Return the order in which the states of a class stand in a line, or None."""
-    size = T.shape[0]
-    if T.nnz != 2 * (size - 1):
-        return None
-    ends = np.flatnonzero(np.diff(T.indptr) == 1)
-    if len(ends) != 2:
-        return None
-    order = csgraph.breadth_first_order(T, ends[0], return_predecessors=False)
-    place = np.empty(size, dtype=np.intp)
-    place[order] = np.arange(size)
-    sources = np.repeat(place, np.diff(T.indptr))
-    return order if (np.abs(place[T.indices] - sources) == 1).all() else None

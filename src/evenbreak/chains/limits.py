@@ -17,9 +17,10 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.birth_death import line_law
-from evenbreak.chains.decimal_elimination import wide_law
-from evenbreak.chains.factorisation import Factorisation, path_order
+from evenbreak.chains.birth_death import birth_death_law
+from evenbreak.chains.decimal_elimination import decimal_law
+from evenbreak.chains.factorisation import Factorisation
+from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
@@ -169,12 +170,12 @@ def _stationary(
 def _law_of(arcs: Arcs) -> NDArray[np.float64]:
     """Return the law of a closed class that spans more decades than floats do."""
     T = arcs.matrix()
-    order = path_order(T)
+    order = line_order(T)
     if order is None:
-        return wide_law(arcs)
+        return decimal_law(arcs)
     line = csc_array(T[:, order])[order]
     law = np.empty(arcs.size)
-    law[order] = line_law(line.diagonal(-1), line.diagonal(1))
+    law[order] = birth_death_law(line.diagonal(-1), line.diagonal(1))
     return law
 
 
@@ -303,8 +304,8 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     ({'S1': 0.5, 'S2': 0.5}, 2, True)
     """
     at = chain.start_index(start)
-    if at is not None and chain.line is not None:
-        probability, period = chain.line.limit(at)
+    if at is not None and chain.birth_death is not None:
+        probability, period = chain.birth_death.limit(at)
         return Limit(chain, probability, period)
     structure = chain.structure
     if structure.is_acyclic:

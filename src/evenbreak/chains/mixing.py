@@ -14,18 +14,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.linalg
-import scipy.sparse.csgraph
 import scipy.sparse.linalg
+from scipy.sparse import csc_array
 
 from evenbreak.chains.eigenpairs import DENSE, EPS
 from evenbreak.chains.limits import limit_matrix
+from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.powers import evened
 from evenbreak.checks import number
 from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from scipy.sparse import csc_array
 
     from evenbreak.chains.chain import Chain
 
@@ -109,18 +109,15 @@ def _overlaps(values: NDArray[Any], left: NDArray[Any], right: NDArray[Any]) -> 
 
 def _line(block: csc_array) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
     """Return diagonal and off-diagonal of the similar symmetric matrix if the class is a line."""
-    n = block.shape[0]
-    coo = block.tocoo()
-    off = coo.row != coo.col
-    if off.sum() != 2 * (n - 1) or np.bincount(coo.row[off], minlength=n).max() > 2:
+    T = block.copy()
+    T.setdiag(0.0)
+    T.eliminate_zeros()
+    order = line_order(T)
+    if order is None:
         return None
-    end = int(np.argmin(np.bincount(coo.row[off], minlength=n)))
-    order: Any = scipy.sparse.csgraph.breadth_first_order(block, end, return_predecessors=False)
-    line = block[:, order][order]
+    line = csc_array(T[:, order])[order]
     up, down = line.diagonal(-1), line.diagonal(1)
-    if np.count_nonzero(up) + np.count_nonzero(down) != 2 * (n - 1):
-        return None
-    return np.asarray(line.diagonal()), np.asarray(np.sqrt(up) * np.sqrt(down))
+    return block.diagonal()[order], np.sqrt(up) * np.sqrt(down)
 
 
 def _ends_of_symmetric(

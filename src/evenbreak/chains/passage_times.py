@@ -38,7 +38,7 @@ MOST_STEPS = 100_000
 
 
 @dataclass(frozen=True, eq=False)
-class Passage:
+class PassageTime:
     """How many steps it takes to reach a target, given the start.
 
     Parameters
@@ -148,7 +148,7 @@ class Passage:
 
 def steps_to_absorption(
     chain: Chain, start: Any = None, *, into: Literal["absorbing", "closed"] = "absorbing"
-) -> Passage:
+) -> PassageTime:
     """Return the number of steps until the chain is absorbed, given the start.
 
     Parameters
@@ -188,7 +188,7 @@ def steps_to_absorption(
     return _passage(chain, chain.density(start), ends)
 
 
-def first_passage(chain: Chain, start: Any, target: Any) -> Passage:
+def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
     """Return the number of steps until the chain first visits a target, given the start.
 
     Parameters
@@ -221,7 +221,7 @@ def first_passage(chain: Chain, start: Any, target: Any) -> Passage:
     return _passage(chain, chain.density(start), ends)
 
 
-def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> Passage:
+def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> PassageTime:
     n, arcs = len(chain), chain.arcs
     before = ~ends[arcs.sources]
     source, target, chance = arcs.sources[before], arcs.targets[before], arcs.chances[before]
@@ -253,7 +253,7 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
         # So many steps on average come from a state that is hard to leave: its mean squared.
         variance = variance if np.isfinite(variance) else np.inf
     M = evened(chain)
-    return Passage(
+    return PassageTime(
         p_reached=p_reached,
         p_never=p_never,
         mean_if_reached=mean,

@@ -8,7 +8,7 @@ sum R_i (L_i v) over the eigenvalues 1 (the source text's derivation after P5.22
 This is the second route to the limit: it shares nothing with the eliminations of
 `stochastic_limit` but the chain's arcs and structure, and loses digits where they do not, in
 chains that are slow or nearly fall apart. Every answer comes with a bound on its error that
-is proved with the answer (see `lu_solves`), and is refused where it cannot be vouched for.
+is proved with the answer (see `certified_lu`), and is refused where it cannot be vouched for.
 """
 
 from __future__ import annotations

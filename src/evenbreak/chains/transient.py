@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.decimal_elimination import rows_of, wide_solve
+from evenbreak.chains.decimal_elimination import decimal_solve, rows_of
 from evenbreak.chains.elimination import Elimination
 from evenbreak.chains.factorisation import Factorisation
 from evenbreak.errors import AccuracyError
@@ -140,7 +140,7 @@ class TransientPart:
         x, doubtful = self.attempt(columns, transposed=transposed)
         again = np.flatnonzero(doubtful.any(axis=0))
         if len(again):
-            x[:, again] = wide_solve(
+            x[:, again] = decimal_solve(
                 self._arcs, self._leak, columns[:, again], transposed=transposed
             )
         if not np.isfinite(x).all():

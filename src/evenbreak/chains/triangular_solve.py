@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from evenbreak.chains.arcs import Places
 
 
-class Flow:
+class TriangularSolve:
     """(I - T) factored for consecutive classes, all of them small.
 
     Parameters
