@@ -27,7 +27,7 @@ METHODS = {
     "plain Python": (10**6, 64, 4),
     "one substitution": (0, 64, 4),
     "small classes up to 3": (0, 3, 0),
-    "wide numbers": (0, 1, 100),
+    "decimal numbers": (0, 1, 100),
     "blocked": (0, 1, 0),
 }
 
@@ -114,7 +114,7 @@ def test_each_method_is_what_it_says(monkeypatch):
         "plain Python": transient._InPlainPython,
         "one substitution": TriangularSolve,
         "small classes up to 3": BandedElimination,
-        "wide numbers": DecimalElimination,
+        "decimal numbers": DecimalElimination,
         "blocked": BandedElimination,
     }
     use(monkeypatch, 0, 1, 0)

@@ -1,16 +1,16 @@
-"""I - T factored class by class: each class by the method that suits its graph.
+"""I - T factored class by class, each class by the method that suits its graph.
 
 | class | method | time, memory |
 |---|---|---|
-| one state, or up to 64 | forward substitution over all of them (`flow`) | linear |
-| a line of states | cyclic reduction (`path`) | linear |
-| band of up to 4 | elimination in decimal numbers (`wide`) | linear |
+| one state, or up to 64 | forward substitution over all of them (`triangular_solve`) | linear |
+| a line of states | cyclic reduction (`line_elimination`) | linear |
+| band of up to 4 | elimination in decimal numbers (`decimal_elimination`) | linear |
 | wider band w, or up to some 6,000 states | blocked elimination (`banded`) | n w^2, n w |
-| larger | sparse factorisation, certified or with its residual (`sparse_lu`) | as SuperLU |
+| larger | sparse LU, certified or with its residual (`certified_lu`) | as SuperLU |
 
 Consecutive small classes are solved together. Where hundreds of states in a row have equal
-arcs, doubles repeat the same rounding error at each; so long and narrow classes are solved
-in more digits.
+arcs, doubles repeat the same rounding error at each of them, so long and narrow classes are
+solved with more digits.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class _Piece:
         self._offsets = offsets - self.first
         sources, targets, chances = arcs
         inner = targets < self.last
-        # Where the piece is all there is, its arcs are not copied.
+        # A piece that is the whole part does not copy its arcs.
         own: slice | NDArray[np.bool_] = slice(None) if inner.all() else inner
         self._inner = sources[own] - self.first, targets[own] - self.first, chances[own]
         self.sources, self.targets = sources[~inner], targets[~inner]
@@ -72,7 +72,7 @@ class _Piece:
 
     @cached_property
     def solver(self) -> _Solver:
-        """The factors of the piece, made when they are first asked for."""
+        """The factors of the piece, made when first used."""
         size = self.last - self.first
         leak = self._leak
         if len(self.chances):
@@ -100,12 +100,12 @@ class Factorisation:
     arcs
         the arcs among m states.
     leak
-        shape (m,): the probability to leave them, given the state. From each state a state
-        that leaks can be reached.
+        shape (m,): the probability of leaving them, given the state. From each state a state
+        with a leak can be reached.
     outflow
         shape (m,): the sum of all arcs out of each state and its leak.
     structure
-        the classes of the arcs, where they are known already.
+        the classes of the arcs, if they are known already.
     """
 
     def __init__(
@@ -137,16 +137,16 @@ class Factorisation:
 
     @property
     def residual(self) -> float | None:
-        """The largest residual of an answer so far that could not be certified, or None."""
+        """The largest residual so far of an answer that could not be certified, or None."""
         solvers = (p.__dict__.get("solver") for p in self._pieces)
         residuals = [s.residual for s in solvers if isinstance(s, CertifiedSolve)]
         return max((r for r in residuals if r is not None), default=None)
 
     @property
     def pivots(self) -> NDArray[np.float64]:
-        """The chance to leave each state for later ones when it is eliminated.
+        """The chance of moving on to later states, given each state, when it is eliminated.
 
-        It is 0 where no flow has come so far, be it for want of arcs or by underflow.
+        It is 0 where no flow has arrived so far, for want of arcs or by underflow.
         """
         pivots = np.zeros(self._pieces[-1].last)
         for piece in self._pieces:
@@ -176,7 +176,7 @@ class Factorisation:
 
 
 def _runs(offsets: Places) -> list[Places]:
-    """Cut the classes into runs: each large class alone, small ones between them together."""
+    """Cut the classes into runs: each large class alone, the small ones between them together."""
     large = np.flatnonzero(np.diff(offsets) > SMALL)
     if not len(large):
         return [offsets]
