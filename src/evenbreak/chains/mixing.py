@@ -1,7 +1,7 @@
 """How fast a chain forgets where it started: the spectral gap and the mixing time.
 
-    gap = 1 - max |lambda| over the eigenvalues off the unit circle,
-    mixing time = the first n with sum |M^n v - limit of v| / 2 <= eps from every start v.
+    gap = 1 - the largest modulus of an eigenvalue off the unit circle,
+    mixing time = the first n at which M^n v is within eps of its limit from every start v.
 
 The transition matrix is block triangular in its classes, so its eigenvalues are those of
 the classes, each found by the method that suits it: the self-loop of a single state; for a
