@@ -114,7 +114,7 @@ class Chain:
             if a state is unknown, no start is known, or the density has a negative entry
             or does not sum to 1 within 1e-9.
         """
-        v = self.vector(self._own_start() if start is None else start, "the start density")
+        v = self.vector(self._own_start() if start is None else start, "start")
         if (v < 0.0).any():
             state = self.states[int(np.flatnonzero(v < 0.0)[0])]
             raise ChainError(
@@ -153,8 +153,9 @@ class Chain:
         else:
             v[self._search(given)] = 1.0
         if not np.isfinite(v).all():
-            state = self.states[int(np.flatnonzero(~np.isfinite(v))[0])]
-            raise ChainError(f"{name} of state {state!r} is not finite; give finite numbers")
+            first = int(np.flatnonzero(~np.isfinite(v))[0])
+            held = f"{float(v[first])!r} for state {self.states[first]!r}"
+            raise ChainError(f"{name} holds {held}; give finite numbers")
         return v
 
     def _own_start(self) -> Hashable:

@@ -122,7 +122,7 @@ def _expected_reward(
         per_state = {}
     elif not isinstance(per_state, Mapping):
         per_state = np.asarray(per_state, dtype=float)
-    reward = chain.vector(per_state, "the reward")
+    reward = chain.vector(per_state, "per_state")
     for (source, target), amount in (per_arc or {}).items():
         j, i = chain.index(source), chain.index(target)
         chance = float(chain.matrix[i, j])

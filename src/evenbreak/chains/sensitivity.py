@@ -167,7 +167,7 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     >>> round(share.value, 12), round(share[1, 1], 12)
     (0.666666666667, 0.888888888889)
     """
-    c = chain.vector(weights, "the weight")
+    c = chain.vector(weights, "weights")
     structure, part = chain.structure, chain.transient
     recurrent = structure.recurrent
     limit = stochastic_limit(chain, start)
