@@ -46,23 +46,29 @@ def oneball_answer(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite")
     >>> from evenbreak.practice import ShotChoice
     >>> print(oneball_answer([ShotChoice("1", 0.4, 0.8), ShotChoice("2", 0.3, 0.3)]).sentences[0])
     Take shot 2: you win 59 % of the time, against 45 % with shot 1.
-    Shot 2 is the best as long as a miss leaves a chance below 0.5143.
+    Shot 2 stays the best as long as it leaves the opponent a chance below 0.5143.
     """
     ranked = compare_shots(shots, look_ahead=look_ahead)
     (other,) = (name for name in _SUPPOSED if name != look_ahead)
     otherwise = compare_shots(shots, look_ahead=other)
-    alone = ranked[0].shot
+    shot = ranked[0].shot
+    heading = (
+        f"You make the shot with probability {shot.p1:g}; if you miss, the opponent makes theirs "
+        f"with {shot.p2:g}"
+    )
+    words = "'Even at': the chance left by a miss that makes the game even."
+    if len(ranked) > 1:
+        heading = f"You shoot first and have {count_of(len(ranked), 'shot')} to choose from"
+        words = (
+            f"Ranked by your chance {_SUPPOSED[look_ahead]}. {words} 'Best up to': the chance left "
+            "by a miss below which the shot is the best."
+        )
     return Answer(
-        f"You shoot first and have {count_of(len(ranked), 'shot')} to choose from"
-        if len(ranked) > 1
-        else f"You make the shot with probability {alone.p1:g}; if you miss, the opponent makes "
-        f"theirs with {alone.p2:g}",
+        heading,
         [
             _advice(ranked, otherwise, _SUPPOSED[other]),
             Table("shots", _COLUMNS, [_row(one) for one in ranked]),
-            f"Ranked by your chance {_SUPPOSED[look_ahead]}. 'Even at': the chance left by a miss "
-            "that makes the game even. 'Best up to': the chance left by a miss below which the "
-            "shot is the best.",
+            words,
         ],
         data={"look_ahead": look_ahead},
     )
@@ -103,12 +109,12 @@ def _advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot], suppo
     name, second = best.shot.name, ranked[1]
     text = (
         f"Take shot {name}: {wins}, against {percent(second.win)} with shot {second.shot.name}.\n"
-        f"Shot {name} is the best "
+        f"Shot {name} stays the best "
     )
     if best.turning_p2 is None:
-        text += "whatever a miss leaves."
+        text += "whatever it leaves."
     else:
-        text += f"as long as a miss leaves a chance below {chance(best.turning_p2)}."
+        text += f"as long as it leaves the opponent a chance below {chance(best.turning_p2)}."
     if next(one for one in otherwise if one.shot is best.shot).behind > SAME:
         text += f"\nBut {supposed}, shot {otherwise[0].shot.name} is better."
     return text
