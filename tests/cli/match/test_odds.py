@@ -236,8 +236,8 @@ def test_a_person_at_a_terminal_reads_text():
         ("612 521 --scale 0 --race 7:5", "'0'"),
         ("--p1 0.5 --p2 0.5 --breaks me --race 7:5", "'winner'"),
         ("--p 0.5 --race 7:7 --win-by 0", "win-by"),
-        ("--p 0.5 --race 3:3 --win-by 101", "with about "),
-        ("--p 0.5 --race 30:30 --set 30:30", "with about "),
+        ("--p 0.5 --race 3:3 --win-by 101", "can still come to"),
+        ("--p 0.5 --race 30:30 --set 30:30", "can still come to"),
     ],
 )
 def test_wrong_use(refused, line, named):

@@ -11,11 +11,10 @@ from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.players import player_options, players_of
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import SCORE, refuse
-from evenbreak.cli.match.what_is_played import MOST_SCORES, match_of, match_options
+from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
-    from evenbreak.games.match import Match
 
 EXAMPLES = """\b
 Examples:
@@ -81,28 +80,10 @@ def command(
         refuse("--set-score is the score of a set, and there is no --set; leave it out")
     if plot is not None and not racks:
         refuse("--plot draws the match as it went; give --racks, such as abbab")
-    _refuse_giants(match)
+    refuse_giants(match)
     odds = live_odds(match, racks, set_score=set_score)
     if plot is not None:
         from evenbreak.plots.live_match import plot_course
 
         write_plot(plot_course(odds), plot)
     return live_answer(players, match, odds, comebacks=table)
-
-
-def _refuse_giants(match: Match) -> None:
-    """Refuse a match that would take minutes."""
-    from evenbreak.answers.odds import match_words
-
-    win_by = getattr(match, "win_by", 0)
-    left = [
-        max(need - has, win_by, 1)
-        for need, has in zip((match.m, match.n), match.score, strict=True)
-    ]
-    scores = left[0] * left[1] if win_by else match.m + match.n
-    scores *= getattr(match.rack, "m", 1) * getattr(match.rack, "n", 1)
-    if scores > MOST_SCORES:
-        refuse(
-            f"{match_words(match)} can still come to about {scores:,} scores; ask for a match "
-            f"with at most {MOST_SCORES:,}, or see evenbreak odds"
-        )

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from evenbreak.games.match import Match
 
 MOST_SCORES = 10_000
-"""The most scores of a match other than the plain race, so that every answer takes seconds."""
+"""The most scores that a match may still come to, so that every answer takes seconds."""
 
 
 def match_options(command: Command) -> Command:
@@ -82,3 +82,21 @@ def match_of(
         refuse("the match is missing; give --race M:N or --ahead M:N")
     m, n = race
     return Race(m, n, rack, breaks=breaks, first_breaker=first, score=start, win_by=win_by or 1)
+
+
+def refuse_giants(match: Match) -> None:
+    """Refuse a match that can still come to so many scores that it would take minutes."""
+    from evenbreak.answers.odds import match_words
+
+    win_by = getattr(match, "win_by", 0)
+    left = [
+        max(need - has, win_by, 1)
+        for need, has in zip((match.m, match.n), match.score, strict=True)
+    ]
+    scores = left[0] * left[1] if win_by else match.m + match.n
+    scores *= getattr(match.rack, "m", 1) * getattr(match.rack, "n", 1)
+    if scores > MOST_SCORES:
+        refuse(
+            f"{match_words(match)} can still come to about {scores:,} scores; ask for a match "
+            f"with at most {MOST_SCORES:,}"
+        )
