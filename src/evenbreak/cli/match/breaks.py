@@ -52,7 +52,7 @@ Examples:
     type=click.Choice(["a", "b"]),
     default="a",
     show_default=True,
-    help="Who breaks the first rack; it matters only where the break never passes on.",
+    help="Who breaks the first rack; it matters only if the break never passes on.",
 )
 @plot_option
 @faces()
