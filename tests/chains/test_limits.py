@@ -303,12 +303,12 @@ class TestMapping:
     limit = stochastic_limit(chain)
 
     def test_all_at_once(self):
-        told = {"rack": 0.0, "won": 0.75, "lost": 0.25}
-        assert dict(self.limit) == told == self.limit
+        listed = {"rack": 0.0, "won": 0.75, "lost": 0.25}
+        assert dict(self.limit) == listed == self.limit
         assert list(self.limit) == ["rack", "won", "lost"]
         assert len(self.limit) == 3
         assert list(self.limit.values()) == [0.0, 0.75, 0.25]
-        assert self.limit.to_dict() == told
+        assert self.limit.to_dict() == listed
 
     def test_one_by_one(self):
         assert "won" in self.limit
