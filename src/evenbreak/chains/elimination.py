@@ -53,8 +53,6 @@ class Elimination:
         heapq.heapify(heap)
         # (state, its pivot, arcs to and from the states that are eliminated later)
         self.steps: list[tuple[int, Any, dict[int, Any], dict[int, Any]]] = []
-        self.stays: dict[int, Any] = {}
-        """States that no path leaves, with True, or where that is so in arrays of chances."""
         done = [False] * len(leak)
         while heap:
             cost, k = heapq.heappop(heap)
@@ -69,10 +67,7 @@ class Elimination:
                     f"these {len(leak)} states span more decades than floats do, and are too "
                     "many to eliminate in decimal numbers; split the chain or scale its arcs"
                 )
-            pivot = sum(out.values(), leak[k])
-            stays = pivot == 0
-            if stays is True or (stays is not False and stays.any()):
-                self.stays[k], pivot = stays, pivot + stays
+            pivot = self.pivot(k, sum(out.values(), leak[k]))
             self.steps.append((k, pivot, out, back))
             for i in out:
                 del into[i][k]
@@ -86,6 +81,10 @@ class Elimination:
                         row[i] = into[i][j] = row.get(i, 0) + share * onward
             for j in out.keys() | back.keys():
                 heapq.heappush(heap, (len(arcs[j]) * len(into[j]), j))
+
+    def pivot(self, k: int, outflow: Any) -> Any:  # noqa: ARG002
+        """Return what to divide by for state k, given what leaves it."""
+        return outflow
 
     @property
     def pivots(self) -> list[Any]:

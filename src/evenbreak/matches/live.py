@@ -15,10 +15,10 @@ from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
-from evenbreak.matches.elimination import NEVER, ScoreChain
 from evenbreak.matches.parameters import checked_match
 from evenbreak.matches.rack_by_rack import racks_within
 from evenbreak.matches.rack_graph import breaker_in, rack_moves
+from evenbreak.matches.score_chain import NEVER, ScoreChain
 
 _LONGEST = 100_000
 """Racks after which a length that is not reached is given up."""

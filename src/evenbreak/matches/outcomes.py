@@ -19,8 +19,8 @@ from typing import Any, NamedTuple
 
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
-from evenbreak.matches.elimination import NEVER, ScoreChain, ratio
 from evenbreak.matches.parameters import first_breaker
+from evenbreak.matches.score_chain import NEVER, ScoreChain, ratio
 
 
 class Outcome(NamedTuple):

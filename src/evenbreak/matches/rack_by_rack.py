@@ -1,11 +1,11 @@
-"""Within how many racks a match ends, with a given chance, from any of its states.
+"""Within how many racks a match ends with a given probability, from any of its states.
 
-P(the match still goes on after k + 1 racks), given the state now, is the mean of P(it still
-goes on after k racks) over the states that the next rack leads to. A short match is worked out
-in plain Python, a longer one in a sparse matrix. A very long one is worked out in powers of
-two: the matrix of a rack is squared again and again, so 2^j racks cost j products. Each row,
-the chance of having ended included, is scaled to sum to 1 after every product: rounding then
-cannot add up to an end that is not there.
+P(the match is still going on after k + 1 racks), given the state now, is the mean of P(it is
+still going on after k racks) over the states that the next rack leads to. Short matches are
+worked out in plain Python, longer ones with a sparse matrix. For very long ones the matrix of a
+rack is squared again and again, so 2^j racks cost j products. After every product each row is
+scaled so that it sums to 1 together with the probability of having ended; otherwise rounding
+would add up to an end that is not there.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ Moves = Mapping[Hashable, Sequence[tuple[Hashable, float]]]
 _Arcs = list[list[tuple[int, float]]]
 
 _PATIENCE = 100_000
-"""Moves of mass after which scipy is loaded to go on with."""
+"""After this many additions in plain Python it is quicker to load scipy."""
 _LONGEST = 100_000
-"""Racks that are played one by one, of a match with too many states for powers of two."""
+"""The most racks that are played one by one, in a match with many states."""
 _MOST_STATES = 1_000
-"""With more states the dense products take longer than playing rack by rack."""
+"""With more states than this, dense products take longer than playing rack by rack."""
 _MOST_DOUBLINGS = 1_100
-"""Within 2^1100 racks even what has the chance of the smallest float has happened."""
+"""Within 2^1100 racks even an event as unlikely as the smallest float has happened."""
 
 
 def racks_within(
@@ -36,18 +36,18 @@ def racks_within(
     Parameters
     ----------
     moves
-        for each state that goes on, the next states with their chances; states that are
+        for each state that goes on, the next states with their probabilities; states that are
         not listed are final.
     asked
-        states, each with a chance q.
+        states, each with a probability q.
     never
-        P(the match never ends), by state; 0 where it is not listed.
+        P(the match never ends), by state; 0 for states that are not listed.
 
     Returns
     -------
     list of int or None
-        None where the match never ends with that chance, or only after more than 100,000
-        racks of a match with more than 1,000 states.
+        None if the match never ends with that probability, or if it takes more than 100,000
+        racks and has more than 1,000 states.
 
     >>> moves = {"on": [("on", 0.9), ("over", 0.1)]}
     >>> racks_within(moves, [("on", 0.1), ("on", 0.5), ("over", 0.9)], {})
@@ -81,7 +81,7 @@ def racks_within(
 
 
 def _still_going_on(arcs: _Arcs) -> Iterator[Any]:
-    """Yield P(the match goes on after k racks), by the place of the state now; k = 1, 2, ..."""
+    """Yield P(the match is still going on after k racks) for each state now, for k = 1, 2, ..."""
     left: Any = [1.0] * len(arcs)
     for _ in range(_PATIENCE // len(arcs)):
         left = [sum(chance * left[k] for k, chance in row) for row in arcs]
@@ -102,7 +102,7 @@ def _still_going_on(arcs: _Arcs) -> Iterator[Any]:
 def _by_doubling(
     arcs: _Arcs, moves: Moves, levels: Sequence[tuple[int, float]]
 ) -> list[int | None]:
-    """Return the least numbers of racks for each (place of a state, chance)."""
+    """Return the smallest number of racks for each (place of a state, probability)."""
     import numpy as np
 
     stay = np.zeros((len(arcs), len(arcs)))
@@ -124,7 +124,7 @@ def _by_doubling(
 
 
 def _least_racks(powers: list[Any], density: Any, q: float) -> int:
-    """Return one more than the most racks within which the match has not ended with chance q."""
+    """Return the smallest number of racks within which the match has ended with probability q."""
     racks, ended = 0, 0.0
     for j in range(len(powers) - 1, -1, -1):
         stay, end = powers[j]

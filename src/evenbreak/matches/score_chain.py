@@ -1,4 +1,4 @@
-"""What follows from each score of a match, by elimination of scores.
+"""The chain of a match's scores: what follows from each of them, by elimination of states.
 
 Only positive numbers are added, multiplied and divided (see `evenbreak.chains.elimination`), so
 every answer keeps its relative accuracy however long play goes on. All values may be floats or
@@ -13,7 +13,7 @@ from typing import Any
 from evenbreak.chains.elimination import Elimination
 
 NEVER = "never"
-"""Where play goes that can neither end nor leave a set of states."""
+"""The final state of play that can neither end nor leave a set of states."""
 
 
 def ratio(x: Any, y: Any) -> Any:
@@ -30,14 +30,30 @@ def ratio(x: Any, y: Any) -> Any:
     return np.divide(x, y, out=np.zeros(y.shape), where=y > 0.0)
 
 
+class _Elimination(Elimination):
+    """Elimination of states, some of which may never be left; for arrays, at some places only."""
+
+    def __init__(self, arcs: list[dict[int, Any]], leaks: list[Any]) -> None:
+        self.stays: dict[int, Any] = {}
+        super().__init__(arcs, leaks)
+
+    def pivot(self, k: int, outflow: Any) -> Any:
+        """Return the outflow, and 1 where it is 0, which is kept in `stays`."""
+        stays = outflow == 0.0
+        if stays is True or (stays is not False and stays.any()):
+            self.stays[k] = stays
+            return outflow + stays
+        return outflow
+
+
 class ScoreChain:
     """The absorbing chain of a match's scores, solved for any rewards.
 
     Parameters
     ----------
     rows
-        for each state that is not final, the probability of each next state; states
-        without a row are final.
+        for each state that is not final, the probability of each next state, with the start
+        first; states without a row are final.
 
     >>> walk = ScoreChain({0: {1: 0.5, -1: 0.5}, 1: {2: 0.5, 0: 0.5}})
     >>> round(walk.solve({2: 1.0})[0], 12)
@@ -45,6 +61,7 @@ class ScoreChain:
     """
 
     def __init__(self, rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> None:
+        # The states farthest from the start first, so that ties are eliminated from the ends.
         self._place = {state: k for k, state in enumerate(reversed(rows))}
         self._ends: list[dict[Hashable, Any]] = []
         among: list[dict[int, Any]] = []
@@ -52,7 +69,7 @@ class ScoreChain:
             row = {t: chance for t, chance in rows[state].items() if t != state}
             self._ends.append({t: chance for t, chance in row.items() if t not in self._place})
             among.append({self._place[t]: chance for t, chance in row.items() if t in self._place})
-        self._factor = Elimination(among, [sum(row.values(), 0.0) for row in self._ends])
+        self._factor = _Elimination(among, [sum(row.values(), 0.0) for row in self._ends])
 
     def solve(
         self,
@@ -64,10 +81,10 @@ class ScoreChain:
         Parameters
         ----------
         final
-            the reward of each final state, paid once; 0 where it is not listed.
+            the reward of each final state, paid once; 0 for states that are not listed.
             `NEVER` stands for play that does not end.
         reward
-            the reward of each visit of a state that is not final.
+            the reward of each visit to a state that is not final.
 
         Returns
         -------
