@@ -98,10 +98,10 @@ class Elimination:
         """Return x = (I - T)^-1 b: the expected visits to each state from the density b."""
         x = list(b)
         for k, pivot, out, _ in self.steps:
-            if not _is_nothing(x[k]):
+            if x[k]:
                 share = x[k] / pivot
                 for i, chance in out.items():
-                    x[i] = x[i] + share * chance
+                    x[i] += share * chance
         for k, pivot, _, back in reversed(self.steps):
             x[k] = sum((chance * x[j] for j, chance in back.items()), x[k]) / pivot
         return x
@@ -120,4 +120,5 @@ class Elimination:
 
 
 def _is_nothing(value: Any) -> bool:
+    """Return whether a number is 0; an array never counts as nothing."""
     return not hasattr(value, "shape") and not value
