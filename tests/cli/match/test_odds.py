@@ -206,7 +206,7 @@ def test_a_person_at_a_terminal_reads_text():
         ("612 521", "--race"),
         ("612 521 --race 7:7 --ahead 2:2", "--ahead"),
         ("612 --race 7:7", "given, 612;"),
-        ("1 2 3 --race 7:7", "1, 2, 3"),
+        ("1 2 3 --race 7:7", "1 2 3"),
         ("--race 7:7", "--breaks"),
         ("612 521 --p 0.5 --race 7:7", "given twice"),
         ("--p 0.5 --p1 0.5 --p2 0.5 --breaks winner --race 7:7", "given twice"),

@@ -109,8 +109,8 @@ def test_plot(run, tmp_path, line, name):
     ("line", "named"),
     [
         ("9 4", "--points"),
-        ("9 --points 5", "1 average(s) given, 9"),
-        ("9 4 3 --points 5", "3 average(s) given, 9, 4, 3"),
+        ("9 --points 5", "averages are 9;"),
+        ("9 4 3 --points 5", "9 4 3"),
         ("--points 5", "--p1 and --p2"),
         ("--p1 .5 --points 5", "--p1 and --p2"),
         ("9 4 --p1 .5 --points 5", "given twice"),

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
 
 AVERAGE = Number(0, MOST_BALLS, f" is no average; give balls an inning from 0 to {MOST_BALLS}")
-MEND = "give two averages A B, or --p1 and --p2"
+REMEDY = "give two averages A B, or --p1 and --p2"
 
 EXAMPLES = """\b
 Examples:
@@ -67,14 +67,14 @@ def command(
 
     shots: list[Fraction | float]
     if averages and (p1 is not None or p2 is not None):
-        refuse(f"the players are given twice; {MEND}")
+        refuse(f"the players are given twice; {REMEDY}")
     if averages:
         if len(averages) != 2:
-            given = ", ".join(f"{average:g}" for average in averages)
-            refuse(f"{len(averages)} average(s) given, {given}; {MEND}")
+            given = " ".join(f"{average:g}" for average in averages)
+            refuse(f"the averages are {given}; {REMEDY}")
         shots = [shot_chance(average, safety) for average in averages]
     elif p1 is None or p2 is None:
-        refuse(f"the players are missing; {MEND}")
+        refuse(f"the players are missing; {REMEDY}")
     else:
         shots = [p1, p2]
     match = StraightPool(
