@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.answers.fair_pairs import NOT_LINKED, RaceLimits
+from evenbreak.answers.fair_pairs import NOT_LINKED
+from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
 from evenbreak.files.problems import Problems, quoted
 from evenbreak.files.roster import RosterFile
@@ -34,8 +35,8 @@ Ints = NDArray[np.int64]
 FAIR_WITHIN = 0.1
 """How far from 1/2 the chance of a fair race may be."""
 
-NEW = ("A is new", "B is new", "A and B are new")
-"""The notes on pairs with players who have no games yet."""
+NOT_FAIR = "no race allowed is fair"
+"""How the note begins on a pair whose fairest race is not within `FAIR_WITHIN`."""
 
 
 def all_pairs(roster: Roster) -> Ints:
@@ -149,7 +150,7 @@ def roster_matchups(
     *,
     scale: Scale,
     chart: Chart | LevelChart | None = None,
-    limits: RaceLimits | None = None,
+    offered: OfferedRaces | None = None,
     minutes_per_game: float | None = None,
 ) -> RosterMatchups:
     """Return the races of pairs of players, and what each comes to.
@@ -165,8 +166,8 @@ def roster_matchups(
         what the points mean.
     chart
         the league's chart. It is asked with ratings that are rounded to whole points.
-    limits
-        among which races the fairest is sought.
+    offered
+        the races among which the fairest is sought.
     minutes_per_game
         how long a game takes; None: no minutes.
 
@@ -176,8 +177,8 @@ def roster_matchups(
         its frame has player_a, player_b; difference of the ratings and difference_error, its
         standard error (none where it is stated for neither), in points; p_game_a and
         p_game_a_plug_in; with a chart the columns chart_race_a, chart_race_b, chart_p_win_a,
-        chart_p_win_a_plug_in, chart_unfairness, chart_mean_games, chart_games_p90; with limits
-        race_a, race_b, p_win_a, p_win_a_plug_in, mean_games, games_p90; with minutes also
+        chart_p_win_a_plug_in, chart_unfairness, chart_mean_games, chart_games_p90; with offered
+        races race_a, race_b, p_win_a, p_win_a_plug_in, mean_games, games_p90; with minutes also
         mean_minutes and minutes_p90 of each; note. A chance is conditional on the ratings and
         their errors, that of the race averaged over them; a plug-in chance on the ratings
         being right. The unfairness is the distance of the chance from 1/2.
@@ -185,13 +186,13 @@ def roster_matchups(
     Raises
     ------
     InputError
-        if there is neither a chart nor limits, a player has no rating, or the chart has no
+        if neither a chart nor races are offered, a player has no rating, or the chart has no
         such level.
     """
     import pandas as pd
 
-    if chart is None and limits is None:
-        raise InputError("chart and limits are missing; give one of them at least")
+    if chart is None and offered is None:
+        raise InputError("chart and offered are missing; give one of them at least")
     if np.isnan(roster.rating).any():
         raise InputError("roster has players without a rating; fill them in by with_starters")
     a, b = pairs[:, 0], pairs[:, 1]
@@ -211,8 +212,8 @@ def roster_matchups(
     if chart is not None:
         by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
         columns |= _columns("chart_", by_chart, minutes_per_game)
-    if limits is not None:
-        found = fairest_races(gap, error, games=limits.games, race_to=limits.race_to, scale=scale)
+    if offered is not None:
+        found = fairest_races(gap, error, games=offered.games, race_to=offered.race_to, scale=scale)
         best = Races.of(gap, error, *found, scale)
         columns |= _columns("", best, minutes_per_game)
     everyone = {
@@ -273,9 +274,9 @@ def _notes(roster: Roster, pairs: Ints, linked: NDArray[np.bool_], best: Races |
         chances = np.full(len(pairs), 0.5)
         chances[linked] = best.p_win
         for row in np.flatnonzero(np.abs(chances - 0.5) > FAIR_WITHIN).tolist():
-            notes[row].append(f"no race allowed is fair: the nearest gives A {chances[row]:.2f}")
+            notes[row].append(f"{NOT_FAIR}: the nearest gives A {chances[row]:.2f}")
     new = roster.games == 0
     for row in np.flatnonzero(new[pairs].any(axis=1)).tolist():
         a, b = new[pairs[row]]
-        notes[row].append(NEW[2] if a and b else NEW[0] if a else NEW[1])
+        notes[row].append("A and B are new" if a and b else f"{'A' if a else 'B'} is new")
     return ["; ".join(note) for note in notes]

@@ -33,13 +33,23 @@ def to_csv(frame: pd.DataFrame, *, excel: bool = False) -> bytes:
     >>> to_csv(frame)
     b"player,p_win_a\nAnn,0.500000\n'=1+1,0.000000\n"
     """
-    columns = [
-        column.astype(object).where(column.notna(), None).tolist() for _, column in frame.items()
-    ]
-    lines = csv_lines(list(map(str, frame.columns)), zip(*columns, strict=True))
+    lines = csv_lines(list(map(str, frame.columns)), rows_of(frame))
     if excel:
         return "".join(f"{line[:-1]}\r\n" for line in lines).encode("utf-8-sig")
     return "".join(lines).encode()
+
+
+def rows_of(frame: pd.DataFrame) -> list[tuple[Any, ...]]:
+    """Return the rows of a frame as plain values, None where one is missing.
+
+    >>> import pandas as pd
+    >>> rows_of(pd.DataFrame({"player": ["Ann", "Bo"], "rating": [92.5, float("nan")]}))
+    [('Ann', 92.5), ('Bo', None)]
+    """
+    columns = [
+        column.astype(object).where(column.notna(), None).tolist() for _, column in frame.items()
+    ]
+    return list(zip(*columns, strict=True))
 
 
 def csv_lines(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Iterator[str]:

@@ -61,6 +61,10 @@ class Paper:
         # Half the height of a figure: matplotlib's own centring moves with the letters.
         self.text(x, y + 0.365 * size / POINTS, text, size=size, **{"ha": "center", **style})
 
+    def slanted(self, x: float, y: float, text: str, *, size: float, angle: float) -> None:
+        """Write text that begins at (x, y) and rises by an angle in degrees."""
+        self.text(x, y, text, size=size, rotation=angle, rotation_mode="anchor")
+
     def line(self, x: Sequence[float], y: Sequence[float], **style: Any) -> None:
         """Draw a line through points; `style` is that of matplotlib's lines."""
         self._axes.plot(x, y, **{"color": "black", "lw": 0.5, **style})

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 Function = Callable[..., "Answer"]
 
 
-def faces(*, page: bool = True, always_text: bool = False) -> Callable[[Function], Function]:
+def faces(
+    *, page: bool = True, always_text: bool = False, ask_face: bool = False
+) -> Callable[[Function], Function]:
     """Return a decorator that prints the `Answer` of a command, as its options ask.
 
     Parameters
@@ -27,14 +29,19 @@ def faces(*, page: bool = True, always_text: bool = False) -> Callable[[Function
         option `--html` of its own.
     always_text
         whether a pipe gets text too, as the answer's tables are written to files.
+    ask_face
+        whether the command is given the face (text, csv or json) as `face`, because it refuses
+        some questions for some faces.
     """
 
     def decorate(function: Function) -> Function:
         def run(
             *, face: str | None, verbose: bool, page_file: str | None = None, **options: Any
         ) -> None:
-            answer = function(**options)
             chosen = face or ("text" if always_text or to_terminal() else "csv")
+            if ask_face:
+                options["face"] = chosen
+            answer = function(**options)
             print_answer(answer, chosen, verbose=verbose)
             if page_file is not None:
                 _write_page(answer, page_file)

@@ -1,0 +1,222 @@
+"""The fair-race sheet on paper: the race against each opponent, and each rating, to pin up."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.answers.left_out import left_out
+from evenbreak.answers.report_frames import file_name
+from evenbreak.answers.sheet import Sheet
+from evenbreak.answers.sheet_words import (
+    about_ratings,
+    how_even,
+    how_rated,
+    how_to_read,
+    played,
+    source_and_dates,
+    version_and_source,
+)
+from evenbreak.sheets.pdf_layout import (
+    GAP,
+    HEADING,
+    LARGEST,
+    MOST_ON_A_PAGE,
+    SLANT,
+    Layout,
+    layout_of,
+    rating_text,
+    slanted_name,
+)
+from evenbreak.sheets.pdf_page import (
+    HEIGHT,
+    MARGIN,
+    POINTS,
+    UNKNOWN,
+    WIDTH,
+    Paper,
+    drawable,
+    pdf_bytes,
+    shortened,
+)
+from evenbreak.sheets.race_blocks import Block, parts_of, race_blocks
+from evenbreak.sheets.rating_bars import Bars, PlayerLine, Tick, player_lines
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MOST_PAIRED = 48
+"""Players that are put on paper; the files hold all."""
+
+SMALL, LEADING = 8.0, 1.45
+"""The size of notes, in points, and the height of a line of text for each point."""
+
+
+def sheet_pdf(sheet: Sheet) -> bytes:
+    """Return the sheet as a PDF document, the same bytes every time."""
+    return pdf_bytes(sheet_pages(sheet), f"Fair races from {file_name(sheet.file)}")
+
+
+def sheet_pages(sheet: Sheet) -> list[Figure]:
+    """Return the sheet as pages of A4, to be printed.
+
+    Each line is a player: the fairest race against each opponent, the rating, and a bar of
+    two standard errors of it either way. A league too large for a page is cut into blocks,
+    each a page; of more than 48 paired players the 48 strongest are on paper. White squares
+    stand for letters that the font lacks.
+
+    >>> from evenbreak.answers.offered_races import OfferedRaces
+    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
+    >>> len(sheet_pages(Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2])))
+    1
+    """
+    shown = sheet.strongest(MOST_PAIRED)
+    bars = Bars(shown.listed)
+    lines = player_lines(shown.listed, sheet.ratings.scale, bars, grouped=False)
+    notes = _broken([*_notes(sheet, shown), *_about_names(lines, len(sheet.rated))])
+    room = HEIGHT - 2 * MARGIN - HEADING - len(notes) * LEADING * SMALL / POINTS
+    layout = layout_of(lines, shown.races, room)
+    blocks = [
+        (down, block)
+        for down in parts_of(lines, MOST_ON_A_PAGE)
+        for block in race_blocks(lines, shown.races, layout.columns)
+    ]
+    pages = []
+    for number, (down, block) in enumerate(blocks, 1):
+        page = Paper()
+        _heading(page, sheet, shown)
+        bottom = _Table(page, layout, down, block, bars.ticks()).draw()
+        _lines(page, bottom + 0.42, notes)
+        if len(blocks) > 1:
+            text = f"page {number} of {len(blocks)}"
+            page.text(WIDTH - MARGIN, HEIGHT - MARGIN, text, size=SMALL, ha="right")
+        pages.append(page.figure)
+    return pages
+
+
+def _heading(page: Paper, sheet: Sheet, shown: Sheet) -> None:
+    page.text(MARGIN, MARGIN + 0.22, "Fair races", size=22, bold=True)
+    lines = [f"{source_and_dates(sheet)}. {played(sheet)}", sheet.offered.in_words]
+    for k, line in enumerate(lines):
+        text = shortened(line, 10.0, WIDTH - 2 * MARGIN)
+        page.text(MARGIN, MARGIN + 0.5 + 0.2 * k, text, size=10.0)
+    page.text(MARGIN, MARGIN + 0.93, how_to_read(shown.paired), size=LARGEST, bold=True)
+
+
+def _notes(sheet: Sheet, shown: Sheet) -> Iterator[str]:
+    yield " ".join(how_even(shown.paired))
+    yield " ".join([*about_ratings(sheet), how_rated(sheet)])
+    if items := list(left_out(sheet, in_table=len(shown.listed))):
+        yield f"Left out: {'; '.join(item.heading for item in items)}."
+    yield version_and_source(sheet)
+
+
+def _about_names(lines: Sequence[PlayerLine], rated: int) -> Iterator[str]:
+    if rated > len(lines):
+        yield f"The number beside a name is its place among all {rated:,} players."
+    if any(UNKNOWN in drawable(line.name) for line in lines):
+        yield (
+            f"{UNKNOWN} is a letter that the font of this page lacks; the number beside a name "
+            "is its row in ratings.csv, which has it whole."
+        )
+
+
+def _broken(notes: Sequence[str]) -> list[str]:
+    """Return notes as lines, those that are wider than the page broken."""
+    letters = int((WIDTH - 2 * MARGIN) * POINTS / SMALL / 0.58)
+    return [part for note in notes for part in textwrap.wrap(note, letters)]
+
+
+def _lines(page: Paper, y: float, lines: Sequence[str]) -> None:
+    for k, line in enumerate(lines):
+        page.text(MARGIN, y + k * LEADING * SMALL / POINTS, line, size=SMALL)
+
+
+@dataclass(frozen=True)
+class _Table:
+    """The part of the sheet that is on one page: some players against some others."""
+
+    page: Paper
+    layout: Layout
+    down: Sequence[PlayerLine]
+    block: Block
+    ticks: Sequence[Tick]
+
+    def draw(self) -> float:
+        """Draw it all, and return where the table ends."""
+        layout, end = self.layout, self._bars[1]
+        for k in range(0, len(self.down), 2):
+            top = layout.top + k * layout.row
+            self.page.band(MARGIN, top, end - MARGIN, layout.row, grey="0.945")
+        self._draw_names()
+        self._draw_races()
+        self._draw_ratings()
+        return self._bottom
+
+    @property
+    def _bottom(self) -> float:
+        return self.layout.top + self.layout.row * len(self.down)
+
+    @property
+    def _bars(self) -> tuple[float, float]:
+        return self.layout.bars(len(self.block.across))
+
+    def _middles(self) -> Iterator[tuple[float, PlayerLine]]:
+        for k, line in enumerate(self.down):
+            yield self.layout.top + (k + 0.5) * self.layout.row, line
+
+    def _draw_names(self) -> None:
+        layout, page = self.layout, self.page
+        look: dict[str, Any] = {"size": layout.text_size}
+        for y, line in self._middles():
+            x = MARGIN + layout.place
+            page.centred(x, y, str(line.place), ha="right", color="0.35", **look)
+            name = shortened(line.name, layout.text_size, layout.name)
+            page.centred(x + GAP, y, name, ha="left", **look)
+        for column, line in enumerate(self.block.across):
+            x = layout.left + (column + 0.5) * layout.cell + 0.03
+            size = layout.slant_size
+            page.slanted(x, layout.top - 0.06, slanted_name(line, size), size=size, angle=SLANT)
+
+    def _draw_races(self) -> None:
+        layout, page = self.layout, self.page
+        races = dict(self.block.rows)
+        for y, line in self._middles():
+            for column, race in enumerate(races[line]):
+                x = layout.left + column * layout.cell
+                if race is None:
+                    page.band(x, y - layout.row / 2, layout.cell, layout.row, grey="0.78")
+                else:
+                    page.centred(x + layout.cell / 2, y, race, size=layout.race_size)
+        right = layout.right(len(self.block.across))
+        for k in range(len(self.down) + 1):
+            y = layout.top + k * layout.row
+            page.line([layout.left, right], [y, y], color="0.55", lw=0.4)
+        for column in range(len(self.block.across) + 1):
+            x = layout.left + column * layout.cell
+            page.line([x, x], [layout.top, self._bottom], color="0.55", lw=0.4)
+
+    def _draw_ratings(self) -> None:
+        layout, page = self.layout, self.page
+        start, end = self._bars
+
+        def place(at: float) -> float:
+            return start + (end - start) * at / 100
+
+        for tick in self.ticks:
+            page.line([place(tick.at)] * 2, [layout.top, self._bottom], color="0.75")
+            page.centred(place(tick.at), self._bottom + 0.1, tick.label, size=SMALL)
+        for y, line in self._middles():
+            size = layout.text_size
+            text = shortened(rating_text(line), size, layout.rating)
+            page.centred(start - GAP, y, text, size=size, ha="right")
+            ends = [place(line.low), place(line.high)]
+            page.line(ends, [y, y], color="0.45", lw=2.2, solid_capstyle="butt")
+            page.line([place(line.middle)], [y], marker="o", ms=4.5)
+        for k, text in enumerate(("bar: two of them either way", "rating ± standard error")):
+            page.text(end, layout.top - 0.06 - 0.15 * k, text, size=SMALL, ha="right")
