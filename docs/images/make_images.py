@@ -7,10 +7,10 @@ from itertools import accumulate
 from pathlib import Path
 
 import networkx as nx
+from evenbreak.answers.frames import ratings_frame
 from matplotlib.figure import Figure
 
 from evenbreak.answers.fair_pairs import RaceLimits, matchups_frame, most_active
-from evenbreak.answers.frames import ratings_frame
 from evenbreak.files.results import read_results
 from evenbreak.games import Ahead, OneBall, Race, Rack
 from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling

@@ -57,6 +57,12 @@ def test_dollars_and_backslashes_are_no_mathematics():
     assert drawn == pytest.approx(width_of(r"$x$ \frac", 12), rel=0.05)
 
 
+@pytest.mark.skipif(mpl.__version_info__ < (3, 11), reason="older ones do not join letters")
+def test_arabic_letters_are_joined():
+    name = "مريم"
+    assert width_of(name, 72) < 0.9 * sum(width_of(letter, 72) for letter in name)
+
+
 @pytest.mark.parametrize("width", [0.05, 0.3, 1.0, 2.0])
 @pytest.mark.parametrize("name", ["iiiiiiiiiiiiiiiiii", "W" * 300, "選手" * 20, "Ann Lee"])
 def test_a_name_is_shortened_just_as_much_as_it_must_be(name, width):

@@ -52,9 +52,10 @@ def how_even(paired: pd.DataFrame) -> Iterator[str]:
         low, high = percent(offered["p_win_a"].min()), percent(offered["p_win_a"].max())
         wins = f"{low} of the time" if low == high else f"between {low} and {high} of the time"
         yield f"The stronger player wins {wins}."
+        which = "The longest of these races" if len(offered) > 1 else "The race"
         yield (
-            f"The longest of these races lasts {offered['mean_games'].max():.1f} games on average; "
-            f"9 of 10 such matches end within {offered['games_p90'].max()}."
+            f"{which} lasts {offered['mean_games'].max():.1f} games on average; 9 of 10 such "
+            f"matches end within {offered['games_p90'].max()}."
         )
     if missing := len(paired) - len(offered):
         yield (
@@ -97,7 +98,7 @@ def how_rated(sheet: Sheet) -> str:
     text = f"Every player starts at {ratings.anchor:g}, give or take {prior:.4g}"
     if sheet.choice is not None:
         text += (
-            f", which of {len(sheet.choice.tried)} such spreads predicted "
+            f": of {len(sheet.choice.tried)} spreads this one predicted "
             f"{sheet.choice.predicted:,} later results best"
         )
     as_of = "" if ratings.as_of is None else f", as of {ratings.as_of}"

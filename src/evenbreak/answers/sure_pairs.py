@@ -78,5 +78,5 @@ def three_pairs(pairs: Sequence[SurePair]) -> list[tuple[str, SurePair]]:
     """Return the best known, a typical and the least known pair, each once."""
     if len(pairs) < 2:
         return [("", pair) for pair in pairs]
-    named = {0: "best known", (len(pairs) - 1) // 2: "typical", len(pairs) - 1: "least known"}
+    named = {(len(pairs) - 1) // 2: "typical", 0: "best known", len(pairs) - 1: "least known"}
     return [(name, pairs[k]) for k, name in sorted(named.items())]

@@ -41,13 +41,13 @@ class PairsFile:
 def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     r"""Read a list of pairs from a CSV file, a match a row; '-' is standard input.
 
-    Names are those of the roster; upper and lower case may differ where that leaves no doubt.
+    Names are those of the roster; upper and lower case may differ where that is unambiguous.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: missing columns, no rows, names that the roster
-        does not have, a player on both sides.
+        with every problem of the file: missing columns, no rows, names that the roster does
+        not have, a player on both sides.
 
     >>> import tempfile, pathlib
     >>> club = Roster(["Ann", "Bo", "Cy"], [92, 71, 80])

@@ -1,4 +1,4 @@
-"""The small plot on the sheet for a screen: how even the races are, along the rating difference."""
+"""The small plot on the sheet's page: how even the races are, by rating difference."""
 
 from __future__ import annotations
 

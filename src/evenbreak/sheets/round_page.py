@@ -68,7 +68,7 @@ class Kind(NamedTuple):
     remarks: Sequence[str]
 
 
-def round_page(tonight: Round) -> bytes:
+def round_html(tonight: Round) -> bytes:
     """Return the races of a round as one HTML file that asks no other host for anything.
 
     A list of matches becomes a table with the races in large letters and room for the
@@ -94,7 +94,7 @@ def round_page(tonight: Round) -> bytes:
     >>> club = Roster(["Ann", "Bo"], [92, 71])
     >>> file = RosterFile(club, np.array([2, 3]), "club.csv", (), "0123456789abcdef")
     >>> asked = {"scale": SCALES["npl"], "chart": chart("npl_10")}
-    >>> page = round_page(Round(file=file, roster=club, pairs=all_pairs(club), **asked)).decode()
+    >>> page = round_html(Round(file=file, roster=club, pairs=all_pairs(club), **asked)).decode()
     >>> page[:15], "<td>6:4</td>" in page, "://" in page
     ('<!doctype html>', True, False)
     """

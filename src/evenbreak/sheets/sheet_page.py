@@ -26,7 +26,7 @@ MOST_LISTED, MOST_IN_TABLE = 500, 48
 """Players in the list of ratings and in the table of races; the CSV files hold all."""
 
 
-def sheet_page(sheet: Sheet) -> bytes:
+def sheet_html(sheet: Sheet) -> bytes:
     """Return the sheet as one HTML file that asks no other host for anything.
 
     It has no script, and its Content-Security-Policy allows nothing but its own style. A
@@ -45,7 +45,7 @@ def sheet_page(sheet: Sheet) -> bytes:
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
     >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
     >>> sheet = Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2])
-    >>> page = sheet_page(sheet).decode()
+    >>> page = sheet_html(sheet).decode()
     >>> page[:15], "Fair races from season.csv" in page, "://" in page
     ('<!doctype html>', True, False)
     """

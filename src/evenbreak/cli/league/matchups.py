@@ -214,7 +214,7 @@ def _write_page(path: str, tonight: Round) -> None:
     from pathlib import PurePath
 
     from evenbreak.files.folder import write_files
-    from evenbreak.sheets.round_page import MOST_ACROSS, MOST_MATCHES, round_page
+    from evenbreak.sheets.round_page import MOST_ACROSS, MOST_MATCHES, round_html
 
     players, matches = len(tonight.roster), len(tonight.pairs)
     if not tonight.listed and players > MOST_ACROSS:
@@ -228,5 +228,5 @@ def _write_page(path: str, tonight: Round) -> None:
             "make a list and a page for each part of the round"
         )
     place = PurePath(path)
-    write_files(str(place.parent), {place.name: round_page(tonight)})
+    write_files(str(place.parent), {place.name: round_html(tonight)})
     say(f"Wrote {path}")

@@ -143,7 +143,7 @@ def _read(results: str, aliases: str | None) -> tuple[ResultsFile, Sequence[str]
 def _files(sheet: Sheet, *, html: bool, excel: bool, excel_csv: bool) -> dict[str, bytes]:
     """Return the content of each file by its name."""
     from evenbreak.files.csv_writer import to_csv
-    from evenbreak.sheets.sheet_pdf import sheet_pdf
+    from evenbreak.sheets.pdf_sheet import sheet_pdf
 
     files = {
         "ratings.csv": to_csv(sheet.rated, excel=excel_csv),
@@ -152,9 +152,9 @@ def _files(sheet: Sheet, *, html: bool, excel: bool, excel_csv: bool) -> dict[st
         "sheet.pdf": sheet_pdf(sheet),
     }
     if html:
-        from evenbreak.sheets.sheet_page import sheet_page
+        from evenbreak.sheets.sheet_page import sheet_html
 
-        files["sheet.html"] = sheet_page(sheet)
+        files["sheet.html"] = sheet_html(sheet)
     if excel:
         from evenbreak.sheets.workbook import report_tables, workbook_bytes
 
