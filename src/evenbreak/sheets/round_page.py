@@ -162,7 +162,7 @@ def _kind(tonight: Round, prefix: str, lines: Sequence[PlayerLine]) -> Kind:
     first = prefix == next(iter(tonight.kinds))
     return Kind(
         "races" if first else "fairest",
-        "Who gives up how many games" if first else "The fairest races",
+        "The races" if first else "The fairest races",
         which_races(tonight, prefix),
         how_to_read(paired),
         race_blocks(lines, races),
