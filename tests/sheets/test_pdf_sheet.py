@@ -7,6 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.report import report_answer
 from evenbreak.ratings.results import Results
 from evenbreak.sheets.pdf_layout import MOST_ON_A_PAGE
 from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH
@@ -82,6 +83,15 @@ def test_a_season_is_named_and_explained():
         assert text in words
     assert {"559 ± 93", "491 ± 92", "450 ± 92"} <= set(texts(page))
     assert "place among" not in words
+
+
+def test_the_paper_says_what_the_terminal_says():
+    (page,), sheet = pages_of(league(5))
+    words = " ".join(texts(page))
+    first, how_to_read, about_ratings = report_answer(sheet).sentences
+    assert how_to_read in words
+    assert about_ratings in words
+    assert first.removeprefix(sheet.offered.in_words).strip() in words
 
 
 def test_bars_are_two_standard_errors_either_way():

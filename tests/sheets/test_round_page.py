@@ -6,6 +6,7 @@ from html.parser import HTMLParser
 import pytest
 
 from evenbreak import __version__
+from evenbreak.answers.matchups import matchups_answer
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
 from evenbreak.ratings.roster import Roster
@@ -76,6 +77,18 @@ def test_a_list_has_each_match_in_its_order():
         assert cells[7] == f"{row.chart_mean_minutes:.0f} to {row.chart_minutes_p90:.0f}"
         assert cells[8] == f"{row.chart_mean_games:.1f} to {row.chart_games_p90}"
     assert [cells[1] for cells in rows] == ["Bo 71 ± 6.0", "Cy 80"]
+
+
+def test_the_page_says_what_the_terminal_says():
+    offered, asked = OfferedRaces((7, 13)), {"minutes_per_game": 8.0, "tables": 2}
+    text, _ = page_of(pairs=LIST, offered=offered, **asked)
+    answer = matchups_answer(round_of(pairs=LIST, offered=offered, **asked))
+    for sentence in (*answer.sentences[2].split("\n"), offered.in_words):
+        assert sentence in text
+    for remark in answer.details[0].split("\n")[:-1]:
+        what, _, why = remark.removesuffix(".").partition(": ")
+        assert f"<dt>{what}</dt><dd>{why}</dd>" in text
+    assert answer.details[0].split("\n")[-1] in text
 
 
 def test_a_phone_gets_the_same_matches():

@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from evenbreak import __version__
 from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.report import report_answer
+from evenbreak.answers.sheet_words import how_even
 from evenbreak.ratings.results import Results
 from evenbreak.sheets.html_page import shown_name
 from evenbreak.sheets.sheet_page import MOST_IN_TABLE, MOST_LISTED, sheet_html
@@ -96,6 +98,18 @@ def races_on(page):
 def test_every_race_stands_in_the_row_and_column_of_its_players(players):
     page, sheet = page_of(league(players))
     assert races_on(page) == sheet.races | {(name, name): "" for name in sheet.rated["player"]}
+
+
+def test_the_page_says_what_the_terminal_says(three):
+    page, sheet = three
+    text = plain(page.all("html")[0])
+    first, how_to_read, about_ratings = report_answer(sheet).sentences
+    (model,) = report_answer(sheet).details
+    for sentence in (sheet.offered.in_words, how_to_read, about_ratings, model):
+        assert sentence in text
+    for sentence in how_even(sheet.paired):
+        assert sentence in text
+        assert sentence in first
 
 
 def test_a_narrow_page_has_each_players_races_and_chances(three):

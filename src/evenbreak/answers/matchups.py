@@ -91,10 +91,11 @@ def _race_columns(tonight: Round, prefix: str, *, both: bool) -> Iterator[Column
         yield Column(f"{prefix}unfairness")
     timed = tonight.minutes_per_game is not None
     within = None if both else "9 of 10\nwithin"
-    yield Column(f"{prefix}mean_games", None if timed else "games,\naverage", decimals(1))
+    average = "" if both else ",\naverage"
+    yield Column(f"{prefix}mean_games", None if timed else f"games{average}", decimals(1))
     yield Column(f"{prefix}games_p90", None if timed else within)
     if timed:
-        yield Column(f"{prefix}mean_minutes", "min,\naverage", decimals(0))
+        yield Column(f"{prefix}mean_minutes", f"min{average}", decimals(0))
         yield Column(f"{prefix}minutes_p90", within, decimals(0))
 
 
