@@ -82,7 +82,7 @@ def _table(tonight: Round) -> Table:
 
 
 def _race_columns(tonight: Round, prefix: str, *, both: bool) -> Iterator[Column]:
-    kind = ("chart\n" if prefix else "fairest\n") if both else ""
+    kind = ("chart\n" if prefix else "fair\n") if both else ""
     yield Column((f"{prefix}race_a", f"{prefix}race_b"), f"{kind}race", race)
     yield Column(f"{prefix}p_win_a", "A wins", chance)
     sure = "if ratings\nare right" if doubtful(tonight) and not both else None
