@@ -55,7 +55,7 @@ def test_the_summary_says_what_was_read_and_left_out(season, file):
     ratings = fit(season, scale="elo")
     offered = OfferedRaces((5, 9))
     frame = summary_frame(file, ratings, matchups_frame(ratings, range(5), offered), offered)
-    told = dict(zip(frame["key"], frame["value"], strict=True))
+    facts = dict(zip(frame["key"], frame["value"], strict=True))
     expected = {
         "results_file": "r.csv",
         "results_sha256": "0123",
@@ -79,10 +79,10 @@ def test_the_summary_says_what_was_read_and_left_out(season, file):
         "pairs_without_race": 7,
         "evenbreak_version": __version__,
     }
-    assert {key: told[key] for key in expected} == expected
-    assert "Elo-like" in told["scale"]
-    assert "not an official rating" in told["scale"]
-    assert told["prior_sd_points"] == pytest.approx(
+    assert {key: facts[key] for key in expected} == expected
+    assert "Elo-like" in facts["scale"]
+    assert "not an official rating" in facts["scale"]
+    assert facts["prior_sd_points"] == pytest.approx(
         ratings.prior_sd * ratings.scale.points_per_log_odds
     )
 
@@ -92,8 +92,8 @@ def test_a_file_without_dates_has_none_in_its_summary():
     bare = ResultsFile(season, "stdin", (), (), "")
     ratings, offered = fit(season), OfferedRaces(race_to=7)
     frame = summary_frame(bare, ratings, matchups_frame(ratings, [0, 1], offered), offered)
-    told = dict(zip(frame["key"], frame["value"], strict=True))
-    assert (told["first_date"], told["last_date"], told["results_file"]) == ("", "", "stdin")
+    facts = dict(zip(frame["key"], frame["value"], strict=True))
+    assert (facts["first_date"], facts["last_date"], facts["results_file"]) == ("", "", "stdin")
 
 
 def test_players_known_by_winners_alone_are_no_players_without_results():

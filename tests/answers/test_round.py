@@ -35,7 +35,7 @@ def test_the_evening_is_that_of_the_races_lengths():
     tonight = round_of(pairs=[[0, 1], [2, 3]], offered=OFFERED, minutes_per_game=8.0, tables=2)
     chart, best = tonight.evening
     assert (chart.races, best.races, chart.exact) == ("chart", "best", True)
-    exact = evening(tonight.matchups.chart_laws, tables=2)
+    exact = evening(tonight.matchups.chart_lengths, tables=2)
     assert chart.mean_minutes == pytest.approx(8.0 * exact.mean)
     assert chart.minutes_p90 == 8.0 * exact.p90
     assert round_of(minutes_per_game=8.0).evening == []

@@ -21,8 +21,8 @@ def test_a_document_has_its_pages_a_title_and_no_date():
     assert len(re.findall(rb"/Type /Page\b", document)) == 2
     assert "Fair races from Zoë.csv".encode("utf-16-be") in document
     assert re.search(rb"/MediaBox \[ 0 0 841\.\d+ 595\.\d+ \]", document)
-    for told in (b"CreationDate", b"ModDate", b"Producer", b"Creator", mpl.__version__.encode()):
-        assert told not in document
+    for word in (b"CreationDate", b"ModDate", b"Producer", b"Creator", mpl.__version__.encode()):
+        assert word not in document
 
 
 def test_the_same_page_gives_the_same_bytes_whatever_a_matplotlibrc_wishes():

@@ -57,9 +57,9 @@ class Remark(NamedTuple):
 def warnings_of(file: ResultsFile | RosterFile) -> Iterator[Remark]:
     """Yield the warnings about a file, without the file's folder, which is private."""
     for warning in file.warnings:
-        told = warning.removeprefix(f"{file.source}:")
-        if told == warning:
+        text = warning.removeprefix(f"{file.source}:")
+        if text == warning:
             yield Remark("Warning", warning)
         else:  # after the name comes a blank, or the number of a line
-            why = told.lstrip() if told.startswith(" ") else f"line {told}"
+            why = text.lstrip() if text.startswith(" ") else f"line {text}"
             yield Remark(f"Warning about {file_name(file)}", why)

@@ -42,8 +42,8 @@ NOT_FAIR = "no race allowed is fair"
 def all_pairs(roster: Roster) -> Ints:
     """Return all pairs of players as places in the roster, the stronger of the two first.
 
-    The pairs of the strongest player come first; players of one rating are in the order of
-    the list.
+    The pairs of the strongest player come first; players with equal ratings stay in the order
+    of the list.
 
     >>> all_pairs(Roster(["Ann", "Bo", "Cy"], [70, 92, 81])).tolist()
     [[1, 2], [1, 0], [2, 0]]
@@ -53,7 +53,7 @@ def all_pairs(roster: Roster) -> Ints:
 
 
 def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> None:
-    """Refuse a roster with ratings that are no levels of the chart, or errors beyond all bounds.
+    """Refuse ratings that are not levels of the chart, and standard errors that are too large.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
         np.flatnonzero(roster.standard_error > most),
         lambda place: (
             f"{'quasi_error' if place in file.by_quasi else 'standard_error'} "
-            f"{roster.standard_error[place]:g} says nothing of a player; write {most:g} points "
+            f"{roster.standard_error[place]:g} says nothing about a player; write {most:g} points "
             "at most, or check --scale"
         ),
     )
@@ -77,8 +77,8 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
             file.lines,
             np.flatnonzero(~np.isin(_whole(roster.rating), chart.levels)),
             lambda place: (
-                f"rating {roster.rating[place]:g} of {quoted(roster.players[place])} is no level "
-                f"of the chart {chart.name}; write one of {levels}"
+                f"rating {roster.rating[place]:g} of {quoted(roster.players[place])} is not a "
+                f"level of the chart {chart.name}; write one of {levels}"
             ),
         )
     problems.raise_any()
@@ -90,7 +90,7 @@ class Races:
 
     `p_win` is P(A wins | the ratings and their errors), `plug_in` P(A wins | the ratings are
     right); `mean` and `p90` are the mean length and the games within which 90 % of such races
-    end; `laws` is the law of each race's length.
+    end; `lengths` has the distribution of each race's length.
     """
 
     m: Ints
@@ -99,19 +99,19 @@ class Races:
     plug_in: Floats
     mean: Floats
     p90: Ints
-    laws: Sequence[Length]
+    lengths: Sequence[Length]
 
     @classmethod
     def of(cls, gap: Floats, error: Floats, m: Ints, n: Ints, scale: Scale) -> Races:
-        """Work out the races m:n of pairs with these differences and standard errors."""
+        """Return the races m:n of pairs with these differences and standard errors."""
         mean, p90 = np.zeros(len(gap)), np.zeros(len(gap), dtype=np.int64)
-        laws: list[Length] = [Length([], [])] * len(gap)
+        lengths: list[Length] = [Length([], [])] * len(gap)
         for race in np.unique(np.column_stack([m, n]), axis=0).tolist():
             of_race = np.flatnonzero((m == race[0]) & (n == race[1]))
             length = length_given_ratings(gap[of_race], error[of_race], *race, scale=scale)
             mean[of_race], p90[of_race] = length.mean, length.quantile(0.9)
-            for place, law in zip(of_race.tolist(), length.probability, strict=True):
-                laws[place] = Length(length.games, law)
+            for place, chances in zip(of_race.tolist(), length.probability, strict=True):
+                lengths[place] = Length(length.games, chances)
         return cls(
             m,
             n,
@@ -119,28 +119,28 @@ class Races:
             win_given_ratings(gap, 0.0, m, n, scale=scale),
             mean,
             p90,
-            laws,
+            lengths,
         )
 
 
 @dataclass(frozen=True, eq=False)
 class RosterMatchups:
-    """What pairs of players are offered.
+    """The races of pairs of players.
 
     Parameters
     ----------
     frame
         a row for each pair, as `roster_matchups` describes it.
-    chart_laws, best_laws
-        the law of the length of each pair's race by the chart and of the fairest, without
-        the pairs that no chain of opponents links; None where there is no such race.
+    chart_lengths, best_lengths
+        the distribution of the length of each pair's race from the chart and of the fairest one,
+        without the pairs that no chain of opponents links; None if that kind is not asked for.
     linked
-        which pairs those laws are for.
+        which pairs are linked by a chain of opponents.
     """
 
     frame: pd.DataFrame
-    chart_laws: Sequence[Length] | None
-    best_laws: Sequence[Length] | None
+    chart_lengths: Sequence[Length] | None
+    best_lengths: Sequence[Length] | None
     linked: NDArray[np.bool_]
 
 
@@ -153,19 +153,19 @@ def roster_matchups(
     offered: OfferedRaces | None = None,
     minutes_per_game: float | None = None,
 ) -> RosterMatchups:
-    """Return the races of pairs of players, and what each comes to.
+    """Return the races of pairs of players, their chances and their lengths.
 
     Parameters
     ----------
     roster
-        how strong everybody is; new players filled in. A player whose error is not stated is
-        taken to be rated right.
+        how strong everybody is, with new players filled in. A player whose error is not stated
+        is taken to be rated exactly.
     pairs
         places in the roster, shape (k, 2).
     scale
         what the points mean.
     chart
-        the league's chart. It is asked with ratings that are rounded to whole points.
+        the league's chart; ratings are rounded to whole points to look it up.
     offered
         the races among which the fairest is sought.
     minutes_per_game
@@ -226,12 +226,13 @@ def roster_matchups(
     frame = frame.astype(dict.fromkeys(whole, "Int64"))
     frame = pd.concat([pd.DataFrame(everyone, dtype=object), frame], axis=1)
     frame["note"] = _notes(roster, pairs, linked, best)
-    laws = [None if races is None else races.laws for races in (by_chart, best)]
-    return RosterMatchups(frame, laws[0], laws[1], linked)
+    return RosterMatchups(
+        frame, by_chart.lengths if by_chart else None, best.lengths if best else None, linked
+    )
 
 
 def _linked(roster: Roster, a: Ints, b: Ints) -> NDArray[np.bool_]:
-    """Return whose ratings can be compared; of a new player the starter rating says what it can."""
+    """Return which pairs can be compared; a new player's starter rating compares with anybody's."""
     group = np.where(roster.games == 0, 0, roster.component)
     linked: NDArray[np.bool_] = (group[a] == group[b]) | (group[a] == 0) | (group[b] == 0)
     return linked
@@ -266,7 +267,7 @@ def _columns(prefix: str, races: Races, minutes: float | None) -> dict[str, Any]
 
 
 def _notes(roster: Roster, pairs: Ints, linked: NDArray[np.bool_], best: Races | None) -> list[str]:
-    """Return what to say of each pair: no link, no fair race, who is new."""
+    """Return the note on each pair: no link, no fair race, who is new."""
     notes: list[list[str]] = [[] for _ in pairs]
     for row in np.flatnonzero(~linked).tolist():
         notes[row].append(NOT_LINKED)

@@ -117,15 +117,15 @@ class Round:
         answer = self.matchups
         players = [(int(a), int(b)) for a, b in self.pairs[answer.linked]]
         ends = []
-        for kind, laws in (("chart", answer.chart_laws), ("best", answer.best_laws)):
-            if not laws:
+        for kind, lengths in (("chart", answer.chart_lengths), ("best", answer.best_lengths)):
+            if not lengths:
                 continue
             rng = np.random.default_rng(self.seed)
-            end = evening(laws, tables=self.tables, players=players, rng=rng)
+            end = evening(lengths, tables=self.tables, players=players, rng=rng)
             ends.append(
                 EveningEnd(
                     kind,
-                    len(laws),
+                    len(lengths),
                     self.tables,
                     end.mean * minutes,
                     end.p90 * minutes,

@@ -78,7 +78,9 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
     shown = sheet.strongest(MOST_PAIRED)
     bars = Bars(shown.listed)
     lines = player_lines(shown.listed, sheet.ratings.scale, bars, grouped=False)
-    notes = _broken([*_notes(sheet, shown), *_about_names(lines, len(sheet.rated))])
+    notes = _broken(
+        [*_notes(sheet, shown), *_about_names(lines, len(sheet.rated)), version_and_source(sheet)]
+    )
     room = HEIGHT - 2 * MARGIN - HEADING - len(notes) * LEADING * SMALL / POINTS
     layout = layout_of(lines, shown.races, room)
     blocks = [
@@ -113,7 +115,6 @@ def _notes(sheet: Sheet, shown: Sheet) -> Iterator[str]:
     yield " ".join([*about_ratings(sheet), how_rated(sheet)])
     if items := list(left_out(sheet, in_table=len(shown.listed))):
         yield f"Left out: {'; '.join(item.heading for item in items)}."
-    yield version_and_source(sheet)
 
 
 def _about_names(lines: Sequence[PlayerLine], rated: int) -> Iterator[str]:

@@ -83,11 +83,11 @@ def test_the_columns_are_those_of_the_documentation(demo):
             "note",
         ]
     )
-    told = summary(folder)
-    assert (told["matches_read"], told["matches_used"]) == ("408", "395")
-    assert (told["forfeits_left_out"], told["empty_left_out"]) == ("11", "2")
-    assert "NPL-like scale" in told["scale"]
-    assert "not an official rating" in told["scale"]
+    facts = summary(folder)
+    assert (facts["matches_read"], facts["matches_used"]) == ("408", "395")
+    assert (facts["forfeits_left_out"], facts["empty_left_out"]) == ("11", "2")
+    assert "NPL-like scale" in facts["scale"]
+    assert "not an official rating" in facts["scale"]
     assert content(folder)["sheet.pdf"].startswith(b"%PDF")
 
 
@@ -214,11 +214,11 @@ def test_how_it_was_rated_is_said_on_the_sheet_the_page_and_in_the_summary(run, 
         assert "half after 90 days, as of 2024-09-10" in text
         assert "2024-09-03 to 2024-09-10" in text
         assert "1 later match" in text
-    told = summary(tmp_path)
-    assert float(told["prior_sd_points"]) == pytest.approx(15)
-    assert (float(told["half_life_days"]), told["as_of"]) == (90, "2024-09-10")
-    assert (told["matches_used"], told["later_left_out"]) == ("2", "1")
-    assert told["last_date"] == "2024-09-10"
+    facts = summary(tmp_path)
+    assert float(facts["prior_sd_points"]) == pytest.approx(15)
+    assert (float(facts["half_life_days"]), facts["as_of"]) == (90, "2024-09-10")
+    assert (facts["matches_used"], facts["later_left_out"]) == ("2", "1")
+    assert facts["last_date"] == "2024-09-10"
 
 
 def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
@@ -228,9 +228,9 @@ def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
     result = run("report", "-", "--out", str(tmp_path), *words, stdin=short)
     assert "of 12 spreads this one" in " ".join(result.stdout.split())
     listed = list(csv.DictReader(io.StringIO(run("rate", "-", *words, stdin=short).stdout)))
-    told = ("player", "rating", "standard_error")
-    assert [[row[name] for name in told] for row in listed] == (
-        [[row[name] for name in told] for row in rows(tmp_path, "ratings.csv")]
+    columns = ("player", "rating", "standard_error")
+    assert [[row[name] for name in columns] for row in listed] == (
+        [[row[name] for name in columns] for row in rows(tmp_path, "ratings.csv")]
     )
 
 
@@ -296,7 +296,7 @@ def test_out_is_needed_and_must_not_be_a_file(run, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("season", "told"),
+    ("season", "begins"),
     [
         ("", "stdin: "),
         (HEADER, "stdin: "),
@@ -310,13 +310,13 @@ def test_out_is_needed_and_must_not_be_a_file(run, tmp_path):
         (b"PK\x03\x04", "stdin: "),
     ],
 )
-def test_bad_data_ends_with_3_and_leaves_the_old_sheet(run, tmp_path, season, told):
+def test_bad_data_ends_with_3_and_leaves_the_old_sheet(run, tmp_path, season, begins):
     (tmp_path / "ratings.csv").write_bytes(b"old")
     result = run("report", "-", "--out", str(tmp_path), stdin=season)
     assert result.exit_code == 3
     errors = [line for line in result.stderr.splitlines() if line.startswith("Error: ")]
     assert len(errors) == 1
-    assert errors[0].startswith(f"Error: {told}")
+    assert errors[0].startswith(f"Error: {begins}")
     assert result.stdout == ""
     assert content(tmp_path) == {"ratings.csv": b"old"}
 
@@ -376,9 +376,9 @@ def test_names_that_look_like_formulas_are_written_safely(run, tmp_path):
 def test_the_real_season(run, tmp_path):
     result = run("report", str(SEASON), "--out", str(tmp_path), "--scale", "fargo", "--top", "8")
     assert result.exit_code == 0
-    told = summary(tmp_path)
-    assert (told["matches_used"], told["forfeits_left_out"]) == ("2412", "49")
-    assert (told["first_date"], told["last_date"]) == ("2016-05-28", "2017-04-30")
+    facts = summary(tmp_path)
+    assert (facts["matches_used"], facts["forfeits_left_out"]) == ("2412", "49")
+    assert (facts["first_date"], facts["last_date"]) == ("2016-05-28", "2017-04-30")
     assert "'Mark Davies' and 'Mark Davis' may be one player" in result.stderr
     best = [row["player"] for row in rows(tmp_path, "ratings.csv")[:5]]
     assert best[0] == "Mark Selby"
