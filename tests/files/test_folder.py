@@ -92,7 +92,7 @@ def test_a_file_in_the_place_of_a_folder_above_is_told(tmp_path, place):
     with pytest.raises(NotADirectoryError) as caught:
         write_files(above / place, NEW)
     assert caught.value.filename == str(above / place)
-    told = f"{above} is a file, so it cannot hold a folder; name another"
+    told = f"{above} is a file, so no folder can be in it; name another"
     assert caught.value.strerror == told
     assert content(tmp_path) == {"one.csv": b"mine"}
 
@@ -188,7 +188,7 @@ def test_a_folder_is_checked_without_a_trace(tmp_path):
     check_folder(tmp_path / "new" / "newer")
     assert list(tmp_path.iterdir()) == []
     (tmp_path / "file").write_text("")
-    with pytest.raises(NotADirectoryError, match="is a file, so it cannot hold a folder"):
+    with pytest.raises(NotADirectoryError, match="is a file, so no folder can be in it"):
         check_folder(tmp_path / "file" / "x" / "y")
 
 

@@ -63,7 +63,7 @@ def _folder_above(folder: Path) -> Path:
     above = next(above for above in folder.parents if above.exists())
     if not above.is_dir():
         raise NotADirectoryError(
-            errno.ENOTDIR, f"{above} is a file, so it cannot hold a folder; name another"
+            errno.ENOTDIR, f"{above} is a file, so no folder can be in it; name another"
         )
     return above
 
