@@ -55,7 +55,7 @@ def least_even(paired: pd.DataFrame) -> str:
     a, b, needs, p = worst.player_a, worst.player_b, (worst.race_a, worst.race_b), worst.p_win_a
     if p < 0.5:
         a, b, needs, p = b, a, needs[::-1], 1.0 - p
-    which = "The least even is" if len(offered) > 1 else "It is"
+    which = "The least even is" if len(offered) > 1 else "The race is"
     return f"{which} {race(needs)} for {a} against {b}: {a} wins {percent(p)} of the time."
 
 
@@ -106,19 +106,19 @@ def about_players(tonight: Round) -> Iterator[Remark]:
     for which, what, why in (
         (unrated & filled, "without a rating", "taken as {0:g} ± {1:g}"),
         (unrated & ~filled, "without a rating", "taken as {0:g}"),
-        (~unrated & filled, "without games", "the rating is taken as right to ± {1:g}"),
+        (~unrated & filled, "without games", "rating taken as right to ± {1:g}"),
     ):
         for place in np.flatnonzero(which & here)[:1]:
             filled_in = why.format(started.rating[place], started.standard_error[place])
             yield _remark(tonight, which & here, what, filled_in)
-    exact = "the rating is taken as exact"
+    exact = "rating taken as exact"
     if silent[here].all():
-        yield Remark("No standard error is on file", "all ratings are taken as exact")
+        yield Remark("No standard errors are given", "all ratings are taken as exact")
     elif (silent & here).any():
         yield _remark(tonight, silent & here, "without a standard error", exact)
     few = (read.games > 0) & (read.games < FEW_GAMES) & silent & here
     if few.any():
-        yield _remark(tonight, few, f"with fewer than {FEW_GAMES} games", f"even so, {exact}")
+        yield _remark(tonight, few, f"with fewer than {FEW_GAMES} games", f"{exact} all the same")
 
 
 def _remark(tonight: Round, which: NDArray[np.bool_], what: str, why: str) -> Remark:

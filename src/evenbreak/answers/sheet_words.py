@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.report_frames import count_groups, dates_of, file_name
 from evenbreak.answers.scale_words import game_chance, like_scale_words
-from evenbreak.answers.sheet import NO_RACE, Sheet
+from evenbreak.answers.sheet import Sheet
 from evenbreak.answers.wording import count_of, percent, race
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def how_even(paired: pd.DataFrame) -> Iterator[str]:
         )
     if missing := len(paired) - len(offered):
         yield (
-            f"{NO_RACE} marks {count_of(missing, 'pair')} without a race: nothing links the two "
+            f"A dash marks {count_of(missing, 'pair')} without a race: nothing links the two "
             "players, not even opponents of opponents, so their ratings cannot be compared."
         )
 
@@ -110,7 +110,7 @@ def how_rated(sheet: Sheet) -> str:
 def about_model(sheet: Sheet) -> str:
     """Return the model in a sentence."""
     ratings = sheet.ratings
-    alike = ", early and late matches count alike" if ratings.half_life is None else ""
+    alike = ", and early and late matches count alike" if ratings.half_life is None else ""
     races = ", and on the chance of a race where only its winner is known"
     if not ratings.races_won.any():
         races = ""
@@ -119,8 +119,8 @@ def about_model(sheet: Sheet) -> str:
         breaks = f"the breaker playing {ratings.break_advantage:.3g} points better"
     return (
         f"Bradley\N{EN DASH}Terry on games{races}: {game_chance(ratings.scale)}, {breaks}; games "
-        f"are independent of each other{alike}. The starting rating is a normal prior, and what "
-        "is given or taken is one standard deviation."
+        f"are independent of each other{alike}. The starting rating is a normal prior, and the "
+        "give or take its standard deviation."
     )
 
 

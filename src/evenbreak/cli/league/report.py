@@ -119,8 +119,9 @@ def command(
         chosen = most_active(ratings, TOP if top is None else top)
     if len(chosen) < 2:
         refuse("--players names one player; name two or more")
-    usual = "" if players or top else " (--top N pairs more, --players those you name)"
-    say(f"Pairing {len(chosen):,} of them{usual}")
+    more = not players and top is None and len(chosen) < len(ratings.players)
+    hint = " (--top N pairs more, --players those you name)" if more else ""
+    say(f"Pairing {len(chosen):,} of them{hint}")
     sheet = Sheet.of(file, ratings, offered, chosen, choice)
     files = _files(sheet, html=html, excel=excel, excel_csv=excel_csv)
     write_files(out, files)
