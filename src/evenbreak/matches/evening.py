@@ -6,7 +6,7 @@ The lengths of matches are independent of each other.
 With one table the end is the sum of all lengths, a convolution. With several tables and no
 player on the list twice, the state after each match is the list of times at which the tables
 become free, in order; the distribution of the end is exact as long as there are few such
-states. Otherwise the evening is played out many times with random numbers.
+states. Otherwise the evening is simulated many times.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
 _MOST_MOVES = 1_000_000  # states times lengths of one exact step
-_WORK = 200_000_000  # matches times matches times runs that are played out
+_WORK = 200_000_000  # matches times matches times simulated runs
 _FEWEST_RUNS, _MOST_RUNS = 1_000, 50_000
 _MOST_MATCHES = 1_000
 _LONGEST = 100_000  # games of a match
@@ -65,9 +65,9 @@ class Evening:
     p90
         the smallest time by which all matches are over with probability .9.
     runs
-        how many evenings were played out; 0 if the answer is exact.
+        how many evenings were simulated; 0 if the answer is exact.
     mean_error
-        the standard error of `mean` from playing out; 0 if exact. `p90` has none: it is a
+        the standard error of `mean` from the simulation; 0 if exact. `p90` has none: it is a
         whole number, which usually comes out the same each time.
     """
 
@@ -79,7 +79,7 @@ class Evening:
 
     @property
     def exact(self) -> bool:
-        """Whether the answer is exact, found without random numbers."""
+        """Whether the answer is exact, found without simulation."""
         return self.runs == 0
 
 
@@ -106,15 +106,15 @@ def evening(
     rng
         the source of random numbers, if any are needed; None: a generator with seed 0.
     runs
-        how often to play the evening out; None: find the exact answer if that is quick, else
-        play 50,000 evenings, fewer for more than about sixty matches.
+        how often to simulate the evening; None: find the exact answer if that is quick, else
+        simulate 50,000 evenings, fewer for more than about sixty matches.
 
     Raises
     ------
     InputError
         if there is no match, a length is not a distribution, `tables` is not a whole number
         above 0, `players` does not have one pair of different players for each match, or
-        more than a thousand matches would have to be played out.
+        more than a thousand matches would have to be simulated.
 
     >>> coin = Length([1, 2], [0.5, 0.5])
     >>> evening([coin] * 4).p90, evening([coin] * 4).mean, evening([coin] * 4, tables=2).mean
@@ -133,7 +133,7 @@ def evening(
             end = _all_at_once(found) if tables == len(found) else _several_tables(found, tables)
         if end is not None:
             return _exact(end)
-    return _played_out(found, tables, pairs, rng or np.random.default_rng(0), runs)
+    return _simulated(found, tables, pairs, rng or np.random.default_rng(0), runs)
 
 
 def _chances(length: LengthLike, name: str) -> Floats:
@@ -162,7 +162,7 @@ def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int)
     number: dict[Hashable, int] = {}
     for one, other in players:
         if one == other:
-            raise InputError(f"players has {one!r} playing themselves; give two players")
+            raise InputError(f"players has {one!r} on both sides; give two players")
     return np.array(
         [[number.setdefault(player, len(number)) for player in pair] for pair in players]
     )
@@ -216,7 +216,7 @@ def _exact(end: Floats) -> Evening:
     return Evening(mean, sd, quantile_of(end.tolist(), 0.9), 0, 0.0)
 
 
-def _played_out(
+def _simulated(
     lengths: list[Floats], tables: int, pairs: Ints, rng: np.random.Generator, runs: int | None
 ) -> Evening:
     matches = len(lengths)

@@ -75,7 +75,7 @@ def test_length_is_the_integral():
     assert length.mean == pytest.approx(mean, abs=1e-8)
 
 
-def test_length_without_error_is_the_race_law():
+def test_length_without_error_is_that_of_the_race():
     law = race_odds(6, 4, SCALES["npl"].win_probability(25.0))
     length = length_given_ratings(25.0, 0.0, 6, 4)
     assert length.probability == pytest.approx(law.probability, rel=1e-12)
