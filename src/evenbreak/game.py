@@ -25,19 +25,23 @@ State: TypeAlias = Hashable
 
 @runtime_checkable
 class Game(Protocol):
-    """Anything that says where it starts, what can happen next, and who has won."""
+    """Anything that says where it starts, what can happen next, and who has won.
+
+    A game may also have a method `label(state)`, which returns how a diagram writes a state, and
+    a method `arcs()` (see `ArcArrays`).
+    """
 
     @property
     def start(self) -> Any:
         """The state in which the game begins."""
         ...
 
-    def moves(self, state: Any) -> Mapping[Any, float]:
+    def moves(self, state: Any, /) -> Mapping[Any, float]:
         """Return the probability of each next state, given `state`; empty if the game is over."""
         ...
 
-    def winner(self, state: Any) -> int | None:
-        """Return who has won in `state`: 1, 2, or None."""
+    def winner(self, state: Any, /) -> int | None:
+        """Return the number of the player who has won in `state`: 1, 2, ...; None if nobody has."""
         ...
 
 
@@ -159,7 +163,7 @@ def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     """Return the game's diagram: every state that can be reached from its start.
 
     Arcs carry `probability` (of the target, given the source); nodes carry `kind`
-    ('start', 'transient' or 'terminal') and `winner` (1, 2 or None). Moves of
+    ('start', 'transient' or 'terminal') and `winner` (1, 2, ... or None). Moves of
     probability zero are left out. If the game is over at its start, the start is 'terminal'.
 
     Parameters

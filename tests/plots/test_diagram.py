@@ -165,3 +165,53 @@ def test_a_heading_lies_within_the_picture() -> None:
         box = text.get_window_extent()
         assert box.x0 >= 0
         assert box.x1 <= figure.bbox.width
+
+
+class Cutthroat:
+    """Three players with balls left; whoever is shot out leaves, and the last one wins."""
+
+    start = (1, 1, 1)
+
+    def moves(self, balls: tuple[int, ...]) -> dict[tuple[int, ...], float]:
+        left = [player for player in range(3) if balls[player]]
+        if len(left) == 1:
+            return {}
+        return {
+            tuple(0 if player == out else had for player, had in enumerate(balls)): 1 / len(left)
+            for out in left
+        }
+
+    def winner(self, balls: tuple[int, ...]) -> int | None:
+        return balls.index(1) + 1 if sum(balls) == 1 else None
+
+
+class WithLabels(Cutthroat):
+    def label(self, balls: tuple[int, ...]) -> str:
+        return "".join("abc"[player] for player in range(3) if balls[player])
+
+
+def test_tuples_of_your_own_game_are_drawn_as_they_are() -> None:
+    shown = set(texts(draw(Cutthroat())))
+    assert {"(1, 1, 1)", "(0, 1, 1)", "(0, 0, 1)"} <= shown
+    assert not any(":" in text or "breaks" in text for text in shown)
+
+
+def test_a_game_says_how_its_states_are_written() -> None:
+    assert set(texts(draw(WithLabels()))) >= {"abc", "ab", "ac", "bc", "a", "b", "c"}
+
+
+def test_every_winner_has_a_colour_and_a_third_one_a_legend() -> None:
+    figure = draw(Cutthroat())
+    fills = {circle.get_facecolor() for circle in circles(figure)}
+    assert len(fills) == 4  # white, and one for each player
+    legend = figure.axes[0].get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == [
+        "player 1 wins",
+        "player 2 wins",
+        "player 3 wins",
+    ]
+    figure.canvas.draw()
+    box = legend.get_window_extent()
+    assert figure.bbox.y0 <= box.y0
+    assert box.x1 <= figure.bbox.x1
+    assert draw(OneBall(0.5, 0.5)).axes[0].get_legend() is None

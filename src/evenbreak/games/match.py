@@ -142,6 +142,18 @@ class Match(ABC, Generic[ChanceT]):
         """Return who has won in `state`: 1, 2, or None while the match goes on."""
         return self.decided(state[0], state[1])
 
+    def label(self, state: Any) -> str:
+        """Return the score in `state`, with the breaker or the score of the set below it."""
+        a, b, *rest = state
+        lines = [f"{a}:{b}"]
+        if self.winner(state) is None:  # who would break next is not part of a result
+            if not isinstance(self.rack, Rack):
+                lines += [f"{opener} broke first" for opener in rest[:-1]]
+                lines.append(self.rack.label(rest[-1]))
+            elif rest:
+                lines.append(f"{rest[0]} breaks")
+        return "\n".join(lines)
+
     def next_breaker(self, state: Any) -> int:
         """Return who would break the rack after a finished match: the last entry of its state."""
         return int(state[2]) if self.break_matters else 1

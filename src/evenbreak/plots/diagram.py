@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.plots.layout import Positions, positions_of
-from evenbreak.plots.strokes import FONT, Pen, is_terminal, is_words, longest_line
+from evenbreak.plots.strokes import FONT, Pen, is_words, longest_line
 from evenbreak.plots.style import our_look
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ _MOST_STATES = 150
 _INCHES = 1.25
 """The length of a unit, with labels of up to eight characters."""
 _MARGIN = 0.12
+_KNOWN_FILLS = 3
+"""Of a terminal node: nobody has won, player 1, player 2; a legend names any more."""
 
 
 def draw(
@@ -27,11 +30,12 @@ def draw(
     """Draw a game's diagram: states as circles, each arc with its probability.
 
     An arrow from outside marks the start. A terminal node is a double circle, light if player 1
-    has won and dark if player 2 has. The text of an arc is its `label` if it has one (`"$p_1$"`
-    is set as mathematics), else its `probability` to three significant digits; the text of a
-    node is its `label`, else its name, with scores as a:b. In your own graph the start is the
-    node whose `kind` is "start", or the first node if no node has a `kind`; a node of the kind
-    "words" is text without a circle, such as dots or a heading.
+    has won and dark if player 2 has; further players have colours, which a legend names. The
+    text of an arc is its `label` if it has one (`"$p_1$"` is set as mathematics), else its
+    `probability` to three significant digits. The text of a state is what the game's method
+    `label(state)` returns if it has one, or the `label` of the node, else the state itself. In
+    your own graph the start is the node whose `kind` is "start", or the first node if no node
+    has a `kind`; a node of the kind "words" is text without a circle, such as dots or a heading.
 
     Parameters
     ----------
@@ -81,7 +85,9 @@ def draw(
     if missing:
         raise InputError(f"layout has no place for state {missing[0]!r}; give it (x, y)")
 
-    labels = {state: _state_label(graph, state) for state in graph}
+    hook = getattr(game, "label", None)
+    written = hook if callable(hook) else partial(_state_label, graph)
+    labels = {state: str(written(state)) for state in graph}
     inside = [longest_line(text) for state, text in labels.items() if not is_words(graph, state)]
     inches = _INCHES * max(1.0, max(inside, default=0) / 8)
     figure = Figure()
@@ -92,11 +98,15 @@ def draw(
         (min(ends) - _MARGIN, max(ends) + _MARGIN) for ends in zip(*pen.reach, strict=True)
     )
     above = 0.4 if title else 0.0
+    below = 0.3 if len(pen.fills) > _KNOWN_FILLS else 0.0
     width, height = (right - left) * inches, (top - bottom) * inches
-    figure.set_size_inches(width, height + above)
-    axes.set_position((0.0, 0.0, 1.0, height / (height + above)))
+    whole = below + height + above
+    figure.set_size_inches(width, whole)
+    axes.set_position((0.0, below / whole, 1.0, height / whole))
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
     axes.set_axis_off()
+    if below:
+        pen.legend(width)
     if title:
         axes.set_title(title, fontsize=FONT + 2, pad=4)
     return figure
@@ -133,18 +143,5 @@ def _state_label(graph: nx.DiGraph[Any], state: Any) -> str:
     given = graph.nodes[state].get("label")
     if given is not None:
         return str(given)
-    if isinstance(state, tuple):
-        # Who would break after the last rack is not part of a result.
-        return _score_label(state[:2] if is_terminal(graph, state) else state)
     subscripted = re.fullmatch(r"([A-Za-z])(\d+)", str(state))
     return f"${subscripted[1]}_{{{subscripted[2]}}}$" if subscripted else str(state)
-
-
-def _score_label(state: tuple[Any, ...]) -> str:
-    """Return `a:b`, and below it the breaker or the score of the set."""
-    if len(state) < 2:
-        return str(state)
-    parts = [_score_label(part) if isinstance(part, tuple) else str(part) for part in state[2:]]
-    if len(parts) == 1 and isinstance(state[2], int):
-        parts = [f"{parts[0]} breaks"]
-    return "\n".join([f"{state[0]}:{state[1]}", *parts])

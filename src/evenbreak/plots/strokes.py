@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, inf, pi, sin
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from evenbreak.plots.layout import Positions
@@ -24,8 +24,10 @@ _HEAD = "-|>,head_length=5,head_width=2.5"
 _BENDS = (0.0, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6)
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7)
 """Where along an arc its label may go, best place first."""
-_FILL = {1: ("0.85", "black"), 2: ("0.35", "white"), None: ("white", "black")}
+_FILL = {None: ("white", "black"), 1: ("0.85", "black"), 2: ("0.35", "white")}
 """Fill and text colour of a terminal node by winner; they differ in black and white too."""
+_GOLDEN = 0.381966
+"""Steps of this part of the colour circle never come back to a colour that is taken."""
 
 
 def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
@@ -36,6 +38,28 @@ def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
 def is_words(graph: nx.DiGraph[Any], state: Any) -> bool:
     """Return whether a node is not a state but text, such as dots or a heading."""
     return bool(graph.nodes[state].get("kind") == "words")
+
+
+def fills(graph: nx.DiGraph[Any]) -> dict[Any, tuple[Any, str]]:
+    """Return the fill and text colour of a terminal node for each winner, and for none.
+
+    Greys for players 1 and 2, a colour of its own for every further winner.
+
+    >>> import networkx as nx
+    >>> graph = nx.DiGraph()
+    >>> graph.add_nodes_from([("a", {"winner": 3}), ("b", {"winner": 4}), ("c", {"winner": 2})])
+    >>> list(fills(graph)), len(set(fills(graph).values()))
+    ([None, 1, 2, 3, 4], 5)
+    """
+    from colorsys import hls_to_rgb
+
+    winners: dict[Any, None] = dict.fromkeys(node.get("winner") for node in graph.nodes.values())
+    others = [winner for winner in winners if winner not in _FILL]
+    others.sort(key=lambda winner: winner if isinstance(winner, int) else inf)
+    return _FILL | {
+        winner: (hls_to_rgb((0.55 + _GOLDEN * k) % 1.0, 0.72, 0.8), "black")
+        for k, winner in enumerate(others)
+    }
 
 
 def _arc_label(arc: Mapping[str, Any]) -> str:
@@ -73,6 +97,7 @@ class Pen:
         self.graph = graph
         self.places = places
         self.points_per_unit = 72 * inches
+        self.fills = fills(graph)
         self.used: dict[Any, list[float]] = {state: [] for state in graph}
         self.boxes = [(x, y, 0.8 * _RADIUS, 0.8 * _RADIUS) for x, y in places.values()]
         self.tracks: dict[tuple[Any, Any], list[Point]] = {}
@@ -242,7 +267,7 @@ class Pen:
         centre = self.places[state]
         fill, ink = "white", "black"
         if is_terminal(self.graph, state):
-            fill, ink = _FILL.get(self.graph.nodes[state].get("winner"), _FILL[None])
+            fill, ink = self.fills[self.graph.nodes[state].get("winner")]
             self.axes.add_patch(Circle(centre, _RADIUS, facecolor="white", edgecolor="black"))
             radius = _RING * _RADIUS
         else:
@@ -261,3 +286,30 @@ class Pen:
         wide = 0.3 * font * longest_line(label) / self.points_per_unit
         self.reach += [(x - wide, y), (x + wide, y)]
         self.axes.text(x, y, label, fontsize=font, ha="center", va="center", zorder=4)
+
+    def legend(self, width: float) -> None:
+        """Name the colours of the winners below the diagram, which is `width` inches wide."""
+        from matplotlib.lines import Line2D
+
+        won = {node.get("winner") for node in self.graph.nodes.values()} - {None}
+        self.axes.legend(
+            handles=[
+                Line2D(
+                    [],
+                    [],
+                    marker="o",
+                    ls="",
+                    ms=10,
+                    mec="black",
+                    mfc=fill,
+                    label=f"player {winner} wins" if isinstance(winner, int) else f"{winner} wins",
+                )
+                for winner, (fill, _) in self.fills.items()
+                if winner in won
+            ],
+            loc="upper center",
+            bbox_to_anchor=(0.5, 0.0),
+            borderaxespad=0.0,
+            ncols=max(1, int(width / 1.6)),
+            frameon=False,
+        )
