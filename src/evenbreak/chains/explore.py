@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
+from evenbreak.chains.arcs import sums
 from evenbreak.chains.chain import Chain, check_sums
 from evenbreak.errors import ChainError
 from evenbreak.game import ArcArrays, Game, arcs_of
@@ -117,10 +118,10 @@ def chain_from_arrays(
             raise _listed_twice(states, key)
         j, i, p = j[table.data], i[table.data], p[table.data]
     listed = np.bincount(j, minlength=n)
-    check_sums(states, np.where(listed > 0, np.bincount(j, weights=p, minlength=n), 1.0))
+    check_sums(states, np.where(listed > 0, sums(j, p, n), 1.0))
     loops = (i == j) & (p > 0.0)
     if loops.any():
-        others = np.bincount(j, weights=np.where(loops, 0.0, p), minlength=n)
+        others = sums(j, np.where(loops, 0.0, p), n)
         p = np.where(loops, np.maximum(1.0 - others[j], 0.0), p)
     made = p > 0.0
     if not made.all():
@@ -145,9 +146,6 @@ def _checked_arrays(
     n = len(states)
     if n == 0:
         raise ChainError("there are no states; give at least one")
-    # Lazy sequences of states are distinct by construction.
-    if isinstance(states, (list, tuple)) and len(set(states)) < n:
-        raise ChainError("a state is listed twice among the states; give each of them once")
     if not j.ndim == 1 or not j.shape == i.shape == p.shape:
         raise ChainError(
             f"sources, targets and probabilities have shapes {j.shape}, {i.shape}, {p.shape}; "
