@@ -14,7 +14,7 @@ from evenbreak.answers.frames import ratings_frame
 from evenbreak.files.results import read_results
 from evenbreak.games import Ahead, OneBall, Race, Rack
 from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling
-from evenbreak.physics import Table, aimed_shot, pockets, strike_for_speed
+from evenbreak.physics import PoolTable, aimed_shot, pockets, strike_for_speed
 from evenbreak.physics.units import INCH
 from evenbreak.plots.diagram import draw, image_bytes
 from evenbreak.plots.ladders import SettlingCurve, ladder_figure
@@ -47,7 +47,7 @@ def sheet() -> Figure:
 
 def cut_shot() -> Figure:
     """Draw a cut with draw into the far corner, throw allowed for."""
-    corner = pockets(Table())[2]
+    corner = pockets(PoolTable())[2]
     hit = strike_for_speed(80.0 * INCH, -0.4)
     places = ((30.0, 15.0), (50.0, 15.0), (corner.x / INCH, corner.y / INCH))
     return shot_on_table(aimed_shot(hit, *((x * INCH, y * INCH) for x, y in places)))

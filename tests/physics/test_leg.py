@@ -10,14 +10,14 @@ from scipy.integrate import solve_ivp
 
 from evenbreak.errors import InputError
 from evenbreak.physics.leg import leg_until, time_to
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import spin_stop
 from evenbreak.physics.shot import shot
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import strike
 
-BALL, CLOTH, TABLE = Ball(), Cloth(), Table()
-HUGE = Table(length=400.0, width=400.0)
+BALL, CLOTH, TABLE = Ball(), Cloth(), PoolTable()
+HUGE = PoolTable(length=400.0, width=400.0)
 
 few = settings(max_examples=30)
 

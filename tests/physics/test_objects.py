@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.physics import Ball, Cloth, Cue, Table
+from evenbreak.physics import Ball, Cloth, Cue, PoolTable
 
 FIELDS = [
     (Ball, "mass"),
@@ -16,8 +16,8 @@ FIELDS = [
     (Cloth, "mu_slide"),
     (Cloth, "mu_roll"),
     (Cloth, "gravity"),
-    (Table, "length"),
-    (Table, "width"),
+    (PoolTable, "length"),
+    (PoolTable, "width"),
     (Cue, "mass"),
     (Cue, "tip_friction"),
 ]

@@ -6,13 +6,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak import InputError
-from evenbreak.physics.objects import Ball, Table
+from evenbreak.physics.objects import Ball, PoolTable
 from evenbreak.physics.pocketed import pocketed_shot
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.strike import strike_for_speed
 from evenbreak.physics.units import INCH
 
-POCKETS = {pocket.name: pocket for pocket in pockets(Table())}
+POCKETS = {pocket.name: pocket for pocket in pockets(PoolTable())}
 FROZEN = Ball().radius / INCH
 
 

@@ -3,13 +3,13 @@ import math
 import numpy as np
 import pytest
 
-from evenbreak.physics import Table, aimed_shot, pockets, shot, strike, strike_for_speed
+from evenbreak.physics import PoolTable, aimed_shot, pockets, shot, strike, strike_for_speed
 from evenbreak.physics.units import INCH
 from evenbreak.plots.diagram import image_bytes
 from evenbreak.plots.traced_shot import shot_on_table
 
 FOUND = shot(strike_for_speed(60 * INCH, -0.3), math.radians(30), 24 * INCH)
-CORNER = pockets(Table())[3]
+CORNER = pockets(PoolTable())[3]
 AIMED = aimed_shot(strike(1.5, -0.2), (0.7, 0.4), (1.2, 0.4), (CORNER.x, CORNER.y))
 
 
@@ -77,7 +77,7 @@ def test_an_aimed_shot_shows_target_and_allowance():
 def test_english_that_throws_the_ball_backward_asks_for_a_fuller_hit():
     english = strike(1.5, 0.2, -0.4)
     figure = shot_on_table(
-        aimed_shot(english, (0.7, 0.6), (1.0, 0.6), (CORNER.x, Table().width - CORNER.y))
+        aimed_shot(english, (0.7, 0.6), (1.0, 0.6), (CORNER.x, PoolTable().width - CORNER.y))
     )
     assert "° fuller" in words(figure)
     assert "throw \N{MINUS SIGN}" in words(figure)

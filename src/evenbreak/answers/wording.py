@@ -66,6 +66,15 @@ def games(value: float) -> str:
     return f"{value:.2f}" if isinstance(value, float) else f"{value:,}"
 
 
+def yes_or_no(truth: bool) -> str:
+    """Return a truth as a word.
+
+    >>> yes_or_no(True), yes_or_no(False)
+    ('yes', 'no')
+    """
+    return "yes" if truth else "no"
+
+
 def race(needs: tuple[int, int]) -> str:
     """Return a race.
 

@@ -16,7 +16,7 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import Floats
 from evenbreak.physics.leg import State, on_table, place_of, time_to
-from evenbreak.physics.objects import Cloth, Table
+from evenbreak.physics.objects import Cloth, PoolTable
 from evenbreak.physics.shot import Shot, one_number, shot, sound_strike, spin_ratios, travel_for
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
@@ -79,7 +79,7 @@ def aimed_shot(
     target: Sequence[float],
     *,
     cloth: Cloth | None = None,
-    table: Table | None = None,
+    table: PoolTable | None = None,
     mu: float = BALL_FRICTION,
     friction: str = "limited",
 ) -> AimedShot:
@@ -103,14 +103,14 @@ def aimed_shot(
 
     >>> from evenbreak.physics.pockets import pockets
     >>> from evenbreak.physics.strike import strike
-    >>> corner = pockets(Table())[3]
+    >>> corner = pockets(PoolTable())[3]
     >>> found = aimed_shot(strike(1.5, -0.2), (0.7, 0.4), (1.2, 0.4), (corner.x, corner.y))
     >>> found.shot.object_leg.ending, found.unaided.object_leg.ending
     ('pocket', 'cushion')
     >>> round(math.degrees(found.turn), 2), round(math.degrees(found.shot.throw), 2)
     (3.16, 3.16)
     """
-    cloth, table = cloth or Cloth(), table or Table()
+    cloth, table = cloth or Cloth(), table or PoolTable()
     sound_strike(strike)
     mu = one_number(mu, "mu", low=0.0)
     places = {"cue_ball": cue_ball, "object_ball": object_ball, "target": target}

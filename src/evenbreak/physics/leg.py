@@ -15,7 +15,7 @@ import numpy as np
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import Floats, numbers
-from evenbreak.physics.objects import Table
+from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.rolling import Energy, kinetic_energy
 from evenbreak.physics.slide import Slide
@@ -172,7 +172,7 @@ def leg_until(
     name: str,
     slide: Slide,
     begin: float,
-    table: Table,
+    table: PoolTable,
     *,
     hit: float = math.inf,
 ) -> Leg:
@@ -239,7 +239,7 @@ def place_of(value: Sequence[float], name: str) -> Floats:
     return place
 
 
-def on_table(position: Floats, name: str, table: Table, radius: float) -> None:
+def on_table(position: Floats, name: str, table: PoolTable, radius: float) -> None:
     """Refuse a ball that is not on the table, or is partly in a cushion."""
     x, y = (float(value) for value in position)
     inside = radius - _SLACK <= x <= table.length - radius + _SLACK

@@ -106,7 +106,7 @@ class Cloth:
 
 
 @dataclass(frozen=True)
-class Table:
+class PoolTable:
     """The playing area between the noses of the cushions.
 
     Parameters
@@ -119,7 +119,7 @@ class Table:
     InputError
         if one is not a finite number above 0.
 
-    >>> round(Table().length / INCH, 9)
+    >>> round(PoolTable().length / INCH, 9)
     100.0
     """
 

@@ -14,7 +14,7 @@ from evenbreak.errors import InputError
 from evenbreak.physics.aimed import AimedShot, aimed_shot
 from evenbreak.physics.arrays import Floats
 from evenbreak.physics.leg import place_of
-from evenbreak.physics.objects import Cloth, Table
+from evenbreak.physics.objects import Cloth, PoolTable
 from evenbreak.physics.pockets import Pocket
 from evenbreak.physics.strike import Strike
 from evenbreak.physics.throw import BALL_FRICTION
@@ -30,7 +30,7 @@ def pocketed_shot(
     pocket: Pocket,
     *,
     cloth: Cloth | None = None,
-    table: Table | None = None,
+    table: PoolTable | None = None,
     mu: float = BALL_FRICTION,
     friction: str = "limited",
 ) -> AimedShot:
@@ -55,7 +55,7 @@ def pocketed_shot(
 
     >>> from evenbreak.physics.pockets import pockets
     >>> from evenbreak.physics.strike import strike
-    >>> corner, radius = pockets(Table())[2], 0.028575
+    >>> corner, radius = pockets(PoolTable())[2], 0.028575
     >>> found = pocketed_shot(strike(1.5), (0.5, radius), (1.3, radius), corner)
     >>> found.shot.object_leg.pocket, bool(found.target[1] < corner.y)
     ('foot-right', True)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from evenbreak.physics.objects import Table
+from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.units import INCH
 
 CORNER_MOUTH = 4.5 * INCH
@@ -58,7 +58,7 @@ class Pocket(NamedTuple):
         radius
             of the ball.
 
-        >>> pocket = pockets(Table())[1]
+        >>> pocket = pockets(PoolTable())[1]
         >>> pocket.takes(pocket.x, 0.03, 0.0, -1.0, 0.0286)
         True
         >>> pocket.takes(pocket.x, 0.03, 1.0, -0.3, 0.0286)
@@ -77,7 +77,7 @@ class Pocket(NamedTuple):
         A ball that comes at a slant finds it as narrow as it looks from there; from behind
         it is below 0.
 
-        >>> pocket = pockets(Table())[1]
+        >>> pocket = pockets(PoolTable())[1]
         >>> pocket.width_from(0.0, -2.0) == pocket.mouth, pocket.width_from(1.0, 0.0)
         (True, 0.0)
         """
@@ -85,10 +85,10 @@ class Pocket(NamedTuple):
         return self.mouth * facing / math.hypot(along_x, along_y)
 
 
-def pockets(table: Table) -> tuple[Pocket, ...]:
+def pockets(table: PoolTable) -> tuple[Pocket, ...]:
     """Return the six pockets of a table, in the order of `POCKET_NAMES`.
 
-    >>> [pocket.name for pocket in pockets(Table())][2]
+    >>> [pocket.name for pocket in pockets(PoolTable())][2]
     'foot-right'
     """
     slant = math.sqrt(0.5)

@@ -24,7 +24,7 @@ from evenbreak.physics.arrays import Floats, numbers
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, place_of, time_to
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import Energy
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
@@ -60,7 +60,7 @@ class Shot:
 
     strike: Strike
     cloth: Cloth
-    table: Table
+    table: PoolTable
     direction: float
     cut: float
     object_position: Floats
@@ -155,7 +155,7 @@ def shot(
     distance: float,
     *,
     cloth: Cloth | None = None,
-    table: Table | None = None,
+    table: PoolTable | None = None,
     cue_ball: Sequence[float] | None = None,
     direction: float = 0.0,
     mu: float = BALL_FRICTION,
@@ -198,7 +198,7 @@ def shot(
     >>> [leg.ending for leg in found.legs], round(math.degrees(found.deflection), 1)
     (['hit', 'rest', 'rest'], 35.7)
     """
-    cloth, table = cloth or Cloth(), table or Table()
+    cloth, table = cloth or Cloth(), table or PoolTable()
     sound_strike(strike)
     # Also where no ball is hit, and nothing asks for them.
     one_of(friction, "friction", FRICTION_LAWS)

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 from evenbreak.physics.arrays import numbers, plain, positive, together
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.units import GRAVITY
 
 TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(
@@ -22,11 +22,11 @@ TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(
 """Table speeds as players call them; worsted cloth, when new, has 100 to 130."""
 
 
-def lag_distance(table: Table, ball: Ball) -> float:
+def lag_distance(table: PoolTable, ball: Ball) -> float:
     """Return how far a ball's centre goes from cushion to cushion along a table, in metres.
 
     >>> from evenbreak.physics.units import INCH
-    >>> round(lag_distance(Table(), Ball()) / INCH, 9)
+    >>> round(lag_distance(PoolTable(), Ball()) / INCH, 9)
     97.75
     """
     return table.length - ball.diameter
@@ -91,4 +91,4 @@ def roll_distance(speed: Any, cloth: Cloth) -> Any:
 
 
 def _nine_feet() -> float:
-    return lag_distance(Table(), Ball())
+    return lag_distance(PoolTable(), Ball())

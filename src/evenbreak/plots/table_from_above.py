@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.physics.objects import Table
+from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.units import INCH
 
@@ -34,12 +34,12 @@ def bare_axes(figure: Figure, place: tuple[float, float, float, float]) -> Axes:
     return axes
 
 
-def draw_table(axes: Axes, table: Table) -> None:
+def draw_table(axes: Axes, table: PoolTable) -> None:
     """Draw a table, x along it from the head cushion and y to the left, upwards.
 
     >>> from matplotlib.figure import Figure
     >>> axes = bare_axes(Figure(), (0.0, 0.0, 1.0, 1.0))
-    >>> draw_table(axes, Table())
+    >>> draw_table(axes, PoolTable())
     >>> [round(float(end), 9) for end in axes.get_xlim()]
     [-6.0, 106.0]
     """

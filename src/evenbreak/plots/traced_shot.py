@@ -8,7 +8,7 @@ import numpy as np
 
 from evenbreak.physics.aimed import AimedShot
 from evenbreak.physics.leg import Leg
-from evenbreak.physics.objects import Table
+from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.shot import Shot
 from evenbreak.physics.units import DEGREE, INCH
 from evenbreak.plots.style import LINES
@@ -99,7 +99,7 @@ def _draw_shot(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
             axes.plot(x, y, color=color, ls=dashes, lw=1.6, zorder=4)
 
 
-def _draw_end(axes: Axes, leg: Leg, table: Table) -> None:
+def _draw_end(axes: Axes, leg: Leg, table: PoolTable) -> None:
     """Draw a ball where its way ends, with a word on how."""
     at = leg.state(leg.end).position / INCH
     color = _CUE if leg.name == "cue ball" else _OBJECT

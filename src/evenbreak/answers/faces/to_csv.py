@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.answer import Quantities
+from evenbreak.answers.wording import yes_or_no
 from evenbreak.files.csv_writer import csv_lines
 
 if TYPE_CHECKING:
@@ -16,10 +17,16 @@ def to_csv(answer: Answer) -> Iterator[str]:
     """Yield an answer's lines of CSV, each with its line end, so that none has to wait."""
     numbers = answer.for_files
     if isinstance(numbers, Quantities):
-        yield from csv_lines(["quantity", "value"], ([one.name, one.value] for one in numbers.of))
+        rows = ([one.name, _plain(one.value)] for one in numbers.of)
+        yield from csv_lines(["quantity", "value"], rows)
     elif numbers is not None:
         exact = [column.exact for column in numbers.columns for _ in column.names]
         yield from csv_lines(numbers.names, _in_full(numbers.records(), exact))
+
+
+def _plain(value: Any) -> Any:
+    """Return a quantity as a file holds it: a truth is a word."""
+    return yes_or_no(value) if isinstance(value, bool) else value
 
 
 def _in_full(rows: Iterator[list[Any]], exact: list[bool]) -> Iterator[list[Any]]:

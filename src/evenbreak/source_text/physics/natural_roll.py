@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import (
     MOON_GRAVITY,
     SHAPES,
@@ -88,7 +88,7 @@ def _moon_time(i: Inputs, shape: str) -> float:
     friction = i.get("mu_rolling")
     if friction is None:
         friction = rolling_friction(1.0 / table_speed(i["t"]))
-    way = lag_distance(Table(), Ball())
+    way = lag_distance(PoolTable(), Ball())
     return float(rolling_time(way, friction, shape=SHAPES[shape], gravity=MOON_GRAVITY))
 
 
