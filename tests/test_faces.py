@@ -26,6 +26,15 @@ ASKED = {
     "live": "live --p 0.6 --race 7:5 --racks abbab",
     "live_table": "live --p 0.6 --set 4:3 --race 3:3 --score 1:1 --set-score 2:2 --table",
     "compare": "compare --p 0.6667 9:5 '3:1 of 3:3' 'ahead 5:3'",
+    "physics_speed": "physics speed --lag-time 7.0",
+    "physics_throw": "physics throw --cut 30 --side -0.3",
+    "physics_aim": "physics aim --cut 14.5 --distance 36",
+    "physics_deflect": "physics deflect --cut 30",
+    "physics_strike": "physics strike --offset -0.3 --stick-speed 60 --distance 24",
+    "physics_breakcue": "physics breakcue --forearm 36 --stick 19",
+    "physics_shot": "physics shot --cut 30 --distance 20 --speed 45 --side-offset 0.1",
+    "physics_shot_pocket": "physics shot --cue-ball 30,15 --object-ball 50,15 "
+    "--pocket foot-right --speed 80 --offset -0.4",
 }
 """A question for each command, and for each kind of answer that it has."""
 
@@ -109,6 +118,8 @@ def test_csv_has_the_numbers_of_json(faces):
 def as_csv(value):
     if value is None:
         return ""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if not isinstance(value, float):
         return str(value)
     text = f"{value:.6f}"

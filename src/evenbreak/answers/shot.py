@@ -34,11 +34,11 @@ def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = 
     >>> import math
     >>> from evenbreak.answers.shot_units import METRIC
     >>> from evenbreak.physics import shot, strike_for_speed
-    >>> found = shot(strike_for_speed(1.2), math.radians(30.0), 0.5)
+    >>> found = shot(strike_for_speed(1.1), math.radians(30.0), 0.5)
     >>> print(shot_answer(found, METRIC).sentences[0])
-    The object ball stops after 5.51 s, 217.9 centimetres from the head cushion and 4.6 from the
-    right. The cue ball stops after 4.99 s, 183.6 centimetres from the head cushion and 118.1
-    from the right.
+    The object ball stops after 5.15 s, 205.5 centimetres from the head cushion and 11.0 from
+    the right one. The cue ball stops after 4.67 s, 175.4 centimetres from the head cushion and
+    112.4 from the right one.
     """
     aimed = traced if isinstance(traced, AimedShot) else None
     found = traced.shot if isinstance(traced, AimedShot) else traced
