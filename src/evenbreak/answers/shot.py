@@ -91,8 +91,10 @@ def _hit(found: Shot, units: Units) -> list[Quantity]:
     return [
         Quantity("hit_s", state and state.time),
         units.speed.quantity("hit_speed", speed, "speed of the cue ball at the hit"),
-        Quantity("hit_spin_speed_ratio", topspin, "topspin J then, 1 is natural roll", _ratio),
-        Quantity("hit_side_spin_speed_ratio", side, "sidespin J then, right above 0", _ratio),
+        Quantity(
+            "hit_spin_speed_ratio", topspin, "topspin J at the hit, 1 is natural roll", _ratio
+        ),
+        Quantity("hit_side_spin_speed_ratio", side, "sidespin J at the hit, right above 0", _ratio),
         _angle("throw_deg", throw, "throw of the object ball"),
         _angle("object_cut_deg", object_cut),
         _angle(

@@ -22,8 +22,8 @@ def shot_heading(found: Shot, units: Units, pocket: Pocket | None) -> str:
         where = f"{cut_words(_degrees(found.cut))}; {length.typed(apart)} between the centres"
     else:
         places = (found.approach.slide.position, found.object_position)
-        cue, standing = (f"{x / length.size:g}, {y / length.size:g}" for x, y in places)
-        where = f"Cue ball at {cue}, object ball at {standing} {length.words}, for {pocket.name}"
+        cue, standing = (f"({x / length.size:g}, {y / length.size:g})" for x, y in places)
+        where = f"Cue ball at {cue}, object ball at {standing} {length.words}; pocket {pocket.name}"
     speed = units.speed.typed(found.strike.speed)
     return f"{where}\n{tip_words(found.strike)}; cue ball at {speed}"
 

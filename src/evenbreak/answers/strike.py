@@ -172,8 +172,8 @@ def _speeds(strike: Strike, cloth: Cloth, units: Units, *, known: bool) -> list[
         speed("ball_speed", strike.speed, "speed of the ball"),
         speed("stick_speed_after", strike.stick_speed_after, "speed of the cue after", detail=True),
         speed("roll_speed", rolls, "speed of the ball once it rolls"),
-        length("slide", drag_distance(strike.speed, spin, cloth), "rolls after"),
-        length("stun", stun, "is a stun shot after"),
+        length("slide", drag_distance(strike.speed, spin, cloth), "distance until it rolls"),
+        length("stun", stun, "distance until it is a stun shot"),
     ]
     return quantities if known else [Quantity(one.name, None) for one in quantities]
 

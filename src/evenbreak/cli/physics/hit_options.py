@@ -24,8 +24,8 @@ def friction_options(command: Command) -> Command:
         type=click.Choice(["limited", "shepard"]),
         default="limited",
         show_default=True,
-        help="Whether friction between the balls ends when they stop slipping, or follows the "
-        "law of the source text, which has no such limit.",
+        help="limited: it ends when the balls no longer slip; shepard: the law of the source "
+        "text, without that limit.",
     )(command)
     return measure_option(
         "--mu",

@@ -65,8 +65,8 @@ class Place(click.ParamType):  # type: ignore[type-arg]
     metavar="NAME",
     help="Aim there, allowing for throw: head-, side- or foot-, then left or right.",
 )
-@measure_option("--speed", "SPEED", 0.0, 1e4, "80", "Of the cue ball just after the tip.")
-@measure_option("--stick-speed", "SPEED", 0.0, 1e4, "60", "Of the cue, in place of --speed.")
+@measure_option("--speed", "SPEED", 0.0, 1e4, "80", "Speed of the cue ball just after the tip.")
+@measure_option("--stick-speed", "SPEED", 0.0, 1e4, "60", "Speed of the cue, in place of --speed.")
 @tip_options(default=0.0, show_default=True)
 @measure_option(
     "--table-speed",

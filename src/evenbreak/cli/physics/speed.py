@@ -41,7 +41,7 @@ Examples:
     "Between the noses of the end cushions.  [default: 100 inches, nine feet]",
 )
 @measure_option(
-    "--ball-diameter", "LENGTH", 0.01, 1e5, "2.25", "Of the ball.  [default: 2.25 inches]"
+    "--ball-diameter", "LENGTH", 0.01, 1e5, "2.25", "Diameter of the ball.  [default: 2.25 inches]"
 )
 @metric_option
 @faces()

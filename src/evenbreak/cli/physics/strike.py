@@ -34,7 +34,7 @@ Examples:
     0.01,
     1e5,
     "60",
-    "Of the cue just before the hit; needed for speeds and distances.",
+    "Speed of the cue just before the hit; needed for speeds and distances.",
 )
 @measure_option(
     "--distance",
