@@ -10,7 +10,7 @@ from evenbreak.physics import Ball, Cloth, Cue, Slide, strike
 from evenbreak.physics.units import INCH, OUNCE
 
 
-def struck(up, right=0.0, *, speed=None, far=None, units=IMPERIAL, tip=1 / math.sqrt(3), ounces=18):
+def struck(up, right=0.0, *, speed=None, far=None, units=IMPERIAL, tip=3**-0.5, ounces=18):
     found = strike(
         1.0 if speed is None else speed * units.speed.size,
         up,
