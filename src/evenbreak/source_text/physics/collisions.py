@@ -22,7 +22,8 @@ from evenbreak.physics.throw import (
     throw_sensitivity,
 )
 from evenbreak.physics.units import DEGREE, FOOT, GRAVITY, INCH
-from evenbreak.source_text.physics.inputs import Answers, Inputs, crossing, slope
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.physics.calculus import crossing, slope
 
 _HALF_BALL = math.asin(0.5)
 

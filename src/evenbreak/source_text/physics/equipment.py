@@ -41,7 +41,7 @@ from evenbreak.physics.units import (
     INCH,
     OUNCE,
 )
-from evenbreak.source_text.physics.inputs import Answers, Inputs
+from evenbreak.source_text.inputs import Answers, Inputs
 
 _POOL = BALL_SETS["pool"]
 _CUBIC_INCH, _CUBIC_CENTIMETRE = INCH**3, CENTIMETRE**3

@@ -28,7 +28,7 @@ from evenbreak.physics.slide import (
 )
 from evenbreak.physics.table_speed import lag_distance, table_speed
 from evenbreak.physics.units import GRAVITY, INCH
-from evenbreak.source_text.physics.inputs import Answers, Inputs
+from evenbreak.source_text.inputs import Answers, Inputs
 
 _MU = 0.1
 """A coefficient for what does not depend on it."""

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from evenbreak.source_text.findings import Finding
+from evenbreak.source_text.markdown import beside, markdown_table, rounded, short
 from evenbreak.source_text.section5.innings import INNINGS
 from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
-from evenbreak.source_text.section5.markdown import beside, markdown_table, rounded, short
 from evenbreak.source_text.section5.matrices import MATRICES
-from evenbreak.source_text.section5.numbers import Finding
 from evenbreak.source_text.section5.samples import pascals_triangle
 
 if TYPE_CHECKING:
@@ -38,7 +39,20 @@ def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
     return beside(row[name], row[f"{name}_printed"], decimals)
 
 
-def table_5_1(frame: pd.DataFrame) -> str:
+def _pairs_table(
+    frame: pd.DataFrame, *, header: Sequence[str], plain: Sequence[str], decimals: Mapping[str, int]
+) -> str:
+    """Return a table of some columns as they are, then of computed numbers with printed ones."""
+    return markdown_table(
+        header,
+        [
+            [*(row[name] for name in plain), *(_pair(row, *pair) for pair in decimals.items())]
+            for row in _records(frame)
+        ],
+    )
+
+
+def _table_5_1(frame: pd.DataFrame) -> str:
     """Return the critical values, the printed ones below."""
     rows = _records(frame)
     return markdown_table(
@@ -50,19 +64,7 @@ def table_5_1(frame: pd.DataFrame) -> str:
     )
 
 
-def table_5_2(frame: pd.DataFrame) -> str:
-    """Return the statistics of runs."""
-    decimals = {"mean_run": 1, "median_bound": 1, "median_run": 0, "median_over_mean": 3}
-    return markdown_table(
-        ["p", "mean", "bound", "median", "median / mean"],
-        [
-            [row["p"], *(_pair(row, *column) for column in decimals.items())]
-            for row in _records(frame)
-        ],
-    )
-
-
-def table_5_3(frame: pd.DataFrame) -> str:
+def _table_5_3(frame: pd.DataFrame) -> str:
     """Return mode, mean and median of scores, a column for each number of innings."""
     cells = {(row["p"], row["m"]): row for row in _records(frame)}
     chances = list(dict.fromkeys(p for p, _ in cells))
@@ -74,6 +76,48 @@ def table_5_3(frame: pd.DataFrame) -> str:
             for name, decimals in (("mode", 0), ("mean", 1), ("median", 0))
         ],
     )
+
+
+def _table_5_6(frame: pd.DataFrame) -> str:
+    """Return the four charts side by side."""
+    charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
+    for row in _records(frame):
+        last = row["difference_to"]
+        span = f"{row['difference_from']}{' up' if last is None else f'–{last}'}"
+        charts[row["chart"]].append([span, f"{row['stronger_needs']}:{row['weaker_needs']}"])
+    header = [name for number in CHARTS for name in (f"chart {number}", "race")]
+    longest = max(map(len, charts.values()))
+    return markdown_table(
+        header,
+        [
+            [cell for rows in charts.values() for cell in (rows[k] if k < len(rows) else ["", ""])]
+            for k in range(longest)
+        ],
+    )
+
+
+_DRILL = {f"d{level}": 3 for level in range(1, LEVELS + 1)}
+_DRILL |= {"mean": 3, "mode": 0, "median": 0, "standard_deviation": 3}
+
+TABLES: Mapping[int, Callable[[pd.DataFrame], str]] = {
+    1: _table_5_1,
+    2: partial(
+        _pairs_table,
+        header=["p", "mean", "bound", "median", "median / mean"],
+        plain=["p"],
+        decimals={"mean_run": 1, "median_bound": 1, "median_run": 0, "median_over_mean": 3},
+    ),
+    3: _table_5_3,
+    4: partial(
+        _pairs_table,
+        header=["row", "p1", "p2", "winner breaks", "loser breaks", "alternate breaks"],
+        plain=["row", "p1", "p2"],
+        decimals={"w_winner_breaks": 3, "w_loser_breaks": 3, "w_alternate_breaks": 3},
+    ),
+    5: partial(_pairs_table, header=["p", *list(_DRILL)[:-1], "sd"], plain=["p"], decimals=_DRILL),
+    6: _table_5_6,
+}
+"""How Tables 5.1 to 5.6 are shown."""
 
 
 def triangle_table() -> str:
@@ -127,9 +171,9 @@ def eigenvalues(frame: pd.DataFrame) -> str:
 def products_table(found: Sequence[Finding]) -> str:
     """Return the sixteen means of P5.18."""
     means = {
-        tuple(finding.published.inputs.split()): short(finding.computed)
-        for finding in found
-        if finding.published.quantity == "mean of two"
+        tuple(row.inputs.split()): f"{computed:.6g}"
+        for row, computed, _ in found
+        if row.quantity == "mean of two"
     }
     values = list(dict.fromkeys(first for first, _ in means))
     return markdown_table(
@@ -159,49 +203,6 @@ def steps_table(frame: pd.DataFrame) -> str:
     return markdown_table(
         ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],
         [[name, *cells] for name, cells in rows.items()],
-    )
-
-
-def table_5_4(frame: pd.DataFrame) -> str:
-    """Return the shares of racks by break format."""
-    names = ("w_winner_breaks", "w_loser_breaks", "w_alternate_breaks")
-    return markdown_table(
-        ["row", "p1", "p2", "winner breaks", "loser breaks", "alternate breaks"],
-        [
-            [row["row"], row["p1"], row["p2"], *(_pair(row, name, 3) for name in names)]
-            for row in _records(frame)
-        ],
-    )
-
-
-def table_5_5(frame: pd.DataFrame) -> str:
-    """Return the shares of the drill's levels and their statistics."""
-    decimals = {f"d{level}": 3 for level in range(1, LEVELS + 1)}
-    decimals |= {"mean": 3, "mode": 0, "median": 0, "standard_deviation": 3}
-    return markdown_table(
-        ["p", *list(decimals)[:-1], "sd"],
-        [
-            [row["p"], *(_pair(row, *column) for column in decimals.items())]
-            for row in _records(frame)
-        ],
-    )
-
-
-def table_5_6(frame: pd.DataFrame) -> str:
-    """Return the four charts side by side."""
-    charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
-    for row in _records(frame):
-        last = row["difference_to"]
-        span = f"{row['difference_from']}{' up' if last is None else f'–{last}'}"
-        charts[row["chart"]].append([span, f"{row['stronger_needs']}:{row['weaker_needs']}"])
-    header = [name for number in CHARTS for name in (f"chart {number}", "race")]
-    longest = max(map(len, charts.values()))
-    return markdown_table(
-        header,
-        [
-            [cell for rows in charts.values() for cell in (rows[k] if k < len(rows) else ["", ""])]
-            for k in range(longest)
-        ],
     )
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from evenbreak.plots.contours import contour_axes
-from evenbreak.plots.style import LINES, label_beside, label_on, new_axes, our_look, unit_axis
+from evenbreak.plots.style import LINES, label_beside, label_on, new_axes, unit_axis
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,29 +23,7 @@ _BREAK_1 = "$p_1$ = P(player 1 wins | player 1 breaks)"
 _BREAK_2 = "$p_2$ = P(player 2 wins | player 2 breaks)"
 
 
-def figures() -> Mapping[str, Callable[[], Figure]]:
-    """Return the plots of section 5 by name, each a function that draws it.
-
-    Notes
-    -----
-    Source: Figs. 5.1, 5.3, 5.6, 5.8, 5.9 and 5.11; the game diagrams are in
-    `evenbreak.source_text.section5.diagrams`.
-
-    >>> sorted(figures())[:2]
-    ['figure_5_1', 'figure_5_11']
-    """
-    plots = {
-        "figure_5_1": _races,
-        "figure_5_3": _one_ball,
-        "figure_5_6": _break_formats,
-        "figure_5_8": _progressive_drill,
-        "figure_5_9": _rating_ladders,
-        "figure_5_11": _ahead_matches,
-    }
-    return {name: our_look()(plot) for name, plot in plots.items()}
-
-
-def _races() -> Figure:
+def races() -> Figure:
     """Fig. 5.1: W(p; n, n) and W(p; 2n, n), n = 1 ... 10, and where 2:1 and 4:2 cross."""
     figure, axes = new_axes(_GAME, _MATCH, size=(7.2, 6.4))
     _race_curves(axes, _P, range(1, 11))
@@ -97,7 +75,7 @@ def _race_curves(axes: Axes, p: NDArray[np.float64], lengths: Iterable[int]) -> 
         )
 
 
-def _one_ball() -> Figure:
+def one_ball() -> Figure:
     """Fig. 5.3: the one-ball game, by the infinite and by the two-shot look-ahead."""
     from matplotlib.figure import Figure
 
@@ -117,7 +95,7 @@ def _one_ball() -> Figure:
     return figure
 
 
-def _break_formats() -> Figure:
+def break_formats() -> Figure:
     """Fig. 5.6: player 1's share of the games by break format, and WB less LB."""
     from evenbreak.plots.break_formats import share_panels
 
@@ -129,7 +107,7 @@ def _break_formats() -> Figure:
     return figure
 
 
-def _progressive_drill() -> Figure:
+def progressive_drill() -> Figure:
     """Fig. 5.8: where the progressive nine-ball drill spends its attempts, level by level."""
     from evenbreak.chains import chain_of, stochastic_limit
     from evenbreak.games import Drill
@@ -155,7 +133,7 @@ def _progressive_drill() -> Figure:
     return figure
 
 
-def _rating_ladders() -> Figure:
+def rating_ladders() -> Figure:
     """Fig. 5.9: how far ratings stray on the NPL ladder, for four charts."""
     from evenbreak.handicaps.charts.chart import chart
     from evenbreak.handicaps.ladders.ladder import Ladder
@@ -179,7 +157,7 @@ def _rating_ladders() -> Figure:
     return figure
 
 
-def _ahead_matches() -> Figure:
+def ahead_matches() -> Figure:
     """Fig. 5.11: n-ahead matches whose two handicaps add up to six games."""
     from evenbreak.games import Ahead, Rack
     from evenbreak.matches import win_probability
