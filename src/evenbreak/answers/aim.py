@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
-from evenbreak.answers.hit import Hit, degrees
+from evenbreak.answers.answer import Answer, Quantities
+from evenbreak.answers.hit import Hit
 from evenbreak.answers.shot_units import Unit
+from evenbreak.answers.worded import worded
 from evenbreak.physics.throw import aim
+
+_WORDS = {"throw_deg": ("throw, degrees", 2), "aim_cut_deg": ("cut angle to aim for, degrees", 2)}
 
 
 def aim_answer(hit: Hit, distance: float, length: Unit) -> Answer:
@@ -37,16 +40,14 @@ def aim_answer(hit: Hit, distance: float, length: Unit) -> Answer:
     angle, topspin, side = hit.in_frame
     found = aim(angle, distance, topspin, side, mu=hit.mu, friction=hit.friction)
     offset = hit.mirror * found.offset
+    angles = {
+        "throw_deg": math.degrees(found.throw),
+        "aim_cut_deg": hit.mirror * math.degrees(found.cut),
+    }
     quantities = [
-        *hit.quantities,
+        *worded(hit.asked, {}),
         length.quantity("distance", distance),
-        Quantity("throw_deg", math.degrees(found.throw), "throw, degrees", degrees),
-        Quantity(
-            "aim_cut_deg",
-            hit.mirror * math.degrees(found.cut),
-            "cut angle to aim for, degrees",
-            degrees,
-        ),
+        *worded(angles, _WORDS),
         length.quantity("offset", offset, "aim to the right of the middle of the pocket"),
         length.quantity(
             "rule_offset", hit.mirror * found.offset_of_text, "the same by the rule of thumb"

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import math
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer, Quantities
 from evenbreak.answers.shot_units import IMPERIAL, Unit
+from evenbreak.answers.worded import worded
 from evenbreak.answers.wording import decimals
 from evenbreak.physics.tip import best_stick_ratio, break_energy_share
 
-_share = decimals(3)
+_WORDS = {
+    "energy_share": ("share of the stroke's energy that reaches the cue ball", 3),
+    "stick_energy_share": ("the same with the cue of --stick", 3),
+    "stick_speed_share": ("speed of the break with that cue over the best", 3),
+}
 
 
 def break_cue_answer(forearm: float, ball: float, weight: Unit, stick: float | None) -> Answer:
@@ -38,15 +43,10 @@ def break_cue_answer(forearm: float, ball: float, weight: Unit, stick: float | N
         sentence += f" One of {weight.typed(stick)} breaks {_slower(speed)} for the same effort."
     optimal = weight.quantity("optimal_cue", best * ball, "best cue", 1)
     ounces = IMPERIAL.mass.quantity("optimal_cue", best * ball)
+    values = {"energy_share": most, "stick_energy_share": share, "stick_speed_share": speed}
     quantities = [
         *([optimal] if weight is IMPERIAL.mass else [ounces, optimal]),
-        Quantity(
-            "energy_share", most, "share of the stroke's energy that reaches the cue ball", _share
-        ),
-        Quantity("stick_energy_share", share, "the same with the cue of --stick", _share),
-        Quantity(
-            "stick_speed_share", speed, "speed of the break with that cue over the best", _share
-        ),
+        *worded(values, _WORDS),
     ]
     return Answer(
         f"Forearm and hand of {weight.typed(forearm)}, cue ball of {weight.typed(ball)}",

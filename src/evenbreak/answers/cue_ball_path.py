@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer, Quantities
 from evenbreak.answers.hit import Hit, degrees
-from evenbreak.answers.wording import decimals
+from evenbreak.answers.worded import worded
 from evenbreak.physics.collision import Collision
 from evenbreak.physics.deflection import (
+    EnergyShares,
     deflection,
     deflection_slope,
     energy_after_hit,
@@ -18,6 +19,22 @@ from evenbreak.physics.deflection import (
     split_roll_cut,
 )
 from evenbreak.physics.slide import roll_velocity
+
+_WORDS = {
+    "deflection_deg": ("deflection without friction between the balls, degrees", 2),
+    "deflection_thrown_deg": ("deflection with friction between the balls, degrees", 2),
+    "throw_deg": ("throw of the object ball, degrees", 2),
+    "departure_deg": ("angle between the two paths just after the hit, degrees", 2),
+}
+_DETAILS = {
+    "sensitivity": ("change of the deflection per degree of cut, degrees", 3),
+    "largest_deflection_deg": ("largest deflection at any cut, degrees", 2),
+    "largest_deflection_cut_deg": ("cut for that, degrees", 2),
+    "right_angle_cut_deg": ("cut for a deflection of 90 degrees, degrees", 2),
+    "equal_energy_cut_deg": ("cut at which both balls roll with the same energy, degrees", 2),
+    "object_energy_share": ("the object ball's share of the energy just after the hit", 3),
+    "object_energy_share_rolling": ("the object ball's share of the energy once both roll", 3),
+}
 
 _AT_REST = 1e-12
 """The speed below which a ball counts as standing still, over that of the cue ball."""
@@ -34,47 +51,33 @@ def cue_ball_path_answer(hit: Hit) -> Answer:
     found = hit.collide()
     angle, topspin, _ = hit.in_frame
     stops = hit.cut == 0.0 and topspin == 0.0
-    smooth = None if stops else math.degrees(deflection(angle, topspin))
+    smooth = None if stops else deflection(angle, topspin)
     rough = _deflection_with_friction(found)
     # With next to no topspin the deflection is that of stun, which is larger the fuller the hit.
     largest = largest_deflection_cut(topspin) if topspin > 1e-9 else None
-    quantities = [
-        *hit.quantities,
-        _angle("deflection_deg", smooth, "deflection without friction between the balls"),
-        _angle("deflection_thrown_deg", rough, "deflection with friction between the balls"),
-        _angle("throw_deg", math.degrees(found.throw), "throw of the object ball"),
-        _angle(
-            "departure_deg", _departure(found), "angle between the two paths just after the hit"
-        ),
-        Quantity(
-            "sensitivity",
-            None if stops else deflection_slope(angle, topspin),
-            "change of the deflection per degree of cut, degrees",
-            decimals(3),
-            detail=True,
-        ),
-        _angle(
-            "largest_deflection_deg",
-            None if largest is None else math.degrees(deflection(largest, topspin)),
-            "largest deflection at any cut",
-            detail=True,
-        ),
-        _angle("largest_deflection_cut_deg", _degrees(largest), "cut for that", detail=True),
-        _angle(
-            "right_angle_cut_deg",
-            _degrees(right_angle_cut(topspin)) if -2.5 <= topspin < 0.0 else None,
-            "cut for a deflection of 90 degrees",
-            detail=True,
-        ),
-        _angle(
-            "equal_energy_cut_deg",
-            _degrees(split_roll_cut(topspin)) if abs(topspin) <= 2.5 else None,
-            "cut at which both balls roll with the same energy",
-            detail=True,
-        ),
-        *_energy_shares(angle, topspin),
-    ]
-    return Answer(hit.description, [path_words(rough, smooth, hit), Quantities(quantities)])
+    answers = {
+        "deflection_deg": smooth,
+        "deflection_thrown_deg": rough,
+        "throw_deg": found.throw,
+        "departure_deg": _departure(found),
+        "sensitivity": None if stops else deflection_slope(angle, topspin),
+        "largest_deflection_deg": None if largest is None else deflection(largest, topspin),
+        "largest_deflection_cut_deg": largest,
+        "right_angle_cut_deg": right_angle_cut(topspin) if -2.5 <= topspin < 0.0 else None,
+        "equal_energy_cut_deg": split_roll_cut(topspin) if abs(topspin) <= 2.5 else None,
+    }
+    in_degrees = {
+        name: math.degrees(one) if one is not None and name.endswith("_deg") else one
+        for name, one in answers.items()
+    }
+    values = {
+        **hit.asked,
+        **in_degrees,
+        "object_energy_share": _object_share(energy_after_hit(angle, topspin)),
+        "object_energy_share_rolling": _object_share(energy_in_roll(angle, topspin)),
+    }
+    sentence = path_words(in_degrees["deflection_thrown_deg"], in_degrees["deflection_deg"], hit)
+    return Answer(hit.description, [sentence, Quantities(worded(values, _WORDS, _DETAILS))])
 
 
 def path_words(rough: float | None, smooth: float | None, hit: Hit) -> str:
@@ -111,34 +114,17 @@ def _way(
 
 
 def _deflection_with_friction(found: Collision) -> float | None:
-    """Return the deflection in degrees, below 0 to the side of the object ball."""
+    """Return the deflection in radians, below 0 to the side of the object ball."""
     rim_velocity = found.ball.radius * found.cue_spin
     ahead, left = map(float, roll_velocity(found.cue_velocity[:2], rim_velocity))
-    return None if math.hypot(ahead, left) < _AT_REST else math.degrees(math.atan2(left, ahead))
+    return None if math.hypot(ahead, left) < _AT_REST else math.atan2(left, ahead)
 
 
 def _departure(found: Collision) -> float | None:
-    """Return the angle between the two paths in degrees; None if a ball stands still."""
+    """Return the angle between the two paths in radians; None if a ball stands still."""
     slowest = min(math.hypot(*ball[:2]) for ball in (found.object_velocity, found.cue_velocity))
-    return None if slowest < _AT_REST else math.degrees(found.departure)
+    return None if slowest < _AT_REST else float(found.departure)
 
 
-def _energy_shares(angle: float, topspin: float) -> list[Quantity]:
-    """Return the object ball's share of the energy of both balls, without friction."""
-    shares = []
-    for name, words, energies in (
-        ("object_energy_share", "just after the hit", energy_after_hit(angle, topspin)),
-        ("object_energy_share_rolling", "once both roll", energy_in_roll(angle, topspin)),
-    ):
-        share = energies.object_ball / (energies.object_ball + energies.cue_ball)
-        heading = f"the object ball's share of the energy {words}"
-        shares.append(Quantity(name, share, heading, decimals(3), detail=True))
-    return shares
-
-
-def _angle(name: str, angle: float | None, words: str, *, detail: bool = False) -> Quantity:
-    return Quantity(name, angle, f"{words}, degrees", degrees, detail=detail)
-
-
-def _degrees(angle: float | None) -> float | None:
-    return None if angle is None else math.degrees(angle)
+def _object_share(energies: EnergyShares) -> float:
+    return float(energies.object_ball / (energies.object_ball + energies.cue_ball))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from evenbreak.answers.answer import Quantity
 from evenbreak.answers.wording import decimals
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.throw import gearing_side
@@ -89,16 +88,16 @@ class Hit(NamedTuple):
         return f"{cut_words(self.cut)}; {spin_words(self.topspin)}, {english}"
 
     @property
-    def quantities(self) -> list[Quantity]:
+    def asked(self) -> dict[str, Any]:
         """What was asked, which files hold before the answer."""
-        return [
-            Quantity("cut_deg", self.cut),
-            Quantity("topspin", self.topspin),
-            Quantity("side", self.side),
-            Quantity("english", self.english),
-            Quantity("mu", self.mu),
-            Quantity("friction", self.friction),
-        ]
+        return {
+            "cut_deg": self.cut,
+            "topspin": self.topspin,
+            "side": self.side,
+            "english": self.english,
+            "mu": self.mu,
+            "friction": self.friction,
+        }
 
 
 def cut_words(cut: float) -> str:

@@ -6,17 +6,27 @@ import math
 from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
-from evenbreak.answers.hit import degrees
 from evenbreak.answers.shot_units import Units
 from evenbreak.answers.shot_words import shot_heading, shot_words
-from evenbreak.answers.wording import decimals, yes_or_no
+from evenbreak.answers.worded import worded
+from evenbreak.answers.wording import decimals
 from evenbreak.physics.aimed import AimedShot
 from evenbreak.physics.deflection import deflection
 from evenbreak.physics.leg import Leg, Phase
 from evenbreak.physics.pockets import Pocket
 from evenbreak.physics.shot import Shot, spin_ratios
 
-_ratio = decimals(3)
+_WORDS = {
+    "cut_deg": ("cut angle, degrees", 2),
+    "hit_spin_speed_ratio": ("topspin J at the hit, 1 is natural roll", 3),
+    "hit_side_spin_speed_ratio": ("sidespin J at the hit, right above 0", 3),
+    "throw_deg": ("throw of the object ball, degrees", 2),
+    "deflection_thrown_deg": ("deflection of the cue ball, degrees", 2),
+}
+_DETAILS = {
+    "deflection_deg": ("deflection without friction between the balls, degrees", 2),
+    "energy_lost_at_hit_j": ("energy lost at the hit, joules", 3),
+}
 
 
 def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = None) -> Answer:
@@ -57,23 +67,19 @@ def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = 
     )
 
 
-def _angle(name: str, angle: float | None, words: str | None = None, **more: Any) -> Quantity:
-    """Return an angle, given in radians, in degrees; what rounding leaves of none is none."""
-    if angle is not None:
-        angle = math.degrees(angle) if abs(angle) > 1e-13 else 0.0
-    return Quantity(name, angle, words and f"{words}, degrees", degrees, **more)
-
-
 def _tip(found: Shot, units: Units) -> list[Quantity]:
     strike = found.strike
+    values = {
+        "spin_speed_ratio": strike.topspin,
+        "side_spin_speed_ratio": strike.side,
+        "direction_deg": _degrees(-math.remainder(found.direction, 2.0 * math.pi)),
+        "cut_deg": _degrees(found.cut),
+        "reached": found.reached,
+    }
     return [
         units.speed.quantity("ball_speed", strike.speed, "speed of the cue ball off the tip"),
         units.speed.quantity("stick_speed", strike.stick_speed),
-        Quantity("spin_speed_ratio", strike.topspin),
-        Quantity("side_spin_speed_ratio", strike.side),
-        _angle("direction_deg", -math.remainder(found.direction, 2.0 * math.pi)),
-        _angle("cut_deg", found.cut, "cut angle"),
-        Quantity("reached", found.reached, None, yes_or_no),
+        *worded(values, _WORDS),
     ]
 
 
@@ -88,22 +94,19 @@ def _hit(found: Shot, units: Units) -> list[Quantity]:
         lost = found.approach.energy(state.time).total - found.energy(state.time).total
         if cut or abs(topspin) >= 1e-9:  # a full hit with stun leaves the cue ball where it is
             smooth = deflection(cut, topspin)
+    values = {
+        "hit_spin_speed_ratio": topspin,
+        "hit_side_spin_speed_ratio": side,
+        "throw_deg": _degrees(throw),
+        "object_cut_deg": _degrees(object_cut),
+        "deflection_deg": _degrees(smooth),
+        "deflection_thrown_deg": _degrees(found.deflection),
+        "energy_lost_at_hit_j": lost,
+    }
     return [
         Quantity("hit_s", state and state.time),
         units.speed.quantity("hit_speed", speed, "speed of the cue ball at the hit"),
-        Quantity(
-            "hit_spin_speed_ratio", topspin, "topspin J at the hit, 1 is natural roll", _ratio
-        ),
-        Quantity("hit_side_spin_speed_ratio", side, "sidespin J at the hit, right above 0", _ratio),
-        _angle("throw_deg", throw, "throw of the object ball"),
-        _angle("object_cut_deg", object_cut),
-        _angle(
-            "deflection_deg", smooth, "deflection without friction between the balls", detail=True
-        ),
-        _angle("deflection_thrown_deg", found.deflection, "deflection of the cue ball"),
-        Quantity(
-            "energy_lost_at_hit_j", lost, "energy lost at the hit, joules", _ratio, detail=True
-        ),
+        *worded(values, _WORDS, _DETAILS),
     ]
 
 
@@ -118,7 +121,7 @@ def _aim(aimed: AimedShot | None, units: Units) -> list[Quantity]:
         length("target_x", x),
         length("target_y", y),
         length("aim_offset", offset),
-        _angle("aim_turn_deg", turn),
+        Quantity("aim_turn_deg", _degrees(turn)),
         length("miss", miss),
     ]
 
@@ -145,6 +148,11 @@ def _way(name: str, ball: str, leg: Leg | None, units: Units) -> list[Quantity]:
         Quantity(f"{name}_end_s", time),
         units.speed.quantity(f"{name}_end_speed", speed),
     ]
+
+
+def _degrees(angle: float | None) -> float | None:
+    """Return an angle in degrees; what rounding leaves of none is none."""
+    return None if angle is None else math.degrees(angle) if abs(angle) > 1e-13 else 0.0
 
 
 def _moves(found: Shot) -> list[tuple[Leg, Phase]]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from evenbreak.answers.answer import Answer, Quantities, Quantity
 from evenbreak.answers.hit import spin_words
 from evenbreak.answers.shot_units import Units
-from evenbreak.answers.wording import decimals, yes_or_no
+from evenbreak.answers.worded import worded
+from evenbreak.answers.wording import decimals
 from evenbreak.errors import InputError
 from evenbreak.physics.friction import miscue_offset, tip_friction_of
 from evenbreak.physics.objects import Cloth
@@ -21,7 +23,23 @@ from evenbreak.physics.offset import (
 from evenbreak.physics.slide import drag_distance, roll_speed, stun_distance
 from evenbreak.physics.strike import Strike
 
-_ratio = decimals(3)
+_TIP = {
+    "off_centre": ("distance from the centre, in radii", 3),
+    "miscue_offset": ("largest distance without a miscue, in radii", 3),
+}
+_SPINS = {
+    "spin_speed_ratio": ("topspin J, 1 is natural roll", 3),
+    "side_spin_speed_ratio": ("sidespin J, right above 0", 3),
+    "roll_side_spin_speed_ratio": ("sidespin J once the ball rolls", 3),
+    "ball_speed_ratio": ("speed of the ball over that of the cue", 3),
+}
+_ROLL_SPEED = {"roll_speed_ratio": ("the same once the ball rolls", 3)}
+_LATER = {
+    "later_spin_speed_ratio": ("topspin J at --distance", 3),
+    "later_side_spin_speed_ratio": ("sidespin J at --distance", 3),
+    "stun_offset": ("--offset for a stun shot at --distance, at the same speed of the ball", 3),
+}
+_LATER_OFFSET = {"later_offset": ("offset that gives that topspin at once", 3)}
 
 
 def strike_answer(
@@ -54,21 +72,24 @@ def strike_answer(
     No miscue: the cue ball leaves at 77.0 inches per second with draw (-0.75). It is a stun
     shot after 19.6 inches and rolls after 28.8 inches.
     """
-    quantities = [
-        *_spins(strike),
-        *_speeds(strike, cloth, units, known=speed_known),
-        *_later(strike, cloth, distance),
-    ]
+    found = _found(strike, cloth, units, distance, speed_known)
     if strike.miscue:  # the tip slips, and none of this comes true
-        quantities = [Quantity(one.name, None) for one in quantities]
+        found = [replace(one, value=None) for one in found]
         sentence = _miscue_words(strike)
     else:
-        found = {one.name: one.value for one in quantities}
-        sentence = _words(strike, units, found, distance, speed_known)
+        values = {one.name: one.value for one in found}
+        sentence = _words(strike, units, values, distance, speed_known)
+    place = {
+        "offset": strike.offset,
+        "side_offset": strike.side_offset,
+        "off_centre": strike.off_centre,
+        "miscue": strike.miscue,
+        "miscue_offset": miscue_offset(strike.cue.tip_friction),
+    }
     speed = f"; cue at {units.speed.typed(strike.stick_speed)}" if speed_known else ""
     return Answer(
         f"{tip_words(strike)}{speed}",
-        [sentence, Quantities([*_tip(strike), *quantities])],
+        [sentence, Quantities([*worded(place, {}, _TIP), *found])],
     )
 
 
@@ -92,7 +113,7 @@ def _miscue_words(strike: Strike) -> str:
     needed = math.ceil(1000.0 * tip_friction_of(strike.off_centre)) / 1000.0
     limit = miscue_offset(strike.cue.tip_friction)
     return (
-        f"This is a miscue: the tip slips this far from the centre. Hit within {_ratio(limit)} of "
+        f"This is a miscue: the tip slips this far from the centre. Hit within {limit:.3f} of "
         f"the radius, or use a tip whose friction is {needed:g} or more (--tip-mu {needed:g})."
     )
 
@@ -120,81 +141,43 @@ def _words(
     return text
 
 
-def _tip(strike: Strike) -> list[Quantity]:
-    """Return where the tip hits, and whether it holds."""
-    return [
-        Quantity("offset", strike.offset),
-        Quantity("side_offset", strike.side_offset),
-        Quantity(
-            "off_centre",
-            strike.off_centre,
-            "distance from the centre, in radii",
-            _ratio,
-            detail=True,
-        ),
-        Quantity("miscue", strike.miscue, None, yes_or_no),
-        Quantity(
-            "miscue_offset",
-            miscue_offset(strike.cue.tip_friction),
-            "largest distance without a miscue, in radii",
-            _ratio,
-            detail=True,
-        ),
-    ]
-
-
-def _spins(strike: Strike) -> list[Quantity]:
-    """Return the spins, and speeds over that of the cue, just after the tip and in natural roll."""
+def _found(
+    strike: Strike, cloth: Cloth, units: Units, distance: float | None, speed_known: bool
+) -> list[Quantity]:
+    """Return the spins, the speeds and the distances of the ball."""
     ratio = ball_speed_ratio(strike.off_centre, strike.ball.mass / strike.cue.mass)
-    in_roll = roll_side(-strike.side_offset, 1.0 + strike.offset)
-    return [
-        Quantity("spin_speed_ratio", strike.topspin, "topspin J, 1 is natural roll", _ratio),
-        Quantity("side_spin_speed_ratio", strike.side, "sidespin J, right above 0", _ratio),
-        Quantity("roll_side_spin_speed_ratio", in_roll, "sidespin J once the ball rolls", _ratio),
-        Quantity("ball_speed_ratio", ratio, "speed of the ball over that of the cue", _ratio),
-        Quantity(
-            "roll_speed_ratio",
-            roll_speed(ratio, ratio * strike.topspin),
-            "the same once the ball rolls",
-            _ratio,
-            detail=True,
-        ),
-    ]
-
-
-def _speeds(strike: Strike, cloth: Cloth, units: Units, *, known: bool) -> list[Quantity]:
-    """Return speeds and distances, without values where the speed of the cue is not known."""
-    spin = strike.topspin
-    rolls = roll_speed(strike.speed, strike.speed * spin)
-    stun = stun_distance(strike.speed, spin, cloth) if spin < 0.0 else None
+    spins = {
+        "spin_speed_ratio": strike.topspin,
+        "side_spin_speed_ratio": strike.side,
+        "roll_side_spin_speed_ratio": roll_side(-strike.side_offset, 1.0 + strike.offset),
+        "ball_speed_ratio": ratio,
+        "roll_speed_ratio": roll_speed(ratio, ratio * strike.topspin),
+    }
+    spin, pace = strike.topspin, strike.speed
+    stun = stun_distance(pace, spin, cloth) if spin < 0.0 else None
     speed, length = units.speed.quantity, units.length.quantity
-    quantities = [
-        speed("ball_speed", strike.speed, "speed of the ball"),
+    moving = [
+        speed("ball_speed", pace, "speed of the ball"),
         speed("stick_speed_after", strike.stick_speed_after, "speed of the cue after", detail=True),
-        speed("roll_speed", rolls, "speed of the ball once it rolls"),
-        length("slide", drag_distance(strike.speed, spin, cloth), "distance until it rolls"),
+        speed("roll_speed", roll_speed(pace, pace * spin), "speed of the ball once it rolls"),
+        length("slide", drag_distance(pace, spin, cloth), "distance until it rolls"),
         length("stun", stun, "distance until it is a stun shot"),
     ]
-    return quantities if known else [Quantity(one.name, None) for one in quantities]
+    if not speed_known:
+        moving = [replace(one, value=None) for one in moving]
+    later = worded(_later(strike, cloth, distance), _LATER, _LATER_OFFSET)
+    return [*worded(spins, _SPINS, _ROLL_SPEED), *moving, *later]
 
 
-def _later(strike: Strike, cloth: Cloth, distance: float | None) -> list[Quantity]:
+def _later(strike: Strike, cloth: Cloth, distance: float | None) -> dict[str, float | None]:
     """Return the spin after a distance, and where to hit for a stun shot there at this speed."""
-    values: list[float | None] = [None] * 4
-    if distance is not None:
-        struck = ContactPoint(-strike.side_offset, 1.0 + strike.offset)
-        now = effective_contact(struck, strike.speed, _time_to(distance, strike, cloth), cloth)
-        values = [2.5 * (now.z - 1.0), -2.5 * now.y, now.z - 1.0, _stun(strike, distance, cloth)]
-    names = {
-        "later_spin_speed_ratio": "topspin J at --distance",
-        "later_side_spin_speed_ratio": "sidespin J at --distance",
-        "later_offset": "height of the tip above the centre that gives that topspin at once",
-        "stun_offset": "--offset for a stun shot at --distance, at the same speed of the ball",
-    }
-    return [
-        Quantity(name, value, words, _ratio, detail=name == "later_offset")
-        for (name, words), value in zip(names.items(), values, strict=True)
-    ]
+    names = ("later_spin_speed_ratio", "later_side_spin_speed_ratio", "later_offset", "stun_offset")
+    if distance is None:
+        return dict.fromkeys(names)
+    struck = ContactPoint(-strike.side_offset, 1.0 + strike.offset)
+    now = effective_contact(struck, strike.speed, _time_to(distance, strike, cloth), cloth)
+    stun = _stun(strike, distance, cloth)
+    return dict(zip(names, (2.5 * (now.z - 1.0), -2.5 * now.y, now.z - 1.0, stun), strict=True))
 
 
 def _stun(strike: Strike, distance: float, cloth: Cloth) -> float | None:

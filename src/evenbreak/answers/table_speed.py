@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer, Quantities
 from evenbreak.answers.shot_units import Units
+from evenbreak.answers.worded import worded
 from evenbreak.answers.wording import decimals
 from evenbreak.physics.table_speed import TABLE_SPEEDS, lag_speed, table_speed
 
+_WORDS = {"table_speed": ("table speed", 1)}
+_DETAILS = {"mu_roll": ("effective rolling friction, 1 / table speed", 4)}
 _LEAST, _MOST = 40.0, 250.0
 """Outside these speeds a wrong time or unit is likelier than such a table."""
 
@@ -20,21 +23,11 @@ def table_speed_answer(lag_time: float, distance: float, units: Units) -> Answer
     """
     speed = table_speed(lag_time, distance=distance)
     cloth = cloth_class(speed)
+    values = {"table_speed": speed, "mu_roll": 1.0 / speed, "cloth": cloth}
+    pace = lag_speed(lag_time, distance=distance)
     quantities = [
-        Quantity("table_speed", speed, "table speed", decimals(1)),
-        Quantity(
-            "mu_roll",
-            1.0 / speed,
-            "effective rolling friction, 1 / table speed",
-            decimals(4),
-            detail=True,
-        ),
-        Quantity("cloth", cloth),
-        units.speed.quantity(
-            "first_speed",
-            lag_speed(lag_time, distance=distance),
-            "speed of the ball off the cushion",
-        ),
+        *worded(values, _WORDS, _DETAILS),
+        units.speed.quantity("first_speed", pace, "speed of the ball off the cushion"),
         units.length.quantity("roll", distance, "distance that its centre rolls", detail=True),
     ]
     doubts = []

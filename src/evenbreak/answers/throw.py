@@ -4,10 +4,22 @@ from __future__ import annotations
 
 import math
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer, Quantities
 from evenbreak.answers.hit import Hit, degrees
-from evenbreak.answers.wording import decimals, yes_or_no
+from evenbreak.answers.worded import worded
 from evenbreak.physics.throw import gearing_side, throw_factor, throw_sensitivity
+
+_WORDS = {
+    "throw_deg": ("throw, degrees", 2),
+    "object_cut_deg": ("angle at which the object ball leaves, degrees", 2),
+    "no_throw_side": ("english that cancels the throw, --side", 3),
+}
+_DETAILS = {
+    "throw_factor": ("share of the friction that acts sideways, -1 to 1", 3),
+    "sensitivity": ("sensitivity: change of that share per unit of spin", 2),
+    "friction_stops": ("the balls stop slipping during contact, which limits the throw", 0),
+    "object_side": ("sidespin J that the object ball takes on", 3),
+}
 
 
 def throw_answer(hit: Hit) -> Answer:
@@ -20,54 +32,19 @@ def throw_answer(hit: Hit) -> Answer:
     found = hit.collide()
     throw = math.degrees(found.throw)
     factor, sensitivity = throw_factor(*hit.in_frame), throw_sensitivity(*hit.in_frame)
-    stops = math.tan(abs(found.throw)) < (1.0 - 1e-9) * hit.mu * abs(factor)
-    given_side = -2.5 * hit.mirror * found.sideways / math.hypot(found.ahead, found.sideways)
-    object_cut = hit.mirror * (abs(hit.cut) - throw)
-    quantities = [
-        *hit.quantities,
-        Quantity("throw_deg", throw, "throw, degrees", degrees),
-        Quantity(
-            "object_cut_deg",
-            object_cut,
-            "angle at which the object ball leaves, degrees",
-            degrees,
-        ),
-        Quantity(
-            "throw_factor",
-            factor,
-            "share of the friction that acts sideways, -1 to 1",
-            decimals(3),
-            detail=True,
-        ),
-        Quantity(
-            "sensitivity",
-            sensitivity if math.isfinite(sensitivity) else None,
-            "sensitivity: change of that share per unit of spin",
-            decimals(2),
-            detail=True,
-        ),
-        Quantity(
-            "friction_stops",
-            stops,
-            "the balls stop slipping during contact, which limits the throw",
-            yes_or_no,
-            detail=True,
-        ),
-        Quantity(
-            "no_throw_side",
-            hit.mirror * gearing_side(hit.in_frame[0]),
-            "english that cancels the throw, --side",
-            decimals(3),
-        ),
-        Quantity(
-            "object_side",
-            given_side,
-            "sidespin J that the object ball takes on",
-            decimals(3),
-            detail=True,
-        ),
-    ]
-    return Answer(hit.description, [throw_words(throw, hit), Quantities(quantities)])
+    given = -2.5 * found.sideways / math.hypot(found.ahead, found.sideways)
+    values = {
+        **hit.asked,
+        "throw_deg": throw,
+        "object_cut_deg": hit.mirror * (abs(hit.cut) - throw),
+        "throw_factor": factor,
+        "sensitivity": sensitivity if math.isfinite(sensitivity) else None,
+        "friction_stops": math.tan(abs(found.throw)) < (1.0 - 1e-9) * hit.mu * abs(factor),
+        "no_throw_side": hit.mirror * gearing_side(hit.in_frame[0]),
+        "object_side": hit.mirror * given,
+    }
+    quantities = Quantities(worded(values, _WORDS, _DETAILS))
+    return Answer(hit.description, [throw_words(throw, hit), quantities])
 
 
 def throw_words(throw: float, hit: Hit) -> str:

@@ -9,7 +9,7 @@ import click
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.hit_options import hit_of, hit_options
-from evenbreak.cli.physics.measures import measure_option, metric_option
+from evenbreak.cli.physics.measures import LENGTH, metric_option
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
@@ -26,9 +26,7 @@ Examples:
 
 @click.command("aim", epilog=EXAMPLES)
 @hit_options
-@measure_option(
-    "--distance", "LENGTH", 0.1, 1e5, "36", "From the object ball to the pocket.", required=True
-)
+@click.option("--distance", type=LENGTH, required=True, help="From the object ball to the pocket.")
 @metric_option
 @faces()
 def command(distance: float, units: Units, **hit: Any) -> Answer:

@@ -9,7 +9,7 @@ import click
 
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.equipment_options import ball_of, ball_option
-from evenbreak.cli.physics.measures import measure_option, metric_option
+from evenbreak.cli.physics.measures import WEIGHT, Measure, metric_option
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
@@ -24,17 +24,14 @@ Examples:
 
 
 @click.command("breakcue", epilog=EXAMPLES)
-@measure_option(
+@click.option(
     "--forearm",
-    "WEIGHT",
-    0.0,
-    1e6,
-    "36",
-    "Weight of forearm and hand; of the whole arm if you break from the shoulder.",
+    type=Measure("weight", 0.0, 1e6, "36"),
     required=True,
+    help="Weight of forearm and hand; of the whole arm if you break from the shoulder.",
 )
 @ball_option
-@measure_option("--stick", "WEIGHT", 0.01, 1e5, "19", "Compare with a cue of this weight.")
+@click.option("--stick", type=WEIGHT, help="Compare with a cue of this weight.")
 @metric_option
 @faces()
 def command(forearm: float, ball: float | None, stick: float | None, units: Units) -> Answer:

@@ -5,42 +5,35 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from evenbreak.cli.physics.measures import measure_option
+import click
+
+from evenbreak.cli.physics.measures import WEIGHT, Measure
 
 if TYPE_CHECKING:
     from evenbreak.answers.shot_units import Units
     from evenbreak.cli.kit.options import Command
     from evenbreak.physics import Ball, Cue
 
-ball_option = measure_option(
-    "--ball", "WEIGHT", 0.01, 1e5, "6", "Weight of a ball.  [default: 6 ounces]"
-)
+ball_option = click.option("--ball", type=WEIGHT, help="Weight of a ball.  [default: 6 ounces]")
 """The option --ball."""
 
 _OPTIONS = (
-    measure_option(
+    click.option(
         "--tip-mu",
-        "MU",
-        0.01,
-        10.0,
-        "0.6",
-        "Static friction between tip and ball.  [default: 0.577, a miscue beyond half the radius]",
+        type=Measure("mu", 0.01, 10.0, "0.6"),
         default=1.0 / math.sqrt(3.0),
+        help="Static friction between tip and ball.  "
+        "[default: 0.577, a miscue beyond half the radius]",
     ),
-    measure_option(
+    click.option(
         "--cloth-mu",
-        "MU",
-        0.01,
-        1.0,
-        "0.2",
-        "Sliding friction between ball and cloth.",
+        type=Measure("mu", 0.01, 1.0, "0.2"),
         default=0.2,
         show_default=True,
+        help="Sliding friction between ball and cloth.",
     ),
     ball_option,
-    measure_option(
-        "--stick", "WEIGHT", 0.01, 1e5, "18", "Weight of the cue.  [default: 18 ounces]"
-    ),
+    click.option("--stick", type=WEIGHT, help="Weight of the cue.  [default: 18 ounces]"),
 )
 
 

@@ -7,73 +7,61 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.physics.measures import measure_option
+from evenbreak.cli.physics.measures import CUT, FRICTION, OFFSET, SPIN
 
 if TYPE_CHECKING:
     from evenbreak.answers.hit import Hit
     from evenbreak.cli.kit.options import Command
 
-_MOST_SPIN = 100.0
-"""The largest spin J that an option takes; a cue seldom gives more than 2."""
-
-
-def friction_options(command: Command) -> Command:
-    """Add the options --mu and --friction."""
-    command = click.option(
+_FRICTION = (
+    click.option(
         "--friction",
         type=click.Choice(["limited", "shepard"]),
         default="limited",
         show_default=True,
         help="limited: it ends when the balls no longer slip; shepard: the law of the source "
         "text, without that limit.",
-    )(command)
-    return measure_option(
+    ),
+    click.option(
         "--mu",
-        "MU",
-        0.0,
-        1.0,
-        "0.06",
-        "Friction between the two balls.  [default: 4/72 = 0.0556]",
+        type=FRICTION,
         default=4.0 / 72.0,
-    )(command)
+        help="Friction between the two balls.  [default: 4/72 = 0.0556]",
+    ),
+)
+_HIT = (
+    *_FRICTION,
+    click.option(
+        "--side",
+        type=SPIN,
+        default=0.0,
+        show_default=True,
+        help="Sidespin: right english above 0, left english below.",
+    ),
+    click.option(
+        "--topspin",
+        type=SPIN,
+        default=1.0,
+        show_default=True,
+        help="1 is natural roll, 0 stun, below 0 draw.",
+    ),
+    click.option(
+        "--cut",
+        type=CUT,
+        required=True,
+        help="Cut angle, to the left below 0; 90 is the limit of thin cuts.",
+    ),
+)
+
+
+def friction_options(command: Command) -> Command:
+    """Add the options --mu and --friction."""
+    return _with(_FRICTION, command)
 
 
 def hit_options(command: Command) -> Command:
     """Add the options --cut, --topspin, --side, --mu and --friction; see `hit_of`."""
-    for option in (
-        friction_options,
-        measure_option(
-            "--side",
-            "J",
-            -_MOST_SPIN,
-            _MOST_SPIN,
-            "-0.3",
-            "Sidespin: right english above 0, left english below.",
-            default=0.0,
-            show_default=True,
-        ),
-        measure_option(
-            "--topspin",
-            "J",
-            -_MOST_SPIN,
-            _MOST_SPIN,
-            "1",
-            "1 is natural roll, 0 stun, below 0 draw.",
-            default=1.0,
-            show_default=True,
-        ),
-        measure_option(
-            "--cut",
-            "DEGREES",
-            -90.0,
-            90.0,
-            "30",
-            "Cut angle, to the left below 0; 90 is the limit of thin cuts.",
-            required=True,
-        ),
-    ):
-        command = option(command)
-    return command
+    return _with(_HIT, command)
 
 
 def hit_of(*, cut: float, topspin: float, side: float, mu: float, friction: str) -> Hit:
@@ -85,26 +73,16 @@ def hit_of(*, cut: float, topspin: float, side: float, mu: float, friction: str)
 
 def tip_options(**offset: Any) -> Callable[[Command], Command]:
     """Return a decorator that adds --offset and --side-offset; `offset` is more about the first."""
+    side = "How far the tip hits to the right of the centre; below 0 to the left."
+    up = "How far the tip hits above the centre, in ball radii; below 0 for draw."
+    options = (
+        click.option("--side-offset", type=OFFSET, default=0.0, show_default=True, help=side),
+        click.option("--offset", type=OFFSET, help=up, **offset),
+    )
+    return lambda command: _with(options, command)
 
-    def add(command: Command) -> Command:
-        command = measure_option(
-            "--side-offset",
-            "B",
-            -1.0,
-            1.0,
-            "0.2",
-            "How far the tip hits to the right of the centre; below 0 to the left.",
-            default=0.0,
-            show_default=True,
-        )(command)
-        return measure_option(
-            "--offset",
-            "B",
-            -1.0,
-            1.0,
-            "0.4",
-            "How far the tip hits above the centre, in ball radii; below 0 for draw.",
-            **offset,
-        )(command)
 
-    return add
+def _with(options: tuple[Callable[[Any], Any], ...], command: Command) -> Command:
+    for option in options:
+        command = option(command)
+    return command

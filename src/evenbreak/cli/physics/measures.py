@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -11,7 +10,32 @@ from evenbreak.cli.kit.values import Number
 
 if TYPE_CHECKING:
     from evenbreak.answers.shot_units import Units
-    from evenbreak.cli.kit.options import Command
+
+
+class Measure(Number):
+    """A number from `low` to `high`; what refuses another shows one that would do, `example`."""
+
+    def __init__(self, name: str, low: float, high: float, example: str) -> None:
+        self.needed = f"give a number from {low:,.12g} to {high:,.12g}, such as {example}"
+        super().__init__(low, high, f"; {self.needed}")
+        self.name = name
+
+    def get_missing_message(
+        self,
+        param: click.Parameter,  # noqa: ARG002
+        ctx: click.Context | None,  # noqa: ARG002
+    ) -> str:
+        """Return what to write where the option is missing."""
+        return f"{self.needed.capitalize()}."
+
+
+CUT = Measure("degrees", -90.0, 90.0, "30")
+LENGTH = Measure("length", 0.1, 1e5, "36")
+SPEED = Measure("speed", 0.01, 1e5, "60")
+WEIGHT = Measure("weight", 0.01, 1e5, "6")
+SPIN = Measure("J", -100.0, 100.0, "0.3")
+OFFSET = Measure("B", -1.0, 1.0, "0.4")
+FRICTION = Measure("mu", 0.0, 1.0, "0.06")
 
 
 def _units(ctx: click.Context, param: click.Parameter, value: bool) -> Units:  # noqa: ARG001
@@ -28,26 +52,3 @@ metric_option = click.option(
     help="Read and print centimetres, grams and metres per second.",
 )
 """The option --metric; the command gets it as `units`."""
-
-
-class Measure(Number):
-    """A number from `low` to `high`; what refuses another shows one that would do, `example`."""
-
-    def __init__(self, low: float, high: float, example: str) -> None:
-        self.needed = f"give a number from {low:,.12g} to {high:,.12g}, such as {example}"
-        super().__init__(low, high, f"; {self.needed}")
-
-    def get_missing_message(
-        self,
-        param: click.Parameter,  # noqa: ARG002
-        ctx: click.Context | None,  # noqa: ARG002
-    ) -> str:
-        """Return what to write where the option is missing."""
-        return f"{self.needed.capitalize()}."
-
-
-def measure_option(
-    name: str, metavar: str, low: float, high: float, example: str, text: str, **more: Any
-) -> Callable[[Command], Command]:
-    """Return an option for a number from `low` to `high`, with `text` as its help."""
-    return click.option(name, metavar=metavar, type=Measure(low, high, example), help=text, **more)

@@ -15,7 +15,7 @@ from evenbreak.cli.kit.values import NUMBER, refuse
 from evenbreak.cli.physics.equipment_options import ball_of, cue_of, equipment_options
 from evenbreak.cli.physics.hit_options import friction_options, tip_options
 from evenbreak.cli.physics.layout import layout_of, traced_shot
-from evenbreak.cli.physics.measures import measure_option, metric_option
+from evenbreak.cli.physics.measures import LENGTH, Measure, metric_option
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
@@ -28,6 +28,9 @@ Examples:
   evenbreak physics shot --cut -45 --distance 20 --speed 50 --plot shot.svg
   evenbreak physics shot --cue-ball 25,16 --object-ball 50,25 --pocket foot-left --speed 60
 """
+
+
+PACE = Measure("speed", 0.0, 1e4, "80")
 
 
 class Place(click.ParamType):  # type: ignore[type-arg]
@@ -51,8 +54,10 @@ class Place(click.ParamType):  # type: ignore[type-arg]
 
 
 @click.command("shot", epilog=EXAMPLES)
-@measure_option("--cut", "DEGREES", -89.0, 89.0, "30", "Cut angle, to the left below 0.")
-@measure_option("--distance", "LENGTH", 0.1, 1e4, "24", "Between the centres of the two balls.")
+@click.option(
+    "--cut", type=Measure("degrees", -89.0, 89.0, "30"), help="Cut angle, to the left below 0."
+)
+@click.option("--distance", type=LENGTH, help="Between the centres of the two balls.")
 @click.option(
     "--cue-ball",
     metavar="X,Y",
@@ -65,26 +70,20 @@ class Place(click.ParamType):  # type: ignore[type-arg]
     metavar="NAME",
     help="Aim there, allowing for throw: head-, side- or foot-, then left or right.",
 )
-@measure_option("--speed", "SPEED", 0.0, 1e4, "80", "Speed of the cue ball just after the tip.")
-@measure_option("--stick-speed", "SPEED", 0.0, 1e4, "60", "Speed of the cue, in place of --speed.")
+@click.option("--speed", type=PACE, help="Speed of the cue ball just after the tip.")
+@click.option("--stick-speed", type=PACE, help="Speed of the cue, in place of --speed.")
 @tip_options(default=0.0, show_default=True)
-@measure_option(
+@click.option(
     "--table-speed",
-    "NUMBER",
-    5.0,
-    1000.0,
-    "100",
-    "How fast the table is, as found by `physics speed`.",
+    type=Measure("number", 5.0, 1000.0, "100"),
     default=100.0,
     show_default=True,
+    help="How fast the table is, as found by `physics speed`.",
 )
-@measure_option(
+@click.option(
     "--table-length",
-    "LENGTH",
-    20.0,
-    1e4,
-    "88",
-    "Between the end cushions; half as wide.  [default: 100 inches]",
+    type=Measure("length", 20.0, 1e4, "88"),
+    help="Between the end cushions; half as wide.  [default: 100 inches]",
 )
 @friction_options
 @equipment_options

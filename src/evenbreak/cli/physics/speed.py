@@ -8,7 +8,7 @@ import click
 
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
-from evenbreak.cli.physics.measures import measure_option, metric_option
+from evenbreak.cli.physics.measures import LENGTH, Measure, metric_option
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
@@ -23,26 +23,18 @@ Examples:
 
 
 @click.command("speed", epilog=EXAMPLES)
-@measure_option(
+@click.option(
     "--lag-time",
-    "SECONDS",
-    0.1,
-    1000.0,
-    "7.0",
-    "How long the ball rolls from the foot cushion to its stop at the head cushion.",
+    type=Measure("seconds", 0.1, 1000.0, "7.0"),
     required=True,
+    help="How long the ball rolls from the foot cushion to its stop at the head cushion.",
 )
-@measure_option(
+@click.option(
     "--table-length",
-    "LENGTH",
-    1.0,
-    1e5,
-    "100",
-    "Between the noses of the end cushions.  [default: 100 inches, nine feet]",
+    type=LENGTH,
+    help="Between the noses of the end cushions.  [default: 100 inches, nine feet]",
 )
-@measure_option(
-    "--ball-diameter", "LENGTH", 0.01, 1e5, "2.25", "Diameter of the ball.  [default: 2.25 inches]"
-)
+@click.option("--ball-diameter", type=LENGTH, help="Of the ball.  [default: 2.25 inches]")
 @metric_option
 @faces()
 def command(

@@ -12,7 +12,7 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.equipment_options import ball_of, cue_of, equipment_options
 from evenbreak.cli.physics.hit_options import tip_options
-from evenbreak.cli.physics.measures import measure_option, metric_option
+from evenbreak.cli.physics.measures import SPEED, Measure, metric_option
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
@@ -28,21 +28,15 @@ Examples:
 
 @click.command("strike", epilog=EXAMPLES)
 @tip_options(required=True)
-@measure_option(
+@click.option(
     "--stick-speed",
-    "SPEED",
-    0.01,
-    1e5,
-    "60",
-    "Speed of the cue just before the hit; needed for speeds and distances.",
+    type=SPEED,
+    help="Speed of the cue just before the hit; needed for speeds and distances.",
 )
-@measure_option(
+@click.option(
     "--distance",
-    "LENGTH",
-    0.0,
-    1e5,
-    "24",
-    "Add the spin that is left after this distance; with --stick-speed.",
+    type=Measure("length", 0.0, 1e5, "24"),
+    help="Add the spin that is left after this distance; with --stick-speed.",
 )
 @equipment_options
 @metric_option
