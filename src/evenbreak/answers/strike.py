@@ -23,23 +23,21 @@ from evenbreak.physics.offset import (
 from evenbreak.physics.slide import drag_distance, roll_speed, stun_distance
 from evenbreak.physics.strike import Strike
 
-_TIP = {
-    "off_centre": ("distance from the centre, in radii", 3),
-    "miscue_offset": ("largest distance without a miscue, in radii", 3),
-}
-_SPINS = {
+_WORDS = {
     "spin_speed_ratio": ("topspin J, 1 is natural roll", 3),
     "side_spin_speed_ratio": ("sidespin J, right above 0", 3),
     "roll_side_spin_speed_ratio": ("sidespin J once the ball rolls", 3),
     "ball_speed_ratio": ("speed of the ball over that of the cue", 3),
-}
-_ROLL_SPEED = {"roll_speed_ratio": ("the same once the ball rolls", 3)}
-_LATER = {
     "later_spin_speed_ratio": ("topspin J at --distance", 3),
     "later_side_spin_speed_ratio": ("sidespin J at --distance", 3),
     "stun_offset": ("--offset for a stun shot at --distance, at the same speed of the ball", 3),
 }
-_LATER_OFFSET = {"later_offset": ("offset that gives that topspin at once", 3)}
+_DETAILS = {
+    "off_centre": ("distance from the centre, in radii", 3),
+    "miscue_offset": ("largest distance without a miscue, in radii", 3),
+    "roll_speed_ratio": ("the same once the ball rolls", 3),
+    "later_offset": ("offset that gives that topspin at once", 3),
+}
 
 
 def strike_answer(
@@ -89,7 +87,7 @@ def strike_answer(
     speed = f"; cue at {units.speed.typed(strike.stick_speed)}" if speed_known else ""
     return Answer(
         f"{tip_words(strike)}{speed}",
-        [sentence, Quantities([*worded(place, {}, _TIP), *found])],
+        [sentence, Quantities([*worded(place, _WORDS, _DETAILS), *found])],
     )
 
 
@@ -165,8 +163,8 @@ def _found(
     ]
     if not speed_known:
         moving = [replace(one, value=None) for one in moving]
-    later = worded(_later(strike, cloth, distance), _LATER, _LATER_OFFSET)
-    return [*worded(spins, _SPINS, _ROLL_SPEED), *moving, *later]
+    later = worded(_later(strike, cloth, distance), _WORDS, _DETAILS)
+    return [*worded(spins, _WORDS, _DETAILS), *moving, *later]
 
 
 def _later(strike: Strike, cloth: Cloth, distance: float | None) -> dict[str, float | None]:

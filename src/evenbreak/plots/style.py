@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -123,6 +123,16 @@ def label_beside(
     'right'
     """
     offset, ha, va = _BESIDE[side]
-    return axes.annotate(
-        text, (x, y), offset, textcoords="offset points", fontsize=_LABEL, ha=ha, va=va
-    )
+    return note(axes, text, (x, y), offset, fontsize=_LABEL, ha=ha, va=va)
+
+
+def note(
+    axes: Axes, text: str, place: tuple[float, float], beside: tuple[float, float], **style: Any
+) -> Text:
+    """Write a text beside a place, in the units of the axes, by so many points of the page.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> note(axes, "even", (0.5, 0.5), (6, 0), ha="left").get_text()
+    'even'
+    """
+    return axes.annotate(text, place, beside, textcoords="offset points", **style)
