@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from decimal import ROUND_HALF_EVEN, Context, Decimal
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
-if TYPE_CHECKING:
-    import pandas as pd
+from evenbreak.files.csv_writer import csv_lines
 
 _DIGITS = Context(prec=10, rounding=ROUND_HALF_EVEN)
 
-Records: TypeAlias = Iterable[Mapping[str, Any]]
-"""The rows of a table, each by the names of its columns."""
+Records: TypeAlias = Iterator[Mapping[str, Any]]
+"""Rows that are made one by one."""
+
+Rows: TypeAlias = Sequence[Mapping[str, Any]]
+"""The rows of a table, each by the names of its columns; a cell may be missing."""
+
+Tables: TypeAlias = Mapping[str, Rows]
+"""Tables by the name of their file, without `.csv`."""
 
 
 def number_cell(value: Any) -> Decimal:
@@ -55,11 +60,14 @@ def record(inputs: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, An
     return exact | {name: _cell(value, fixed_cell) for name, value in values.items()}
 
 
-def frame(rows: Records) -> pd.DataFrame:
-    """Return rows as a table, every cell as it is."""
-    import pandas as pd
+def csv_bytes(rows: Rows) -> bytes:
+    r"""Return a table as a file.
 
-    return pd.DataFrame(list(rows), dtype=object)
+    >>> csv_bytes([{"p": Decimal("0.5")}, {"p": None, "note": "even"}])
+    b'p,note\n0.5,\n,even\n'
+    """
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    return "".join(csv_lines(names, ([row.get(name) for name in names] for row in rows))).encode()
 
 
 def _cell(value: Any, shown: Any) -> Any:

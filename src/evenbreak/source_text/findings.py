@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from evenbreak.source_text.cells import difference_cell, frame, number_cell
+from evenbreak.source_text.cells import difference_cell, number_cell
 from evenbreak.source_text.inputs import Answers, parse_inputs
 from evenbreak.source_text.published import PublishedNumber
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 class Finding(NamedTuple):
@@ -86,7 +83,7 @@ def differing(found: Iterable[Finding]) -> Iterator[str]:
             )
 
 
-def finding_record(finding: Finding) -> dict[str, Any]:
+def row_of(finding: Finding) -> dict[str, Any]:
     """Return a number as a row of a table."""
     row, computed = finding.published, finding.computed
     difference = None
@@ -103,8 +100,3 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "verdict": finding.verdict,
         "note": row.note,
     }
-
-
-def findings_frame(found: Iterable[Finding]) -> pd.DataFrame:
-    """Return numbers as a table, a row each."""
-    return frame(map(finding_record, found))

@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING
 
-from evenbreak.files.csv_writer import to_csv
 from evenbreak.plots.diagram import image_bytes
 from evenbreak.source_text.answers import physics_findings, section_5_findings
-from evenbreak.source_text.cells import frame
+from evenbreak.source_text.cells import Rows, Tables, csv_bytes
 from evenbreak.source_text.figures import figures
-from evenbreak.source_text.findings import Finding, findings_frame
+from evenbreak.source_text.findings import Finding, row_of
 from evenbreak.source_text.physics.figure_tables import figure_tables as physics_figure_tables
 from evenbreak.source_text.physics.page import physics_page
 from evenbreak.source_text.published import Erratum, errata, physics_errata
 from evenbreak.source_text.section5.figure_tables import figure_tables
 from evenbreak.source_text.section5.page import section_5_page
-from evenbreak.source_text.section5.problems import problem_frames
+from evenbreak.source_text.section5.problems import problem_tables
 from evenbreak.source_text.section5.tables import (
-    charts_frame,
-    ladder_frame,
-    score_frames,
-    table_frame,
+    chart_rows,
+    ladder_rows,
+    score_tables,
+    table_rows,
 )
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, bytes]:
@@ -37,12 +32,12 @@ def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, by
         gets a line on each step of the work.
     """
     say("Computing the tables and problems")
-    statistics, table_side = section_5_frames(), physics_frames()
+    statistics, physics = section_5_tables(), physics_tables()
     files = {
         "index.md": section_5_page(section_5_findings(), statistics).encode(),
-        "physics.md": physics_page(physics_findings(), table_side).encode(),
+        "physics.md": physics_page(physics_findings(), physics).encode(),
     }
-    files |= {f"{name}.csv": to_csv(table) for name, table in {**statistics, **table_side}.items()}
+    files |= {f"{name}.csv": csv_bytes(rows) for name, rows in {**statistics, **physics}.items()}
     drawn = figures()
     say(f"Drawing {len(drawn)} figures")
     for name, draw in drawn.items():
@@ -51,26 +46,26 @@ def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, by
     return files
 
 
-def section_5_frames() -> Mapping[str, pd.DataFrame]:
-    """Return the tables of section 5, by the name of their file without `.csv`."""
+def section_5_tables() -> Tables:
+    """Return the tables of section 5."""
     found = section_5_findings()
     return {
-        **{f"table_5_{n}": table_frame(found, f"Table 5.{n}") for n in range(1, 6)},
-        "table_5_6": charts_frame(),
-        **problem_frames(found),
-        **score_frames(),
-        "npl_ladder": ladder_frame(found),
+        **{f"table_5_{n}": table_rows(found, f"Table 5.{n}") for n in range(1, 6)},
+        "table_5_6": chart_rows(),
+        **problem_tables(found),
+        **score_tables(),
+        "npl_ladder": ladder_rows(found),
         **figure_tables(),
-        "published": findings_frame(found),
-        "errata": _errata_frame(errata()),
+        "published": list(map(row_of, found)),
+        "errata": _errata_rows(errata()),
     }
 
 
-def physics_frames() -> Mapping[str, pd.DataFrame]:
-    """Return the tables of sections 1 to 4, by the name of their file without `.csv`."""
+def physics_tables() -> Tables:
+    """Return the tables of sections 1 to 4."""
     return {
-        "published_physics": findings_frame(physics_findings()),
-        "errata_physics": _errata_frame(physics_errata()),
+        "published_physics": list(map(row_of, physics_findings())),
+        "errata_physics": _errata_rows(physics_errata()),
         **physics_figure_tables(),
     }
 
@@ -80,5 +75,5 @@ def all_findings() -> tuple[Finding, ...]:
     return (*physics_findings(), *section_5_findings())
 
 
-def _errata_frame(slips: Iterable[Erratum]) -> pd.DataFrame:
-    return frame(slip._asdict() for slip in slips).rename(columns={"class_": "class"})
+def _errata_rows(slips: Iterable[Erratum]) -> Rows:
+    return [{name.rstrip("_"): value for name, value in slip._asdict().items()} for slip in slips]

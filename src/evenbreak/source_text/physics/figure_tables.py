@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.physics.deflection import deflection, deflection_slope
 from evenbreak.physics.offset import (
@@ -17,7 +17,7 @@ from evenbreak.physics.offset import (
     small_circle_point,
 )
 from evenbreak.physics.throw import gearing_side, throw_factor, throw_sensitivity
-from evenbreak.source_text.cells import Records, frame, record
+from evenbreak.source_text.cells import Records, Tables, record
 from evenbreak.source_text.physics.ball_view import roll_chord
 from evenbreak.source_text.physics.chosen import (
     HALF_BALL,
@@ -30,21 +30,18 @@ from evenbreak.source_text.physics.chosen import (
 )
 from evenbreak.source_text.physics.deflection_figure import marked_points
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 _SPINS = [k / 10 for k in range(-20, 21)]
 _OFFSETS = [k / 100 for k in range(-round(100 * LARGEST_OFFSET), round(100 * LARGEST_OFFSET) + 1)]
 
 
-def figure_tables() -> Mapping[str, pd.DataFrame]:
+def figure_tables() -> Tables:
     """Return the numbers behind each plot of sections 3 and 4, by the name of the figure.
 
     Lengths are in ball radii, y to the left and z above the cloth; angles are in degrees; `m`
     is the mass of the ball over that of the stick.
 
-    >>> figure_tables()["figure_3_4_best"].astype(str).to_dict("records")[2]
-    {'m': '0.3333333333', 'offset': '0.238278', 'roll_speed_ratio': '1.199078'}
+    >>> [str(cell) for cell in figure_tables()["figure_3_4_best"][2].values()]
+    ['0.3333333333', '0.238278', '1.199078']
     """
     tables = {
         "figure_3_1": _same_sidespin(),
@@ -58,7 +55,7 @@ def figure_tables() -> Mapping[str, pd.DataFrame]:
         "figure_4_7_points": _points(),
         "figure_4_8": _tip_line(),
     }
-    return {name: frame(rows) for name, rows in tables.items()}
+    return {name: list(rows) for name, rows in tables.items()}
 
 
 def _same_sidespin() -> Records:

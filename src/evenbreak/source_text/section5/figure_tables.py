@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.breaks import BREAK_FORMATS
@@ -11,12 +11,9 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.practice.breaks import long_run_share
 from evenbreak.practice.shots import one_ball_win
-from evenbreak.source_text.cells import Records, frame, record
+from evenbreak.source_text.cells import Records, Tables, record
 from evenbreak.source_text.section5.break_formats import FORMATS
 from evenbreak.source_text.section5.long_run import CHARTS, HANDICAPS, drill, ladder
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 _LONGEST = 10
 _HUNDREDTHS = [k / 100 for k in range(101)]
@@ -24,7 +21,7 @@ _INSIDE = [k / 20 for k in range(1, 20)]
 """The grid of the contour plots; at a corner a limit may depend on the way to it."""
 
 
-def figure_tables() -> Mapping[str, pd.DataFrame]:
+def figure_tables() -> Tables:
     """Return the numbers behind each plot of section 5, by the name of the figure."""
     tables = {
         "figure_5_1": _curves(
@@ -54,7 +51,7 @@ def figure_tables() -> Mapping[str, pd.DataFrame]:
             {f"w_{m}_{n}": win_probability(Ahead(m, n, Rack(_HUNDREDTHS))) for m, n in HANDICAPS}
         ),
     }
-    return {name: frame(rows) for name, rows in tables.items()}
+    return {name: list(rows) for name, rows in tables.items()}
 
 
 def _share(name: str) -> Callable[[Any, Any], Any]:
@@ -85,7 +82,7 @@ def _ladders() -> Records:
         for kind in ("natural", "autocorrelated")
         for number in CHARTS
     }
-    errors = next(iter(laws.values())).values  # noqa: PD011
+    errors = next(iter(laws.values())).values
     for k, error in enumerate(errors):
         yield record(
             {"rating_error": error}, {name: law.probability[k] for name, law in laws.items()}

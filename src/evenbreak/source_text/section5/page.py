@@ -7,9 +7,9 @@ In the prose `{{numbers P5.7}}` stands for the printed and computed numbers of a
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
+from evenbreak.source_text.cells import Tables
 from evenbreak.source_text.findings import Finding
 from evenbreak.source_text.markdown import markdown_table
 from evenbreak.source_text.page import (
@@ -25,25 +25,20 @@ from evenbreak.source_text.section5 import page_tables
 from evenbreak.source_text.section5.long_run import HANDICAPS, ahead_formula
 from evenbreak.source_text.section5.matrices import matrix_table
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 _SHOWN_ELSEWHERE = {"mean of two", "W(1/2;n,n)", "W infinite look-ahead", "W two-shot look-ahead"}
 
-Frames = Mapping[str, "pd.DataFrame"]
 
-
-def section_5_page(found: Sequence[Finding], frames: Frames) -> str:
+def section_5_page(found: Sequence[Finding], tables: Tables) -> str:
     """Return the page in Markdown.
 
     Parameters
     ----------
     found
         all printed numbers with what is computed.
-    frames
+    tables
         the tables of section 5, by the name of their file.
     """
-    return filled("section5", _blocks(found, frames))
+    return filled("section5", _blocks(found, tables))
 
 
 def slips_of(place: str) -> list[Erratum]:
@@ -56,8 +51,8 @@ def slips_of(place: str) -> list[Erratum]:
     return [slip for slip in errata() if here.search(slip.where)]
 
 
-def _blocks(found: Sequence[Finding], frames: Frames) -> Blocks:
-    tables = {
+def _blocks(found: Sequence[Finding], tables: Tables) -> Blocks:
+    shown = {
         "games": (page_tables.games_table, "problem_5_09"),
         "values": (page_tables.eigenvalues, "problem_5_23"),
         "steps": (page_tables.steps_table, "problem_5_23"),
@@ -69,8 +64,8 @@ def _blocks(found: Sequence[Finding], frames: Frames) -> Blocks:
         "numbers": lambda problem: _numbers(found, problem),
         "slips": lambda place: slip_blocks(slips_of(place)),
         "errata": lambda class_: errata_table(errata(), class_),
-        "scores": lambda p: page_tables.score_table(frames[f"problem_5_06_scores_{_name(p)}"]),
-        "matches": lambda p: page_tables.score_table(frames[f"problem_5_06_matches_{_name(p)}"]),
+        "scores": lambda p: page_tables.score_table(tables[f"problem_5_06_scores_{_name(p)}"]),
+        "matches": lambda p: page_tables.score_table(tables[f"problem_5_06_matches_{_name(p)}"]),
         "triangle": lambda _: page_tables.triangle_table(),
         "matrix": matrix_table,
         "eigenvalues": page_tables.eigenvalues_table,
@@ -80,8 +75,8 @@ def _blocks(found: Sequence[Finding], frames: Frames) -> Blocks:
             ["match", "W"], [[f"{m}:{n}", f"`{ahead_formula(m, n)}`"] for m, n in HANDICAPS]
         ),
         **{
-            name: lambda _, shown=shown, frame=frames[file]: shown(frame)  # type: ignore[misc]
-            for name, (shown, file) in tables.items()
+            name: lambda _, show=show, file=file: show(tables[file])  # type: ignore[misc]
+            for name, (show, file) in shown.items()
         },
     }
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from evenbreak.source_text.cells import Rows
 from evenbreak.source_text.findings import Finding
 from evenbreak.source_text.markdown import beside, markdown_table, rounded, short
 from evenbreak.source_text.section5.innings import INNINGS
@@ -14,25 +15,18 @@ from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
 from evenbreak.source_text.section5.matrices import MATRICES
 from evenbreak.source_text.section5.samples import pascals_triangle
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 _STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half and half"}
 
 
-def score_table(frame: pd.DataFrame) -> str:
+def score_table(rows: Rows) -> str:
     """Return a table of P5.6, row m and column n."""
-    columns = list(frame.columns)
-    rows = [[f"**{row[0]}**", *map(_chance, row[1:])] for row in frame.itertuples(index=False)]
-    return markdown_table(["m \\ n", *(name.removeprefix("n_") for name in columns[1:])], rows)
+    header = ["m \\ n", *(name.removeprefix("n_") for name in list(rows[0])[1:])]
+    cells = [list(row.values()) for row in rows]
+    return markdown_table(header, [[f"**{m}**", *map(_chance, chances)] for m, *chances in cells])
 
 
 def _chance(value: Decimal) -> str:
     return f"{value:.0E}" if value < Decimal("0.00095") else rounded(value, 3)
-
-
-def _records(frame: pd.DataFrame) -> list[dict[str, Any]]:
-    return [dict(zip(frame.columns, row, strict=True)) for row in frame.itertuples(index=False)]
 
 
 def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
@@ -40,21 +34,20 @@ def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
 
 
 def _pairs_table(
-    frame: pd.DataFrame, *, header: Sequence[str], plain: Sequence[str], decimals: Mapping[str, int]
+    rows: Rows, *, header: Sequence[str], plain: Sequence[str], decimals: Mapping[str, int]
 ) -> str:
     """Return a table of some columns as they are, then of computed numbers with printed ones."""
     return markdown_table(
         header,
         [
             [*(row[name] for name in plain), *(_pair(row, *pair) for pair in decimals.items())]
-            for row in _records(frame)
+            for row in rows
         ],
     )
 
 
-def _table_5_1(frame: pd.DataFrame) -> str:
+def _table_5_1(rows: Rows) -> str:
     """Return the critical values, the printed ones below."""
-    rows = _records(frame)
     return markdown_table(
         ["P", *(str(row["coverage"]) for row in rows)],
         [
@@ -64,9 +57,9 @@ def _table_5_1(frame: pd.DataFrame) -> str:
     )
 
 
-def _table_5_3(frame: pd.DataFrame) -> str:
+def _table_5_3(rows: Rows) -> str:
     """Return mode, mean and median of scores, a column for each number of innings."""
-    cells = {(row["p"], row["m"]): row for row in _records(frame)}
+    cells = {(row["p"], row["m"]): row for row in rows}
     chances = list(dict.fromkeys(p for p, _ in cells))
     return markdown_table(
         ["p", "", *(f"m = {innings}" for innings in INNINGS)],
@@ -78,10 +71,10 @@ def _table_5_3(frame: pd.DataFrame) -> str:
     )
 
 
-def _table_5_6(frame: pd.DataFrame) -> str:
+def _table_5_6(rows: Rows) -> str:
     """Return the four charts side by side."""
     charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
-    for row in _records(frame):
+    for row in rows:
         last = row["difference_to"]
         span = f"{row['difference_from']}{' up' if last is None else f'–{last}'}"
         charts[row["chart"]].append([span, f"{row['stronger_needs']}:{row['weaker_needs']}"])
@@ -99,7 +92,7 @@ def _table_5_6(frame: pd.DataFrame) -> str:
 _DRILL = {f"d{level}": 3 for level in range(1, LEVELS + 1)}
 _DRILL |= {"mean": 3, "mode": 0, "median": 0, "standard_deviation": 3}
 
-TABLES: Mapping[int, Callable[[pd.DataFrame], str]] = {
+TABLES: Mapping[int, Callable[[Rows], str]] = {
     1: _table_5_1,
     2: partial(
         _pairs_table,
@@ -129,17 +122,17 @@ def triangle_table() -> str:
     )
 
 
-def games_table(frame: pd.DataFrame) -> str:
+def games_table(rows: Rows) -> str:
     """Return what P5.9 gives for some numbers of games."""
     names = ("N p - q", "mode", "number of modes", "mean", "standard deviation")
-    rows: dict[str, dict[str, Any]] = {}
-    for row in _records(frame):
-        rows.setdefault(row["inputs"], {})[row["quantity"]] = row["computed"]
+    games: dict[str, dict[str, Any]] = {}
+    for row in rows:
+        games.setdefault(row["inputs"], {})[row["quantity"]] = row["computed"]
     return markdown_table(
         ["games", *(name.replace("-", "−") for name in names)],
         [
             [inputs, *(short(found[name]) for name in names)]
-            for inputs, found in rows.items()
+            for inputs, found in games.items()
             if inputs
         ],
     )
@@ -158,12 +151,10 @@ def eigenvalues_table(problem: str) -> str:
     )
 
 
-def eigenvalues(frame: pd.DataFrame) -> str:
+def eigenvalues(rows: Rows) -> str:
     """Return the eigenvalues of P5.23 for the shots of its table."""
     values = [
-        rounded(row["computed"], 4)
-        for row in _records(frame)
-        if row["quantity"].startswith("eigenvalue ")
+        rounded(row["computed"], 4) for row in rows if row["quantity"].startswith("eigenvalue ")
     ]
     return ", ".join(values).replace("-", "−")
 
@@ -193,20 +184,20 @@ def table_5_22(found: Sequence[Finding]) -> str:
     )
 
 
-def steps_table(frame: pd.DataFrame) -> str:
+def steps_table(rows: Rows) -> str:
     """Return the densities of P5.23, step by step, and their limits."""
-    rows: dict[str, list[str]] = {}
-    for row in _records(frame):
+    steps: dict[str, list[str]] = {}
+    for row in rows:
         start, _, when = row["quantity"].rpartition(", ")
         if start in _STARTS:
-            rows.setdefault(f"{_STARTS[start]}: {when}", []).append(rounded(row["computed"], 4))
+            steps.setdefault(f"{_STARTS[start]}: {when}", []).append(rounded(row["computed"], 4))
     return markdown_table(
         ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],
-        [[name, *cells] for name, cells in rows.items()],
+        [[name, *cells] for name, cells in steps.items()],
     )
 
 
-def ladder_table(frame: pd.DataFrame) -> str:
+def ladder_table(rows: Rows) -> str:
     """Return how far ratings wander under each chart."""
     return markdown_table(
         ["chart", "even races up to", "opponents rated rightly", "opponents err alike"],
@@ -217,6 +208,6 @@ def ladder_table(frame: pd.DataFrame) -> str:
                 _pair(row, "sd_natural", 3),
                 _pair(row, "sd_autocorrelated", 3),
             ]
-            for row in _records(frame)
+            for row in rows
         ],
     )

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import Any
 
 from evenbreak.source_text.answers import SECTION_5
-from evenbreak.source_text.cells import frame, number_cell
-from evenbreak.source_text.findings import Finding, finding_record
+from evenbreak.source_text.cells import Tables, number_cell
+from evenbreak.source_text.findings import Finding, row_of
 from evenbreak.source_text.section5.order import by_problem
 from evenbreak.source_text.section5.rows import Derived, Row
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 PROBLEMS = tuple(f"P5.{number}" for number in range(1, 28))
 
@@ -29,16 +26,14 @@ def file_of(problem: str) -> str:
     return f"problem_5_{int(problem.removeprefix('P5.')):02}"
 
 
-def problem_frames(found: Iterable[Finding]) -> Mapping[str, pd.DataFrame]:
+def problem_tables(found: Iterable[Finding]) -> Tables:
     """Return the answer of each problem by the name of its file: what is printed, then the rest."""
     grouped = by_problem(found)
     return {
-        file_of(problem): frame(
-            [
-                *map(finding_record, grouped.get(problem, ())),
-                *(_derived(problem, row) for row in DERIVED.get(problem, tuple)()),
-            ]
-        )
+        file_of(problem): [
+            *map(row_of, grouped.get(problem, ())),
+            *(_derived(problem, row) for row in DERIVED.get(problem, tuple)()),
+        ]
         for problem in PROBLEMS
     }
 

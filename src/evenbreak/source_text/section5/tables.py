@@ -1,27 +1,24 @@
-"""The tables of section 5 as frames."""
+"""The tables of section 5."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.source_text.cells import frame, number_cell
+from evenbreak.source_text.cells import Rows, Tables, number_cell
 from evenbreak.source_text.findings import Finding
 from evenbreak.source_text.inputs import parse_inputs
 from evenbreak.source_text.section5.games_won import match_probability
 from evenbreak.source_text.section5.long_run import CHARTS
 from evenbreak.stats.binomial import score_probability
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 _SIZE = 10
 
 
-def table_frame(found: Iterable[Finding], table: str) -> pd.DataFrame:
+def table_rows(found: Iterable[Finding], table: str) -> Rows:
     """Return one of Tables 5.1 to 5.5: its inputs, each quantity and the printed one beside it.
 
     Raises
@@ -41,34 +38,34 @@ def table_frame(found: Iterable[Finding], table: str) -> pd.DataFrame:
         row[f"{name}_printed"] = published.printed
     if not rows:
         raise KeyError(table)
-    return frame(rows.values())
+    return list(rows.values())
 
 
-def score_frames() -> Mapping[str, pd.DataFrame]:
+def score_tables() -> Tables:
     """Return the four tables of P5.6: scores P(p; m, n) and matches W(p; m, n), by file name."""
-    frames = {}
+    tables = {}
     for p in (Fraction(1, 2), Fraction(2, 3)):
         end = f"p_{p.numerator}_{p.denominator}"
-        frames[f"problem_5_06_scores_{end}"] = _square(p, score_probability, 0)
-        frames[f"problem_5_06_matches_{end}"] = _square(p, match_probability, 1)
-    return frames
+        tables[f"problem_5_06_scores_{end}"] = _square(p, score_probability, 0)
+        tables[f"problem_5_06_matches_{end}"] = _square(p, match_probability, 1)
+    return tables
 
 
-def _square(p: Fraction, chance: Callable[[Fraction, int, int], Any], first: int) -> pd.DataFrame:
+def _square(p: Fraction, chance: Callable[[Fraction, int, int], Any], first: int) -> Rows:
     games = range(first, first + _SIZE)
-    return frame({"m": m, **{f"n_{n}": number_cell(chance(p, m, n)) for n in games}} for m in games)
+    return [{"m": m, **{f"n_{n}": number_cell(chance(p, m, n)) for n in games}} for m in games]
 
 
-def charts_frame() -> pd.DataFrame:
+def chart_rows() -> Rows:
     """Return Table 5.6: the races of the four charts, by rating difference."""
-    return frame(
+    return [
         {"chart": number, **row._asdict()}
         for number in CHARTS
         for row in chart(f"npl_{number}").rows
-    )
+    ]
 
 
-def ladder_frame(found: Iterable[Finding]) -> pd.DataFrame:
+def ladder_rows(found: Iterable[Finding]) -> Rows:
     """Return how far ratings wander under each chart, and the last even difference."""
     rows: dict[int, dict[str, Any]] = {
         number: {"chart": number, "even_up_to": chart(f"npl_{number}").rows[0].difference_to}
@@ -81,7 +78,7 @@ def ladder_frame(found: Iterable[Finding]) -> pd.DataFrame:
             name = "sd_autocorrelated" if auto else "sd_natural"
             rows[int(number)][name] = number_cell(computed)
             rows[int(number)][f"{name}_printed"] = published.printed
-    return frame(rows.values())
+    return list(rows.values())
 
 
 def _column(name: str) -> str:
