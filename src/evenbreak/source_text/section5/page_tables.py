@@ -15,7 +15,7 @@ from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
 from evenbreak.source_text.section5.matrices import MATRICES
 from evenbreak.source_text.section5.samples import pascals_triangle
 
-_STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half and half"}
+_STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half the time"}
 
 
 def score_table(rows: Rows) -> str:
@@ -200,7 +200,7 @@ def steps_table(rows: Rows) -> str:
 def ladder_table(rows: Rows) -> str:
     """Return how far ratings wander under each chart."""
     return markdown_table(
-        ["chart", "even races up to", "opponents rated rightly", "opponents err alike"],
+        ["chart", "even races up to", "opponents rated correctly", "opponents off the same way"],
         [
             [
                 row["chart"],
