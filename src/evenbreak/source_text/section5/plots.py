@@ -88,8 +88,8 @@ def one_ball() -> Figure:
         contour_axes(
             axes,
             partial(one_ball_win, look_ahead=look_ahead),
-            x="$p_1$ = P(player 1 makes his shot)",
-            y="$p_2$ = P(player 2 makes his shot)",
+            x="$p_1$ = P(player 1 makes the shot)",
+            y="$p_2$ = P(player 2 makes the shot)",
         )
         axes.set_title(f"{name}: $W$ = P(player 1 wins)")
     return figure
