@@ -1,60 +1,18 @@
 """The curves pass through the exact values, and show what the text says of its figures."""
 
-from __future__ import annotations
-
-import functools
 from fractions import Fraction
 from math import comb
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 
-from evenbreak.plots.diagram import image_bytes
-from evenbreak.source_text.section5.figures import figures
-
-NAMES = ("figure_5_1", "figure_5_3", "figure_5_6", "figure_5_8", "figure_5_9", "figure_5_11")
-
-
-@functools.cache
-def figure(name: str) -> Any:
-    return figures()[name]()
-
-
-def curves(axes: Any) -> list[Any]:
-    return [np.array(line.get_xydata()) for line in axes.lines]
-
-
-def at(curve: Any, x: float) -> float:
-    return float(np.interp(x, *curve.T))
+from drawings import at, contours, curves, figure, line_at
 
 
 def race(p: Fraction, m: int, n: int) -> Fraction:
     """Return W(p; m, n), the loser's score summed out."""
     return sum((comb(m - 1 + k, k) * p**m * (1 - p) ** k for k in range(n)), start=Fraction(0))
-
-
-def contours(axes: Any) -> Any:
-    """Return the contour lines of a panel."""
-    return next(lines for lines in axes.collections if hasattr(lines, "levels"))
-
-
-def line_at(axes: Any, level: float) -> Any:
-    """Return the points of the contour line of a level."""
-    lines = contours(axes)
-    return np.vstack(lines.allsegs[list(lines.levels).index(level)])
-
-
-def test_the_plots_are_named_by_their_numbers() -> None:
-    assert tuple(figures()) == NAMES
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_every_panel_says_what_its_axes_measure(name: str) -> None:
-    for axes in figure(name).axes:
-        assert axes.get_xlabel()
-        assert axes.get_ylabel()
 
 
 # Fig. 5.1
@@ -210,25 +168,3 @@ def test_ahead_matches_are_the_gamblers_ruin() -> None:
         assert at(curve, 0.5) == pytest.approx((6 - m) / 6)
     texts = [text.get_text() for text in figure("figure_5_11").axes[0].texts]
     assert texts == ["1:5", "2:4", "3:3", "4:2", "5:1"]
-
-
-@pytest.mark.parametrize("kind", ["svg", "png"])
-@pytest.mark.parametrize("name", ["figure_5_1", "figure_5_3"])
-def test_a_plot_drawn_again_is_the_same_to_the_byte(name: str, kind: Any) -> None:
-    draw = figures()[name]
-    assert image_bytes(draw(), kind) == image_bytes(draw(), kind)
-
-
-def test_a_readers_own_settings_do_not_change_a_plot() -> None:
-    own = {"font.size": 20, "font.sans-serif": ["DejaVu Sans Mono"], "svg.fonttype": "none"}
-    draw = figures()["figure_5_11"]
-    usual = image_bytes(draw(), "svg")
-    with mpl.rc_context(own | {"axes.linewidth": 3, "savefig.bbox": "tight"}):
-        assert image_bytes(draw(), "svg") == usual
-
-
-def test_pictures_are_of_moderate_size() -> None:
-    for name in NAMES:
-        width = figure(name).get_size_inches()[0] * 150
-        assert 900 <= width <= 1400
-        assert len(image_bytes(figure(name), "svg")) < 200_000
