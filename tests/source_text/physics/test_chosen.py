@@ -1,6 +1,7 @@
 """What is chosen is what the drawings of the text were drawn for, as far as they show it."""
 
 import math
+from itertools import pairwise
 
 from evenbreak.physics import gearing_side, miscue_offset
 from evenbreak.source_text.physics import chosen
@@ -9,11 +10,11 @@ from evenbreak.source_text.physics import chosen
 def test_sidespins_are_even_steps_about_none():
     for sides in (chosen.SIDES_AFTER_TIP, chosen.SIDES_IN_ROLL):
         assert sides == tuple(-side for side in reversed(sides))
-        assert len({b - a for a, b in zip(sides, sides[1:], strict=False)}) == 1
+        assert len({b - a for a, b in pairwise(sides)}) == 1
 
 
 def test_contours_double():
-    assert all(2.0 * a == b for a, b in zip(chosen.LEVELS, chosen.LEVELS[1:], strict=False))
+    assert all(2.0 * a == b for a, b in pairwise(chosen.LEVELS))
 
 
 def test_offsets_end_near_the_miscue_of_a_tip_of_friction_1():

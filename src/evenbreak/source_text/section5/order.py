@@ -22,8 +22,8 @@ def place_of(row: PublishedNumber) -> tuple[int, bool]:
 
     >>> from evenbreak.source_text.published import published_numbers
     >>> places = {row.problem: place_of(row) for row in published_numbers()}
-    >>> places["P5.16"], places["Table 5.3"], places["P5.17"]
-    ((16, False), (16, True), (17, False))
+    >>> places["P5.10"], places["Table 5.1"], places["P5.17"]
+    ((10, False), (10, True), (17, False))
     """
     home = "P5.26" if row.problem == "NPL" else _PROBLEM_OF.get(row.problem, row.problem)
     return int(home.removeprefix("P5.")), row.problem != home
