@@ -12,12 +12,15 @@ k = 2/5 J_y: 7/2 tan(cut) in natural roll.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain, positive
+from evenbreak.physics.arrays import Floats, numbers, plain, positive
 from evenbreak.physics.throw import shot_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 class EnergyShares(NamedTuple):
@@ -27,6 +30,12 @@ class EnergyShares(NamedTuple):
     cue_ball: Any
 
 
+@overload
+def deflection(cut: float, topspin: float = ...) -> float: ...
+
+
+@overload
+def deflection(cut: ArrayLike, topspin: ArrayLike = ...) -> Floats: ...
 def deflection(cut: Any, topspin: Any = 1.0) -> Any:
     """Return the cue ball's deflection angle once it rolls, in radians, 0 to pi.
 
@@ -52,6 +61,12 @@ def deflection(cut: Any, topspin: Any = 1.0) -> Any:
     return plain(np.arctan2(sin * np.cos(cut), sin * sin + 0.4 * topspin))
 
 
+@overload
+def deflection_slope(cut: float, topspin: float = ...) -> float: ...
+
+
+@overload
+def deflection_slope(cut: ArrayLike, topspin: ArrayLike = ...) -> Floats: ...
 def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:
     """Return d theta / d cut: how sensitive the cue ball's path is to the cut (P4.15).
 
@@ -69,6 +84,12 @@ def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:
     return plain(k * (1.0 + k) / np.maximum(below, 1e-300) - 1.0)
 
 
+@overload
+def largest_deflection_cut(topspin: float = ...) -> float: ...
+
+
+@overload
+def largest_deflection_cut(topspin: ArrayLike = ...) -> Floats: ...
 def largest_deflection_cut(topspin: Any = 1.0) -> Any:
     """Return the cut angle of the largest deflection with topspin, in radians (P4.15, P4.16).
 
@@ -87,6 +108,12 @@ def largest_deflection_cut(topspin: Any = 1.0) -> Any:
     return plain(np.arcsin(np.sqrt(2.0 * spin / (5.0 + 4.0 * spin))))
 
 
+@overload
+def unit_slope_cut(topspin: float = ...) -> float: ...
+
+
+@overload
+def unit_slope_cut(topspin: ArrayLike = ...) -> Floats: ...
 def unit_slope_cut(topspin: Any = 1.0) -> Any:
     """Return the cut angle at which the cue ball's path is as sensitive as the object ball's.
 
@@ -104,6 +131,12 @@ def unit_slope_cut(topspin: Any = 1.0) -> Any:
     return plain(np.arcsin(np.sqrt(k * (1.0 - k) / (2.0 + 4.0 * k))))
 
 
+@overload
+def right_angle_cut(topspin: float = ...) -> float: ...
+
+
+@overload
+def right_angle_cut(topspin: ArrayLike = ...) -> Floats: ...
 def right_angle_cut(topspin: Any = -1.0) -> Any:
     """Return the cut angle at which draw sends the cue ball off at a right angle (P4.25).
 
@@ -118,6 +151,12 @@ def right_angle_cut(topspin: Any = -1.0) -> Any:
     return plain(np.arcsin(np.sqrt(-0.4 * numbers(topspin, "topspin", low=-2.5, high=0.0))))
 
 
+@overload
+def split_cut(topspin: float = ...) -> float: ...
+
+
+@overload
+def split_cut(topspin: ArrayLike = ...) -> Floats: ...
 def split_cut(topspin: Any = 1.0) -> Any:
     """Return the cut angle that splits all kinetic energy evenly, just after the hit (P4.22).
 
@@ -136,6 +175,12 @@ def split_cut(topspin: Any = 1.0) -> Any:
     return plain(np.arccos(np.sqrt(np.minimum(0.5 + 0.2 * spin**2, 1.0))))
 
 
+@overload
+def split_roll_cut(topspin: float = ...) -> float: ...
+
+
+@overload
+def split_roll_cut(topspin: ArrayLike = ...) -> Floats: ...
 def split_roll_cut(topspin: Any = 1.0) -> Any:
     """Return the cut angle that splits the energy evenly once both balls roll (P4.22, P4.24).
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
 from evenbreak.physics.units import GRAVITY
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 def friction_of_incline(angle: Any) -> Any:
@@ -25,6 +28,12 @@ def friction_of_incline(angle: Any) -> Any:
     return plain(np.tan(numbers(angle, "angle", low=0.0, high=math.pi / 2.0)))
 
 
+@overload
+def friction_of_throw(sideways: float, ahead: float) -> float: ...
+
+
+@overload
+def friction_of_throw(sideways: ArrayLike, ahead: ArrayLike) -> Floats: ...
 def friction_of_throw(sideways: Any, ahead: Any) -> Any:
     """Return the ball-ball friction of a ball that misses by `sideways` at a distance (P1.6).
 
@@ -99,6 +108,12 @@ def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAV
     return plain(-slowing * mass * speed)
 
 
+@overload
+def miscue_offset(friction: float) -> float: ...
+
+
+@overload
+def miscue_offset(friction: ArrayLike) -> Floats: ...
 def miscue_offset(friction: Any) -> Any:
     """Return the largest offset b/R from the centre at which the tip does not slip (P1.7).
 
@@ -114,6 +129,12 @@ def miscue_offset(friction: Any) -> Any:
     return plain(friction / np.hypot(1.0, friction))
 
 
+@overload
+def tip_friction_of(offset: float) -> float: ...
+
+
+@overload
+def tip_friction_of(offset: ArrayLike) -> Floats: ...
 def tip_friction_of(offset: Any) -> Any:
     """Return the friction of a tip that begins to slip at an offset b/R (P1.7).
 

@@ -9,15 +9,18 @@ from a tip to the right, y below 0.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import numbers, plain, positive, together
+from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
 from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 NATURAL_ROLL_OFFSET = 0.4
 """The height above the centre, over R, at which a ball is struck into natural roll (P3.5)."""
@@ -30,6 +33,12 @@ class ContactPoint(NamedTuple):
     z: Any
 
 
+@overload
+def spin_of_offset(offset: float) -> float: ...
+
+
+@overload
+def spin_of_offset(offset: ArrayLike) -> Floats: ...
 def spin_of_offset(offset: Any) -> Any:
     """Return the spin J = R omega / V that an offset b/R gives (P3.4).
 
@@ -39,6 +48,12 @@ def spin_of_offset(offset: Any) -> Any:
     return plain(2.5 * _offset(offset))
 
 
+@overload
+def offset_for(spin: float) -> float: ...
+
+
+@overload
+def offset_for(spin: ArrayLike) -> Floats: ...
 def offset_for(spin: Any) -> Any:
     """Return the offset b/R that gives a spin J; beyond 1 the tip would miss the ball (P3.4).
 
@@ -48,6 +63,12 @@ def offset_for(spin: Any) -> Any:
     return plain(numbers(spin, "spin") / 2.5)
 
 
+@overload
+def strike_side(y: float) -> float: ...
+
+
+@overload
+def strike_side(y: ArrayLike) -> Floats: ...
 def strike_side(y: Any) -> Any:
     """Return the sidespin J_z just after the tip has struck at y, at any height (P3.6).
 
@@ -57,6 +78,12 @@ def strike_side(y: Any) -> Any:
     return plain(-2.5 * _offset(y, "y"))
 
 
+@overload
+def roll_side(y: float, z: float) -> float: ...
+
+
+@overload
+def roll_side(y: ArrayLike, z: ArrayLike) -> Floats: ...
 def roll_side(y: Any, z: Any) -> Any:
     """Return the sidespin J_z once the ball that was struck at (y, z) rolls (P3.6).
 
@@ -91,6 +118,12 @@ def small_circle_point(side: Any) -> ContactPoint:
     return ContactPoint(plain(-slope * z), plain(z))
 
 
+@overload
+def largest_roll_side(offset: float) -> float: ...
+
+
+@overload
+def largest_roll_side(offset: ArrayLike) -> Floats: ...
 def largest_roll_side(offset: Any) -> Any:
     """Return the largest sidespin in natural roll that an offset from the centre allows (P3.8).
 
@@ -173,6 +206,12 @@ def gearing_tip(cut: Any, z: Any = 1.0 + NATURAL_ROLL_OFFSET) -> ContactPoint:
     return ContactPoint(plain(-side * z / 3.5), plain(z))
 
 
+@overload
+def stun_offset(speed: float, distance: float, cloth: Cloth) -> float: ...
+
+
+@overload
+def stun_offset(speed: ArrayLike, distance: ArrayLike, cloth: Cloth) -> Floats: ...
 def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
     """Return how far below the centre to strike, so that backspin is gone after a distance.
 
@@ -214,6 +253,12 @@ def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
     return plain(-lost / (1.0 + np.sqrt(1.0 - lost)))
 
 
+@overload
+def ball_speed_ratio(offset: float, ball_ratio: float) -> float: ...
+
+
+@overload
+def ball_speed_ratio(offset: ArrayLike, ball_ratio: ArrayLike) -> Floats: ...
 def ball_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     """Return the speed of the ball over that of the stick, struck off centre (P3.10).
 
@@ -232,6 +277,12 @@ def ball_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     return plain(2.0 / (1.0 + ratio + 2.5 * offset**2))
 
 
+@overload
+def roll_speed_ratio(offset: float, ball_ratio: float) -> float: ...
+
+
+@overload
+def roll_speed_ratio(offset: ArrayLike, ball_ratio: ArrayLike) -> Floats: ...
 def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     """Return the speed of natural roll over that of the stick, struck so far up (P3.11).
 
@@ -242,6 +293,12 @@ def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     return plain((5.0 + 5.0 * _offset(offset)) / 7.0 * ratio)
 
 
+@overload
+def best_lag_offset(ball_ratio: float) -> float: ...
+
+
+@overload
+def best_lag_offset(ball_ratio: ArrayLike) -> Floats: ...
 def best_lag_offset(ball_ratio: Any) -> Any:
     """Return the height above the centre, b/R, from which a ball rolls farthest (P3.11).
 

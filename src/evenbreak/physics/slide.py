@@ -18,13 +18,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import Floats, numbers, plain, together
 from evenbreak.physics.objects import Ball, Cloth
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
@@ -46,6 +49,12 @@ def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
     return plain(speed - 0.4 * (now - before))
 
 
+@overload
+def roll_speed(speed: float, rim_speed: float) -> float: ...
+
+
+@overload
+def roll_speed(speed: ArrayLike, rim_speed: ArrayLike) -> Floats: ...
 def roll_speed(speed: Any, rim_speed: Any) -> Any:
     """Return the speed of natural roll that a ball of straight topspin or draw comes to (P2.2).
 
@@ -108,6 +117,12 @@ def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
     return plain(along / across * x + 0.5 * cloth.mu_slide * cloth.gravity * (x / across) ** 2)
 
 
+@overload
+def stun_distance(speed: float, spin: float, cloth: Cloth) -> float: ...
+
+
+@overload
+def stun_distance(speed: ArrayLike, spin: ArrayLike, cloth: Cloth) -> Floats: ...
 def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     """Return how far a ball with backspin slides until it has none: there it is a stun shot.
 
@@ -134,6 +149,12 @@ def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     return plain(speed * time * (1.0 + 0.2 * spin))
 
 
+@overload
+def drag_distance(speed: float, spin: float, cloth: Cloth) -> float: ...
+
+
+@overload
+def drag_distance(speed: ArrayLike, spin: ArrayLike, cloth: Cloth) -> Floats: ...
 def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     """Return how far a ball has slid when natural roll begins.
 

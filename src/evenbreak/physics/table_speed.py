@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
-from evenbreak.physics.arrays import numbers, plain, positive, together
+from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.units import GRAVITY
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {
@@ -32,6 +35,14 @@ def lag_distance(table: PoolTable, ball: Ball) -> float:
     return table.length - ball.diameter
 
 
+@overload
+def table_speed(lag_time: float, *, distance: float = ..., gravity: float = ...) -> float: ...
+
+
+@overload
+def table_speed(
+    lag_time: ArrayLike, *, distance: ArrayLike = ..., gravity: float = ...
+) -> Floats: ...
 def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = GRAVITY) -> Any:
     """Return the table speed from a ball that rolls a distance to rest, in a time.
 
@@ -57,6 +68,12 @@ def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = GRAVITY
     return plain(0.5 * pull * time**2 / metres)
 
 
+@overload
+def lag_speed(lag_time: float, *, distance: float = ...) -> float: ...
+
+
+@overload
+def lag_speed(lag_time: ArrayLike, *, distance: ArrayLike = ...) -> Floats: ...
 def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
     """Return the speed off the last cushion of a ball that rolls a distance to rest (P1.5).
 
@@ -72,6 +89,12 @@ def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
     return plain(2.0 * metres / time)
 
 
+@overload
+def roll_time(speed: float, cloth: Cloth) -> float: ...
+
+
+@overload
+def roll_time(speed: ArrayLike, cloth: Cloth) -> Floats: ...
 def roll_time(speed: Any, cloth: Cloth) -> Any:
     """Return how long a ball rolls until it rests, in seconds, from its speed in m/s.
 
@@ -81,6 +104,12 @@ def roll_time(speed: Any, cloth: Cloth) -> Any:
     return plain(numbers(speed, "speed", low=0.0) / (cloth.mu_roll * cloth.gravity))
 
 
+@overload
+def roll_distance(speed: float, cloth: Cloth) -> float: ...
+
+
+@overload
+def roll_distance(speed: ArrayLike, cloth: Cloth) -> Floats: ...
 def roll_distance(speed: Any, cloth: Cloth) -> Any:
     """Return how far a ball rolls until it rests, in metres, from its speed in m/s.
 

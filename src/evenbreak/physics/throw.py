@@ -19,13 +19,16 @@ that, `friction="shepard"` is the law of the text, which knows no limit and ther
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import Floats, numbers, plain, together
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 BALL_FRICTION = 4.0 / 72.0
 """The coefficient of friction between two balls that P1.6 measures."""
@@ -36,6 +39,12 @@ FRICTION_LAWS = ("limited", "shepard")
 """The laws of friction: limited by the slip, and that of the source text."""
 
 
+@overload
+def throw_factor(cut: float, topspin: float = ..., side: float = ...) -> float: ...
+
+
+@overload
+def throw_factor(cut: ArrayLike, topspin: ArrayLike = ..., side: ArrayLike = ...) -> Floats: ...
 def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
     """Return cos(gamma), the share of the friction that throws the object ball sideways (P4.2).
 
@@ -65,6 +74,21 @@ def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
     return plain(left / _length(left, up))
 
 
+@overload
+def throw_angle(
+    cut: float, topspin: float = ..., side: float = ..., *, mu: float = ..., friction: str = ...
+) -> float: ...
+
+
+@overload
+def throw_angle(
+    cut: ArrayLike,
+    topspin: ArrayLike = ...,
+    side: ArrayLike = ...,
+    *,
+    mu: ArrayLike = ...,
+    friction: str = ...,
+) -> Floats: ...
 def throw_angle(
     cut: Any,
     topspin: Any = 1.0,
@@ -107,6 +131,12 @@ def throw_angle(
     return plain(np.arctan2(sideways, cos))
 
 
+@overload
+def full_throw_cut(mu: float = ...) -> float: ...
+
+
+@overload
+def full_throw_cut(mu: ArrayLike = ...) -> Floats: ...
 def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
     """Return the cut angle from which a stun shot has its full throw, in radians.
 
@@ -119,6 +149,12 @@ def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
     return plain(np.arctan(7.0 * numbers(mu, "mu", low=0.0)))
 
 
+@overload
+def gearing_side(cut: float) -> float: ...
+
+
+@overload
+def gearing_side(cut: ArrayLike) -> Floats: ...
 def gearing_side(cut: Any) -> Any:
     """Return the sidespin J_z that leaves no slip to the side, and no throw (P4.26).
 
@@ -128,6 +164,12 @@ def gearing_side(cut: Any) -> Any:
     return plain(-np.sin(cut_of(cut)))
 
 
+@overload
+def throw_sensitivity(cut: float, topspin: float, side: float) -> float: ...
+
+
+@overload
+def throw_sensitivity(cut: ArrayLike, topspin: ArrayLike, side: ArrayLike) -> Floats: ...
 def throw_sensitivity(cut: Any, topspin: Any, side: Any) -> Any:
     """Return how fast cos(gamma) changes with the spin: the length of its gradient (P4.5).
 

@@ -6,11 +6,14 @@ gives to the ball, what energy, and which stick a break wants.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain, positive, together
+from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 class CentreHit(NamedTuple):
@@ -58,6 +61,12 @@ def centre_hit(stick_ratio: Any) -> CentreHit:
     return CentreHit(plain(2.0 * ratio / (1.0 + ratio)), plain((ratio - 1.0) / (ratio + 1.0)))
 
 
+@overload
+def energy_share(stick_ratio: float) -> float: ...
+
+
+@overload
+def energy_share(stick_ratio: ArrayLike) -> Floats: ...
 def energy_share(stick_ratio: Any) -> Any:
     """Return the share of the stick's energy that a hit in the centre gives the ball (P3.3).
 
@@ -94,6 +103,12 @@ def stroke_energy(stick_energy: Any, stick_ratio: Any, forearm_ratio: Any) -> An
     return plain(energy * (1.0 + forearm / (3.0 * stick)))
 
 
+@overload
+def break_energy_share(stick_ratio: float, forearm_ratio: float) -> float: ...
+
+
+@overload
+def break_energy_share(stick_ratio: ArrayLike, forearm_ratio: ArrayLike) -> Floats: ...
 def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
     """Return the share of a stroke's energy, stick and forearm, that the ball gets (P3.3).
 
@@ -106,6 +121,12 @@ def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
     return plain(4.0 * stick**2 / ((1.0 + stick) ** 2 * (stick + forearm / 3.0)))
 
 
+@overload
+def best_stick_ratio(forearm_ratio: float) -> float: ...
+
+
+@overload
+def best_stick_ratio(forearm_ratio: ArrayLike) -> Floats: ...
 def best_stick_ratio(forearm_ratio: Any) -> Any:
     """Return the mass of the stick that breaks best, over that of the ball (P3.3).
 

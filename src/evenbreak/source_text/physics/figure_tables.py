@@ -99,7 +99,7 @@ def _best_lags() -> Records:
 def _throw_factors() -> Records:
     """Yield Fig. 4.4; a stun shot has no value where it steps from -1 to 1."""
     for side in _SPINS:
-        factors = {
+        factors: dict[str, float | None] = {
             f"topspin_{f'{topspin:g}'.replace('.', '_')}": throw_factor(HALF_BALL, topspin, side)
             for topspin in TOPSPINS
         }
