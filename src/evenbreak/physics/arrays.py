@@ -1,4 +1,4 @@
-"""Numbers in, numbers out: every function takes arrays that broadcast, and a float for a float."""
+"""Checks of numbers and arrays: functions take what broadcasts, and return floats for floats."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from evenbreak.errors import InputError
 Floats = NDArray[np.float64]
 
 LARGEST = 1e50
-"""No number here may be larger, so that products of a few of them still fit into a float."""
+"""The largest number accepted, so that products of a few of them still fit into a float."""
 
 
 def numbers(
@@ -31,15 +31,15 @@ def numbers(
     value
         a number, or something that numpy makes a float array of.
     name
-        what the value is called where the caller wrote it.
+        the name of the parameter, for the error.
     low, high
-        the range; `low` itself is excluded where `open_low` is true.
+        the range, ends included; `open_low` excludes `low`.
 
     Raises
     ------
     InputError
-        if a value is not a finite number in the range, or beyond `LARGEST`, or nearer than
-        1 / `LARGEST` to a limit of 0 that is excluded.
+        if a value is not a finite number in the range, is beyond `LARGEST`, or is closer than
+        1 / `LARGEST` to an excluded limit of 0.
 
     >>> numbers(-1.0, "speed", low=0.0)
     Traceback (most recent call last):
@@ -77,7 +77,7 @@ def positive(value: Any, name: str) -> Floats:
 
 
 def together(**arrays: Floats) -> None:
-    """Refuse arrays whose shapes do not broadcast together, by their names.
+    """Refuse arrays whose shapes do not broadcast together, naming them.
 
     >>> together(cut=np.zeros(2), mu=np.zeros(3))
     Traceback (most recent call last):

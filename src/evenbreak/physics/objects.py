@@ -1,4 +1,4 @@
-"""What a shot is played with: ball, cloth, table and cue."""
+"""The equipment: ball, cloth, table and cue."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class Ball:
     Parameters
     ----------
     mass
-        kilograms; a pool ball has 5.5 to 6 ounces.
+        kilograms; a pool ball weighs 5.5 to 6 ounces.
     radius
-        metres; a pool ball has a diameter of 2.25 inches, within 0.005.
+        metres; the diameter of a pool ball is 2.25 inches, to within 0.005.
 
     Raises
     ------
@@ -65,15 +65,15 @@ class Ball:
 
 @dataclass(frozen=True)
 class Cloth:
-    """The cloth that a ball slides and rolls on, and the gravity that holds it there.
+    """The cloth that a ball slides and rolls on, and the gravity that holds the ball down.
 
     Parameters
     ----------
     mu_slide
         coefficient of sliding friction between ball and cloth.
     mu_roll
-        effective coefficient of rolling resistance: a rolling ball slows down by
-        mu_roll times gravity.
+        effective coefficient of rolling resistance: a rolling ball decelerates at mu_roll
+        times gravity.
     gravity
         metres per second squared.
 
@@ -101,18 +101,18 @@ class Cloth:
 
     @property
     def table_speed(self) -> float:
-        """The table speed, 1 / mu_roll: how slowly a rolling ball comes to rest."""
+        """The table speed, 1 / mu_roll: the higher, the farther a ball rolls."""
         return 1.0 / self.mu_roll
 
 
 @dataclass(frozen=True)
 class PoolTable:
-    """The playing area between the noses of the cushions.
+    """A table: the playing area between the noses of the cushions.
 
     Parameters
     ----------
     length, width
-        metres; a nine-foot table has 100 by 50 inches.
+        metres; 100 by 50 inches on a nine-foot table.
 
     Raises
     ------
@@ -138,10 +138,10 @@ class Cue:
     Parameters
     ----------
     mass
-        kilograms; 18 ounces are usual.
+        kilograms; 18 ounces is typical.
     tip_friction
-        coefficient of static friction between tip and ball; beyond the offset that it
-        allows, the tip slips: a miscue (P1.7).
+        coefficient of static friction between tip and ball; it sets the offset beyond which
+        the tip slips, a miscue (P1.7).
 
     Raises
     ------

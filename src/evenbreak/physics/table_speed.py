@@ -22,11 +22,11 @@ TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "fast billiard": (150.0, math.inf),
     }
 )
-"""Table speeds as players call them; worsted cloth, when new, has 100 to 130."""
+"""Names for ranges of table speed; new worsted cloth has 100 to 130."""
 
 
 def lag_distance(table: PoolTable, ball: Ball) -> float:
-    """Return how far a ball's centre goes from cushion to cushion along a table, in metres.
+    """Return how far a ball's centre travels from end cushion to end cushion, in metres.
 
     >>> from evenbreak.physics.units import INCH
     >>> round(lag_distance(PoolTable(), Ball()) / INCH, 9)
@@ -44,20 +44,20 @@ def table_speed(
     lag_time: ArrayLike, *, distance: ArrayLike = ..., gravity: float = ...
 ) -> Floats: ...
 def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = GRAVITY) -> Any:
-    """Return the table speed from a ball that rolls a distance to rest, in a time.
+    """Return the table speed from the time that a ball takes to roll a distance and stop.
 
     Parameters
     ----------
     lag_time
-        seconds from one end cushion to where the ball stops, just at the other.
+        seconds from one end cushion until the ball stops just at the other.
     distance
-        metres that its centre goes; by default along a nine-foot table.
+        metres that its centre travels; by default the length of a nine-foot table.
     gravity
         metres per second squared.
 
     Notes
     -----
-    Source: P1.5, g t^2 / (2 d), which is 1 / mu_roll; on a nine-foot table nearly 2 t^2.
+    Source: P1.5, g t^2 / (2 d) = 1 / mu_roll; on a nine-foot table nearly 2 t^2.
 
     >>> round(table_speed(7.0), 1)
     96.7
@@ -75,9 +75,9 @@ def lag_speed(lag_time: float, *, distance: float = ...) -> float: ...
 @overload
 def lag_speed(lag_time: ArrayLike, *, distance: ArrayLike = ...) -> Floats: ...
 def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
-    """Return the speed off the last cushion of a ball that rolls a distance to rest (P1.5).
+    """Return the speed off the last cushion of a ball that rolls a distance and stops (P1.5).
 
-    It is twice the mean speed.
+    In m/s; it is twice the mean speed. The parameters are those of `table_speed`.
 
     >>> from evenbreak.physics.units import INCH
     >>> round(lag_speed(7.0) / INCH, 1)
@@ -96,7 +96,7 @@ def roll_time(speed: float, cloth: Cloth) -> float: ...
 @overload
 def roll_time(speed: ArrayLike, cloth: Cloth) -> Floats: ...
 def roll_time(speed: Any, cloth: Cloth) -> Any:
-    """Return how long a ball rolls until it rests, in seconds, from its speed in m/s.
+    """Return how long a ball rolls until it stops, in seconds, from its speed in m/s.
 
     >>> round(roll_time(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
     10.0
@@ -111,7 +111,7 @@ def roll_distance(speed: float, cloth: Cloth) -> float: ...
 @overload
 def roll_distance(speed: ArrayLike, cloth: Cloth) -> Floats: ...
 def roll_distance(speed: Any, cloth: Cloth) -> Any:
-    """Return how far a ball rolls until it rests, in metres, from its speed in m/s.
+    """Return how far a ball rolls until it stops, in metres, from its speed in m/s.
 
     >>> round(roll_distance(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
     5.0
