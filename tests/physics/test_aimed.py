@@ -115,7 +115,7 @@ def test_one_friction_for_one_shot(mu):
 @pytest.mark.parametrize(
     ("places", "message"),
     [
-        (((0.5, 0.5), (1.0, 0.5), (0.2, 0.6)), "no cut sends the object ball"),
+        (((0.5, 0.5), (1.0, 0.5), (0.2, 0.6)), "target cannot be reached"),
         (((0.5, 0.5), (1.0, 0.5), (1.01, 0.5)), "within the object ball"),
         (((0.5, 0.5), (0.54, 0.5), (1.5, 0.5)), "where the balls touch"),
         (((0.5, 0.5), (1.0,), (1.5, 0.5)), "object_ball has shape"),
