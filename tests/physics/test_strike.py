@@ -64,7 +64,7 @@ def test_strikes_as_arrays():
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ((-1.0,), "stick_speed is -1.0; give a finite number, 0 or more"),
+        ((-1.0,), "stick_speed is -1.0"),
         ((1.0, 1.2), "offset is 1.2; give a number from -1 to 1"),
         ((1.0, 0.8, 0.8), "beside the ball"),
         ((math.nan,), "stick_speed"),

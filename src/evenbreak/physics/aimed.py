@@ -12,11 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import Floats
 from evenbreak.physics.leg import State, on_table, place_of, time_to
 from evenbreak.physics.objects import Cloth, PoolTable
-from evenbreak.physics.shot import Shot, one_number, shot, sound_strike, spin_ratios, travel_for
+from evenbreak.physics.shot import Shot, shot, sound_strike, spin_ratios, travel_for
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
 from evenbreak.physics.throw import BALL_FRICTION, throw_angle
@@ -111,7 +112,7 @@ def aimed_shot(
     """
     cloth, table = cloth or Cloth(), table or PoolTable()
     sound_strike(strike)
-    mu = one_number(mu, "mu", low=0.0)
+    mu = number(mu, "mu", low=0.0)
     places = {"cue_ball": cue_ball, "object_ball": object_ball, "target": target}
     start, standing, goal = (place_of(value, name) for name, value in places.items())
     diameter = strike.ball.diameter

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from evenbreak.physics.arrays import Floats, numbers, plain, positive
+from evenbreak.physics.arrays import LEAST, Floats, numbers, plain, positive
 from evenbreak.physics.throw import shot_of
 
 if TYPE_CHECKING:
@@ -127,7 +127,7 @@ def unit_slope_cut(topspin: Any = 1.0) -> Any:
     >>> round(math.degrees(unit_slope_cut()), 3)
     14.963
     """
-    k = 0.4 * numbers(topspin, "topspin", low=0.0, high=2.5, open_low=True)
+    k = 0.4 * numbers(topspin, "topspin", low=LEAST, high=2.5)
     return plain(np.arcsin(np.sqrt(k * (1.0 - k) / (2.0 + 4.0 * k))))
 
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
+from evenbreak.checks import together
+from evenbreak.physics.arrays import Floats, numbers, plain, positive
 from evenbreak.physics.units import GRAVITY
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from evenbreak.errors import InputError
-from evenbreak.physics.arrays import LARGEST
+from evenbreak.checks import number
+from evenbreak.physics.arrays import LARGEST, LEAST
 from evenbreak.physics.units import GRAVITY, INCH, OUNCE
 
 
@@ -24,7 +24,7 @@ class Ball:
     Raises
     ------
     InputError
-        if one is not a finite number above 0.
+        if one is not a number from 1e-50 to 1e50.
 
     Notes
     -----
@@ -80,7 +80,7 @@ class Cloth:
     Raises
     ------
     InputError
-        if one is not a finite number above 0.
+        if one is not a number from 1e-50 to 1e50.
 
     Notes
     -----
@@ -117,7 +117,7 @@ class PoolTable:
     Raises
     ------
     InputError
-        if one is not a finite number above 0.
+        if one is not a number from 1e-50 to 1e50.
 
     >>> round(PoolTable().length / INCH, 9)
     100.0
@@ -146,7 +146,7 @@ class Cue:
     Raises
     ------
     InputError
-        if one is not a finite number above 0.
+        if one is not a number from 1e-50 to 1e50.
 
     >>> round(Cue().mass / OUNCE, 9)
     18.0
@@ -162,15 +162,6 @@ class Cue:
 
 def _positive(thing: object, name: str, wanted: str) -> None:
     """Make a field a float, or refuse it."""
-    value = getattr(thing, name)
-    try:
-        number = math.nan if isinstance(value, str | bytes) else float(value)
-    except (TypeError, ValueError, OverflowError):
-        number = math.nan
-    if not (0.0 < number < math.inf):
-        raise InputError(f"{name} is {value!r}; give a finite number above 0 ({wanted})")
-    if not (1.0 / LARGEST <= number <= LARGEST):
-        raise InputError(
-            f"{name} is {value!r}; give a number from {1.0 / LARGEST:g} to {LARGEST:g}"
-        )
-    object.__setattr__(thing, name, number)
+    wanted = f"a number from {LEAST:g} to {LARGEST:g} ({wanted})"
+    found = number(getattr(thing, name), name, low=LEAST, high=LARGEST, wanted=wanted)
+    object.__setattr__(thing, name, found)

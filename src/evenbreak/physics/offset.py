@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
+from evenbreak.checks import together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
+from evenbreak.physics.arrays import LEAST, Floats, numbers, plain, positive
 from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
@@ -310,7 +311,7 @@ def best_lag_offset(ball_ratio: Any) -> Any:
 
 
 def _height(value: Any, name: str = "z") -> Any:
-    return numbers(value, name, low=0.0, high=2.0, open_low=True)
+    return numbers(value, name, low=LEAST, high=2.0)
 
 
 def _offset(value: Any, name: str = "offset") -> Any:

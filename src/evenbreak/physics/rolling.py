@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain, positive, together
+from evenbreak.checks import together
+from evenbreak.physics.arrays import numbers, plain, positive
 from evenbreak.physics.objects import Ball, Cloth
 from evenbreak.physics.units import GRAVITY, INCH
 

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from evenbreak.checks import one_of
+from evenbreak.checks import number, one_of
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
+from evenbreak.physics.arrays import Floats
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, place_of, time_to
@@ -201,12 +201,12 @@ def shot(
     sound_strike(strike)
     # Check these even if no ball is hit.
     one_of(friction, "friction", FRICTION_LAWS)
-    mu = one_number(mu, "mu", low=0.0)
-    cut, direction = one_number(cut, "cut"), one_number(direction, "direction")
+    mu = number(mu, "mu", low=0.0)
+    cut, direction = number(cut, "cut"), number(direction, "direction")
     if abs(cut) >= 0.5 * math.pi:
         raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2, not those")
     ball = strike.ball
-    travel = travel_for(cut, one_number(distance, "distance"), ball.diameter)
+    travel = travel_for(cut, number(distance, "distance"), ball.diameter)
     if cue_ball is None:
         cue_ball = (0.25 * table.length, 0.5 * table.width)
     place = place_of(cue_ball, "cue_ball")
@@ -320,11 +320,3 @@ def _turned(vector: Floats, angle: float) -> Floats:
 
 def _unit(angle: float) -> Floats:
     return np.array([math.cos(angle), math.sin(angle)])
-
-
-def one_number(value: float, name: str, *, low: float = -math.inf) -> float:
-    """Return one finite number, or refuse anything else."""
-    number = numbers(value, name, low=low)
-    if number.ndim:
-        raise InputError(f"{name} has shape {number.shape}; give one number")
-    return float(number)

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
+from evenbreak.checks import together
+from evenbreak.physics.arrays import Floats, numbers, plain, positive
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
