@@ -46,7 +46,7 @@ def sheet() -> Figure:
 
 
 def cut_shot() -> Figure:
-    """Draw a cut with draw into the far corner, throw allowed for."""
+    """Draw a draw shot into the far corner, allowing for throw."""
     corner = pockets(PoolTable())[2]
     hit = strike_for_speed(80.0 * INCH, -0.4)
     places = ((30.0, 15.0), (50.0, 15.0), (corner.x / INCH, corner.y / INCH))
