@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
 
 MEANINGS = {
-    "agrees": "the computed number is the printed one",
+    "agrees": "the computed number confirms the printed one",
     "formula": "the printed formula gives the computed number",
     "given": "a number that the text takes from elsewhere",
     "derived": "the text prints nothing, or nothing that can be read",
