@@ -38,7 +38,7 @@ SECTIONS = {
         "runs": Entry("practice.runs", "How long runs get, and the score of several innings."),
         "oneball": Entry("match.oneball", "The one-ball game: who wins, and which shot to play."),
     },
-    "The table side": {
+    "The physics of the table": {
         "physics": Entry("physics", "Ball, cloth and cue: throw, aim, spin, speed."),
     },
     "The engine": {
