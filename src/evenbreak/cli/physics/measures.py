@@ -30,7 +30,7 @@ class Measure(Number):
 
 
 CUT = Measure("degrees", -90.0, 90.0, "30")
-LENGTH = Measure("length", 0.1, 1e5, "36")
+LENGTH = Measure("length", 0.01, 1e5, "36")
 SPEED = Measure("speed", 0.01, 1e5, "60")
 WEIGHT = Measure("weight", 0.01, 1e5, "6")
 SPIN = Measure("J", -100.0, 100.0, "0.3")
