@@ -156,7 +156,7 @@ def test_a_ball_that_rolls_along_a_cushion_stays_there():
     assert leg.end > 1.0
 
 
-def test_a_ball_into_a_pocket_is_told_apart_from_one_at_the_cushion():
+def test_a_ball_into_a_pocket_differs_from_one_at_the_cushion():
     to_side = sliding((0.0, -1.0), (1.0, 0.0, 0.0), place=(0.5 * TABLE.length, 0.5))
     beside = sliding((0.0, -1.0), (1.0, 0.0, 0.0), place=(0.5 * TABLE.length + 0.1, 0.5))
     legs = [leg_until("object ball", slide, 0.0, TABLE) for slide in (to_side, beside)]

@@ -170,7 +170,7 @@ def test_a_cut_to_the_right_sends_the_object_ball_to_the_right():
     assert left.cue_leg.path()[-1, 1] < MIDDLE[1] < left.object_leg.path()[-1, 1]
 
 
-def test_a_cue_ball_that_stops_before_the_object_ball_is_told():
+def test_a_cue_ball_may_stop_before_the_object_ball():
     for speed in (0.0, 0.1):
         found = on_a_plain(speed, (0.1, 0.1), 0.5, 1.0)
         assert (found.reached, found.approach.ending) == (False, "rest")

@@ -213,16 +213,16 @@ def test_every_slip_of_the_list_is_here() -> None:
     listed = Counter(
         places.get(row["where"]) or place_of(row["where"]) for row in seed_rows("errata.csv")
     )
-    # Of what the list has on P4.12 two are told in one row, and here apart; so are two remarks.
+    # Of what the list has on P4.12 two are in one row, and here in two; so are two remarks.
     assert {place: count for place, count in listed.items() if ours.count(place) < count} == {}
 
 
 def test_every_number_called_a_slip_is_among_them() -> None:
-    told = {place_of(slip.where) for slip in physics_errata()}
-    told |= {(4, 10)}  # told with P4.3
+    listed = {place_of(slip.where) for slip in physics_errata()}
+    listed |= {(4, 10)}  # listed with P4.3
     for row in NUMBERS:
         if row.verdict == "erratum" and not row.problem.startswith("Section"):
-            assert place_of(row.problem) in told, row
+            assert place_of(row.problem) in listed, row
     assert len(physics_errata()) == len(set(physics_errata()))
 
 

@@ -50,7 +50,7 @@ def test_a_printed_number_keeps_its_digits_unless_it_is_a_fraction():
     assert printed_text(None) == ""
 
 
-def test_slips_remarks_and_losses_are_told_apart():
+def test_slips_remarks_and_losses_have_their_own_words():
     assert slip_blocks([SLIP]).startswith("> **Slip: last digit.**")
     assert slip_blocks([REMARK], placed=True).startswith("> P4.15. **Remark: last digit.**")
     assert slip_blocks([COPY]).startswith("> **The copy used.**")
