@@ -19,11 +19,11 @@ class Finding(NamedTuple):
     published
         the number, as the package data have it.
     computed
-        what the library computes, or holds where the text takes a number from elsewhere; None
-        for such a number that it does not hold.
+        what the library computes, or has where the text takes a number from elsewhere; None if
+        it has no such number.
     verdict
         'agrees', 'formula', 'given', 'erratum' or 'derived' as for `PublishedNumber`; or
-        'differs', which should never be.
+        'differs', which should never happen.
     """
 
     published: PublishedNumber

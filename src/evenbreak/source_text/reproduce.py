@@ -1,4 +1,4 @@
-"""The source text as files: tables, problems, printed numbers, figures, and two pages on top."""
+"""The source text as files: tables, problems, printed numbers, figures and two pages."""
 
 from __future__ import annotations
 
