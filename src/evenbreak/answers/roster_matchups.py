@@ -15,9 +15,9 @@ from evenbreak.files.problems import Problems, quoted
 from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import LevelChart
-from evenbreak.handicaps.charts.uncertain import (
+from evenbreak.handicaps.charts.given_ratings import (
     MOST_DOUBLINGS,
-    fairest_races,
+    fair_races_given_ratings,
     length_given_ratings,
     win_given_ratings,
 )
@@ -212,7 +212,7 @@ def roster_matchups(
         by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
         columns |= _columns("chart_", by_chart, minutes_per_game)
     if limits is not None:
-        found = fairest_races(gap, error, games=limits.games, race_to=limits.race_to, scale=scale)
+        found = fair_races_given_ratings(gap, error, games=limits.games, race_to=limits.race_to, scale=scale)
         best = Races.of(gap, error, *found, scale)
         columns |= _columns("", best, minutes_per_game)
     everyone = {

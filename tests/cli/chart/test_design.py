@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from evenbreak.files.chart import read_chart
 from evenbreak.games import winner_breaks
-from evenbreak.handicaps import Play, RaceLimits, chart, design, measure_chart, nearest_chart
+from evenbreak.handicaps import MatchRules, RaceLimits, chart, design, measure_chart, nearest_chart
 
 NPL_10 = "--games 7..9 --least 1:2 --beside npl_10"
 
@@ -65,10 +65,10 @@ def test_the_rule_of_the_nearest_race(ask):
             RaceLimits((5, 9), games_p90=8),
             {},
         ),
-        ("--games 5..6 --win-by 2", Play("npl", win_by=2), RaceLimits((5, 6)), {}),
+        ("--games 5..6 --win-by 2", MatchRules("npl", win_by=2), RaceLimits((5, 6)), {}),
         (
             "--games 5..6 --breaks winner --break-points 9",
-            Play("npl", breaks=winner_breaks, break_points=9.0),
+            MatchRules("npl", breaks=winner_breaks, break_points=9.0),
             RaceLimits((5, 6)),
             {},
         ),

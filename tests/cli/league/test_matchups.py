@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
-from evenbreak.handicaps.charts.uncertain import win_given_ratings
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from evenbreak.matches.evening import Length, evening
 from evenbreak.matches.races import race_law
 from places import DATA

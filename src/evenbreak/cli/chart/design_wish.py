@@ -14,7 +14,7 @@ from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.charts.match_rules import Play
+    from evenbreak.handicaps.charts.match_rules import MatchRules
     from evenbreak.handicaps.charts.race_limits import RaceLimits
 
 RULES = {
@@ -35,7 +35,7 @@ _PARAMETER = re.compile(
 class Wish(NamedTuple):
     """What is asked for, apart from how it is printed."""
 
-    play: Play
+    play: MatchRules
     limits: RaceLimits
     rule: str
     target: float
@@ -162,7 +162,7 @@ def wish_of(
 ) -> Wish:
     """Return what is asked for, or refuse what contradicts itself."""
     from evenbreak.games.breaks import BREAK_FORMATS
-    from evenbreak.handicaps.charts.match_rules import Play
+    from evenbreak.handicaps.charts.match_rules import MatchRules
     from evenbreak.handicaps.charts.race_limits import RaceLimits
 
     if (minutes is None) != (minutes_per_game is None):
@@ -181,7 +181,7 @@ def wish_of(
             "--rule nearest takes the race nearest 0.5; leave --mean-games, --rows, --target, "
             "--tilt out"
         )
-    play = Play(scale, win_by, None if breaks is None else BREAK_FORMATS[breaks], break_points)
+    play = MatchRules(scale, win_by, None if breaks is None else BREAK_FORMATS[breaks], break_points)
     limits = RaceLimits(games, *least, games_p90)
     return Wish(play, limits, rule, beside=tuple(map(_chart_beside, beside)), **others)
 

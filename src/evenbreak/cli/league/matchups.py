@@ -247,7 +247,7 @@ def _started(roster: Roster, scale: Scale, starter: float | None, sd: float | No
     """Return the roster with new players filled in, and say how."""
     import numpy as np
 
-    from evenbreak.handicaps.charts.uncertain import MOST_DOUBLINGS
+    from evenbreak.handicaps.charts.given_ratings import MOST_DOUBLINGS
     from evenbreak.ratings.scale import SCALES
 
     unrated = np.isnan(roster.rating)

@@ -1,12 +1,10 @@
-"""Charts of skill levels: the levels of the two players say which race is played."""
+"""Charts by skill level: which race two players of given levels play."""
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 from itertools import pairwise
 from typing import Any
 
@@ -15,9 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.rows import catalogue_rows
 
 LEVEL_CHARTS = ("apa_8ball",)
-"""The charts of skill levels that come with the package, by name."""
+"""The charts by skill level that come with the package, by name."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +26,9 @@ class LevelChart:
     Parameters
     ----------
     name
-        what the chart is called.
+        the name of the chart.
     levels
-        the skill levels, rising whole numbers.
+        the skill levels, increasing whole numbers.
     needs
         `needs[i][j]`: the games that a player of level `levels[i]` needs against one of level
         `levels[j]`.
@@ -37,8 +36,8 @@ class LevelChart:
     Raises
     ------
     InputError
-        if the levels do not rise, `needs` is not a square of that size, or the higher of two
-        levels needs fewer games than the lower; it says which.
+        if the levels do not increase, `needs` is not a square of that size, or the higher of
+        two levels needs fewer games than the lower; the message says which.
 
     >>> two = LevelChart("two", [3, 4], [[2, 2], [3, 3]])
     >>> two.race(4, 3), two.race(3, 4), two.race(4, 4)
@@ -55,7 +54,7 @@ class LevelChart:
             raise InputError("levels is empty; give the skill levels of the chart")
         for below, above in pairwise(levels):
             if below >= above:
-                raise InputError(f"level {above} comes after {below}; give rising levels")
+                raise InputError(f"level {above} comes after {below}; give increasing levels")
         object.__setattr__(self, "levels", levels)
         object.__setattr__(self, "needs", _needs(self.needs, levels))
 
@@ -65,7 +64,7 @@ class LevelChart:
         Parameters
         ----------
         level_1, level_2
-            the skill levels of the two.
+            the skill levels of the two players.
 
         Raises
         ------
@@ -85,7 +84,7 @@ class LevelChart:
     def _place(self, level: Any, name: str) -> int:
         try:
             return self.levels.index(level)
-        except ValueError:  # of an array too: its comparisons have no one truth
+        except ValueError:  # also for an array, whose comparison has no single truth value
             raise InputError(f"{name} is {level!r}; {self._remedy}") from None
 
     @property
@@ -100,12 +99,12 @@ class LevelChart:
         Parameters
         ----------
         levels_1, levels_2
-            the skill levels of the two, of shapes that broadcast together.
+            the skill levels of the two players, of shapes that broadcast together.
 
         Raises
         ------
         InputError
-            if the chart lacks one of the levels, or the shapes do not broadcast.
+            if the chart does not have one of the levels, or the shapes do not broadcast.
 
         >>> level_chart("apa_8ball").races([5, 3], 3)
         (array([4, 2]), array([2, 2]))
@@ -141,8 +140,8 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
     rows = [tuple(row) if hasattr(row, "__iter__") else () for row in needs]
     if len(rows) != len(levels) or any(len(row) != len(levels) for row in rows):
         raise InputError(
-            f"needs is not a square for {len(levels)} levels; give a row for each level, "
-            "with the games needed against each level"
+            f"needs is not a square for {len(levels)} levels; give a row for each level, with "
+            "the games needed against each level"
         )
     square = tuple(
         tuple(
@@ -156,24 +155,24 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
             if square[i][j] < square[j][i]:
                 raise InputError(
                     f"level {higher} needs {square[i][j]} games against level {lower}, which "
-                    f"needs {square[j][i]}; the higher level needs as many at least"
+                    f"needs {square[j][i]}; the higher level must need at least as many"
                 )
     return square
 
 
 def level_chart(name: str) -> LevelChart:
-    """Return a chart of skill levels that comes with the package, by its name in `LEVEL_CHARTS`.
+    """Return a chart by skill level that comes with the package, by its name in `LEVEL_CHARTS`.
 
     `apa_8ball` is the American Poolplayers Association's chart for 8-ball.
 
     Raises
     ------
     InputError
-        if no chart of skill levels has this name.
+        if no chart by skill level has this name.
 
     Notes
     -----
-    Source: the chart of games that must be won, as leagues print it (APA 8-ball).
+    Source: the games-must-win chart for APA 8-ball, as leagues print it.
 
     >>> level_chart("apa_8ball").levels
     (2, 3, 4, 5, 6, 7)
@@ -185,10 +184,6 @@ def level_chart(name: str) -> LevelChart:
 
 @cache
 def _read(name: str) -> LevelChart:
-    text = (
-        files("evenbreak.handicaps.charts").joinpath("catalogue", f"{name}.csv").read_text("utf-8")
-    )
-    rows = [tuple(map(int, row)) for row in list(csv.reader(text.splitlines()))[1:]]
-    needs = {(own, other): games for own, other, games, _ in rows}
-    levels = sorted({row[0] for row in rows})
+    needs = {(own, other): games for own, other, games, _ in catalogue_rows(name)}
+    levels = sorted({own for own, _ in needs})
     return LevelChart(name, levels, [[needs[own, other] for other in levels] for own in levels])

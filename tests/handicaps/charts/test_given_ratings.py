@@ -9,8 +9,8 @@ from scipy.special import betainc
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.fair import fair_races
-from evenbreak.handicaps.charts.uncertain import (
-    fairest_races,
+from evenbreak.handicaps.charts.given_ratings import (
+    fair_races_given_ratings,
     length_given_ratings,
     win_given_ratings,
 )
@@ -97,7 +97,7 @@ def test_lengths_whose_chance_is_nothing_at_some_difference():
 @pytest.mark.parametrize("limits", [{"games": (7, 13)}, {"games": (1, 4)}, {"race_to": 6}])
 def test_without_error_the_races_are_those_of_fair_races(limits):
     differences = np.arange(-90, 91, 5)
-    m, n = fairest_races(differences, 0.0, **limits)
+    m, n = fair_races_given_ratings(differences, 0.0, **limits)
     for k, difference in enumerate(differences.tolist()):
         best = fair_races(SCALES["npl"].win_probability(difference), top=1, **limits)[0]
         assert (m[k], n[k]) == (best.race_1, best.race_2)
@@ -105,7 +105,7 @@ def test_without_error_the_races_are_those_of_fair_races(limits):
 
 def test_with_error_the_race_is_the_nearest_of_all():
     for difference, error in ((20.0, 30.0), (55.0, 42.0), (-33.0, 15.0)):
-        m, n = fairest_races(difference, error, games=(5, 11))
+        m, n = fair_races_given_ratings(difference, error, games=(5, 11))
         every = {
             (i, longest + 1 - i): abs(
                 win_given_ratings(difference, error, i, longest + 1 - i) - 0.5
@@ -119,9 +119,9 @@ def test_with_error_the_race_is_the_nearest_of_all():
 def test_many_pairs_go_in_parts():
     rng = np.random.default_rng(5)
     differences, errors = rng.uniform(-80, 80, 20_000), rng.uniform(0, 40, 20_000)
-    m, n = fairest_races(differences, errors, games=(7, 13))
+    m, n = fair_races_given_ratings(differences, errors, games=(7, 13))
     for k in (0, 9_999, 19_999):
-        alone = fairest_races(differences[k], errors[k], games=(7, 13))
+        alone = fair_races_given_ratings(differences[k], errors[k], games=(7, 13))
         assert (m[k], n[k]) == alone
 
 
@@ -129,15 +129,15 @@ def test_many_pairs_go_in_parts():
     ("call", "remedy"),
     [
         (lambda: win_given_ratings(math.inf, 1.0, 5, 5), "not finite"),
-        (lambda: win_given_ratings(0.0, -1.0, 5, 5), "give 0 to 300 points"),
-        (lambda: win_given_ratings(0.0, 301.0, 5, 5), "10 doublings"),
-        (lambda: win_given_ratings([0.0, 1.0], 1.0, [1, 2, 3], 5), "broadcast together"),
-        (lambda: win_given_ratings(0.0, 1.0, 1.5, 5), "whole numbers"),
+        (lambda: win_given_ratings(0.0, -1.0, 5, 5), "is -1"),
+        (lambda: win_given_ratings(0.0, 301.0, 5, 5), "is 301"),
+        (lambda: win_given_ratings([0.0, 1.0], 1.0, [1, 2, 3], 5), "have shapes"),
+        (lambda: win_given_ratings(0.0, 1.0, 1.5, 5), "whole number"),
         (lambda: length_given_ratings(0.0, 1.0, 0, 5), "1 or more"),
-        (lambda: fairest_races(0.0, 1.0), "just one of the two"),
-        (lambda: fairest_races(0.0, 1.0, games=(9, 7)), "smaller number first"),
-        (lambda: fairest_races(0.0, 1.0, race_to=0), "1 or more"),
-        (lambda: fairest_races(0.0, 1.0, race_to=5, target=2.0), "from 0 to 1"),
+        (lambda: fair_races_given_ratings(0.0, 1.0), "games is None and race_to is None"),
+        (lambda: fair_races_given_ratings(0.0, 1.0, games=(9, 7)), "smaller number first"),
+        (lambda: fair_races_given_ratings(0.0, 1.0, race_to=0), "1 or more"),
+        (lambda: fair_races_given_ratings(0.0, 1.0, race_to=5, target=2.0), "from 0 to 1"),
     ],
 )
 def test_refused(call, remedy):
