@@ -14,13 +14,13 @@ from evenbreak.errors import InputError
 from evenbreak.files.problems import Problems, quoted
 from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.charts.given_ratings import (
     MOST_DOUBLINGS,
     fair_races_given_ratings,
     length_given_ratings,
     win_given_ratings,
 )
+from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.matches.evening import Length
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
@@ -212,7 +212,9 @@ def roster_matchups(
         by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
         columns |= _columns("chart_", by_chart, minutes_per_game)
     if limits is not None:
-        found = fair_races_given_ratings(gap, error, games=limits.games, race_to=limits.race_to, scale=scale)
+        found = fair_races_given_ratings(
+            gap, error, games=limits.games, race_to=limits.race_to, scale=scale
+        )
         best = Races.of(gap, error, *found, scale)
         columns |= _columns("", best, minutes_per_game)
     everyone = {

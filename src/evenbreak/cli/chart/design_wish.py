@@ -181,7 +181,9 @@ def wish_of(
             "--rule nearest takes the race nearest 0.5; leave --mean-games, --rows, --target, "
             "--tilt out"
         )
-    play = MatchRules(scale, win_by, None if breaks is None else BREAK_FORMATS[breaks], break_points)
+    play = MatchRules(
+        scale, win_by, None if breaks is None else BREAK_FORMATS[breaks], break_points
+    )
     limits = RaceLimits(games, *least, games_p90)
     return Wish(play, limits, rule, beside=tuple(map(_chart_beside, beside)), **others)
 

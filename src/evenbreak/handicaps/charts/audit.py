@@ -200,7 +200,7 @@ def even_doublings(m: Any, n: Any) -> Any:
 def _in_order(chart: Chart | ChartDraft) -> list[ChartRow]:
     rows = sorted(chart.rows, key=lambda row: row.difference_from)
     if not rows:
-        raise InputError(f"chart {chart.name!r} has no rows; give one for each range of differences")
+        raise InputError(f"chart {chart.name!r} has no rows; give one for each range")
     for row in rows:
         if row.difference_to is not None and row.difference_to < row.difference_from:
             raise InputError(

@@ -120,7 +120,7 @@ class Candidates:
         return self._chart(cheapest_within(cost, length, self.evens, budget, rows), name)
 
     def nearest(self, name: str) -> Chart:
-        """Return the chart with the race nearest 1/2 at each difference, as `nearest_chart` does."""
+        """Return the chart with the race nearest 1/2 at each difference (`nearest_chart`)."""
         cost = self._cost(0.5, 0.5)
         cost[: self.evens - 1] = np.inf
         if self.limits.games_p90 is not None:
