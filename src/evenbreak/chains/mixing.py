@@ -20,7 +20,8 @@ import scipy.sparse.linalg
 from evenbreak.chains.eigenpairs import DENSE, EPS
 from evenbreak.chains.limits import limit_matrix
 from evenbreak.chains.powers import evened
-from evenbreak.errors import AccuracyError, ChainError, InputError
+from evenbreak.checks import number
+from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -175,8 +176,7 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
     >>> [mixing_time(winner_breaks, eps) for eps in (0.7, 0.25, 0.01)]
     [0, 1, 4]
     """
-    if not 0.0 < eps < 1.0:
-        raise InputError(f"eps is {eps!r}; give a number between 0 and 1")
+    eps = number(eps, "eps", above=0.0, below=1.0)
     n = len(chain)
     if n > DENSE:
         raise ChainError(

@@ -23,7 +23,7 @@ from scipy.sparse import csr_array
 from evenbreak.chains.arcs import reachable
 from evenbreak.chains.powers import evened
 from evenbreak.chains.transient import TransientPart
-from evenbreak.checks import one_of, probability, whole
+from evenbreak.checks import number_probability, one_of, whole
 from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ class Passage:
             the probabilities, and the chance to reach the target later than they tell:
             their sum, the tail and `p_never` make 1.
         """
-        tail, max_steps = probability(tail, "tail"), whole(max_steps, "max_steps")
+        tail, max_steps = number_probability(tail, "tail"), whole(max_steps, "max_steps")
         chances = []
         left = 0.0
         for t, chance, left in self._walk():
@@ -125,7 +125,7 @@ class Passage:
         AccuracyError
             if t would be more than 100,000.
         """
-        q = probability(q, "q")
+        q = number_probability(q, "q")
         if q > self.p_reached + TIE:
             return None
         for t, _, left in self._walk():
