@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.stats import CountLaw, whole_counts
+from evenbreak.stats import CountLaw
 
 
 class Steps(CountLaw):
@@ -94,21 +94,3 @@ def test_the_ends_of_a_span_are_whole_numbers(end: Any) -> None:
 
 def test_a_rare_span_keeps_its_digits() -> None:
     assert Steps().between(100, 101) == pytest.approx(0.75 * 2.0**-100, rel=1e-15)
-
-
-def test_whole_counts_are_floats_of_the_same_shape() -> None:
-    assert whole_counts([[1, -2], [3, 4]]).tolist() == [[1.0, -2.0], [3.0, 4.0]]
-    assert whole_counts(7).shape == ()
-
-
-@pytest.mark.parametrize(
-    "n", [0.5, float("nan"), float("inf"), "3", None, [1, 2.5], 1j, [[1], [2, 3]]]
-)
-def test_other_counts_are_refused(n: Any) -> None:
-    with pytest.raises(InputError, match=r"^n is .*"):
-        whole_counts(n)
-
-
-def test_counts_may_have_a_least() -> None:
-    with pytest.raises(InputError, match=r"^m is -1"):
-        whole_counts(-1, "m", at_least=0)

@@ -8,9 +8,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
-from evenbreak.checks import number_probability, probability, whole
+from evenbreak.checks import (
+    floats,
+    number_probability,
+    plain,
+    probability,
+    together,
+    whole,
+    whole_numbers,
+)
 from evenbreak.errors import InputError
-from evenbreak.stats.counts import CountLaw, float_or_array, whole_counts
+from evenbreak.stats.counts import CountLaw
 from evenbreak.stats.exact import exact
 
 if TYPE_CHECKING:
@@ -66,19 +74,12 @@ def score_probability(p: Any, m: Any, n: Any) -> Any:
     if isinstance(p, Fraction) and not hasattr(m, "__len__") and not hasattr(n, "__len__"):
         p, m, n = exact(p), whole(m, "m"), whole(n, "n")
         return math.comb(m + n, m) * p**m * (1 - p) ** n
-    import numpy as np
     from scipy.stats import binom
 
     p = probability(p, "p")
-    m, n = (whole_counts(many, name, at_least=0) for many, name in ((m, "m"), (n, "n")))
-    try:
-        np.broadcast_shapes(np.shape(p), m.shape, n.shape)
-    except ValueError:
-        raise InputError(
-            f"p, m and n have shapes {np.shape(p)}, {m.shape} and {n.shape}; "
-            "give shapes that broadcast together"
-        ) from None
-    return float_or_array(binom.pmf(m, m + n, p))
+    m, n = whole_numbers(m, "m", at_least=0), whole_numbers(n, "n", at_least=0)
+    together(p=p, m=m, n=n)
+    return plain(binom.pmf(m, m + n, p))
 
 
 class ScoreRange(NamedTuple):
@@ -318,7 +319,7 @@ def critical_value(coverage: Any) -> Any:
     checked = probability(coverage, "coverage")
     if np.any(np.equal(checked, 1.0)):
         raise InputError("coverage is 1, and no z is that large; give a number below 1")
-    return float_or_array(math.sqrt(2) * erfinv(checked))
+    return plain(math.sqrt(2) * erfinv(checked))
 
 
 @overload
@@ -341,16 +342,10 @@ def coverage_within(z: Any) -> Any:
     >>> coverage_within([1, 2, 3]).round(4)
     array([0.6827, 0.9545, 0.9973])
     """
-    import numpy as np
     from scipy.special import erf
 
-    try:
-        checked = np.asarray(z, dtype=float)
-    except (TypeError, ValueError):
-        checked = np.asarray(math.nan)
-    if not np.all(checked >= 0):
-        raise InputError(f"z is {z!r}; give a number of standard deviations, 0 or more")
-    return float_or_array(erf(checked / math.sqrt(2)))
+    checked = floats(z, "z", low=0.0, wanted="a number of standard deviations, 0 or more")
+    return plain(erf(checked / math.sqrt(2)))
 
 
 def _lower_sum(games: int, n: int, p: Fraction) -> Fraction:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from evenbreak.checks import number_probability, one_of, whole
+from evenbreak.checks import number, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.stats.binomial import critical_value
 
@@ -53,9 +53,7 @@ def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
     >>> round(sd_of_mean(2.5**0.5, 2), 4), round(sd_of_mean(2.5**0.5, 2, population=4), 4)
     (1.118, 0.9129)
     """
-    spread = _number(sd, "sd")
-    if spread < 0.0:
-        raise InputError(f"sd is {sd!r}; give a number, 0 or more")
+    spread = number(sd, "sd", low=0.0)
     n = whole(n, "n", at_least=1)
     if population is None:
         return spread / math.sqrt(n)
@@ -202,7 +200,7 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
     import numpy as np
 
     earlier = _differing(scores)
-    new = _number(score, "score")
+    new = number(score, "score")
     text = _interval(earlier, open_share(confidence), "normal")
     own = _interval(earlier, text.confidence, "t")
     nearest = min(max(new, text.low), text.high)
@@ -269,22 +267,8 @@ def open_share(confidence: float) -> float:
     ...
     evenbreak.errors.InputError: confidence is 1; give a number between 0 and 1, such as 0.95
     """
-    share = number_probability(confidence, "confidence")
-    if not 0.0 < share < 1.0:
-        raise InputError(
-            f"confidence is {confidence!r}; give a number between 0 and 1, such as 0.95"
-        )
-    return share
-
-
-def _number(value: Any, name: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not math.isfinite(number):
-        raise InputError(f"{name} is {value!r}; give a finite number")
-    return number
+    wanted = "a number between 0 and 1, such as 0.95"
+    return number(confidence, "confidence", above=0.0, below=1.0, wanted=wanted)
 
 
 def _differing(scores: Any) -> NDArray[np.float64]:

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
+from evenbreak.checks import plain, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.stats.exact import exact
 
@@ -66,7 +67,7 @@ class CountLaw(ABC):
     def probability(self, n: ArrayLike) -> Floats: ...
     def probability(self, n: Any) -> Any:
         """Return P(count = n); a float for a number, an array for an array."""
-        return float_or_array(self._probability(whole_counts(n)))
+        return plain(self._probability(whole_numbers(n, "n")))
 
     @overload
     def cumulative(self, n: float) -> float: ...
@@ -74,7 +75,7 @@ class CountLaw(ABC):
     def cumulative(self, n: ArrayLike) -> Floats: ...
     def cumulative(self, n: Any) -> Any:
         """Return P(count <= n); a float for a number, an array for an array."""
-        return float_or_array(self._cumulative(whole_counts(n)))
+        return plain(self._cumulative(whole_numbers(n, "n")))
 
     @overload
     def at_least(self, n: float) -> float: ...
@@ -82,7 +83,7 @@ class CountLaw(ABC):
     def at_least(self, n: ArrayLike) -> Floats: ...
     def at_least(self, n: Any) -> Any:
         """Return P(count >= n); a float for a number, an array for an array."""
-        return float_or_array(self._at_least(whole_counts(n)))
+        return plain(self._at_least(whole_numbers(n, "n")))
 
     @overload
     def between(self, low: float, high: float) -> float: ...
@@ -101,11 +102,11 @@ class CountLaw(ABC):
         import numpy as np
 
         # The smaller tails are subtracted, so that an unlikely range keeps its digits.
-        low, high = whole_counts(low, "low"), whole_counts(high, "high")
+        low, high = whole_numbers(low, "low"), whole_numbers(high, "high")
         below = self._cumulative(high) - self._cumulative(low - 1)
         above = self._at_least(low) - self._at_least(high + 1)
         inside = np.where(self._cumulative(high) < 0.5, below, above)
-        return float_or_array(np.where(high < low, 0.0, np.maximum(inside, 0.0)))
+        return plain(np.where(high < low, 0.0, np.maximum(inside, 0.0)))
 
     def quantile(self, q: Any) -> int:
         """Return the smallest count n with P(count <= n) >= q, decided without rounding.
@@ -150,44 +151,3 @@ class CountLaw(ABC):
         if abs(found - tail) > _NEAR * abs(tail):
             return bool(found > tail)
         return self.exact_cumulative(n) >= wanted
-
-
-def whole_counts(n: ArrayLike, name: str = "n", *, at_least: int | None = None) -> Floats:
-    """Return counts as a float array of whole numbers; a single number as one without axes.
-
-    Parameters
-    ----------
-    n
-        a whole number or an array of them.
-    name
-        what to call the value in a message.
-    at_least
-        the smallest one allowed; None: any, since a negative count has probability 0.
-
-    Raises
-    ------
-    InputError
-        if a value is not a whole number, or is too small.
-
-    >>> whole_counts([1, 2.0])
-    array([1., 2.])
-    """
-    import numpy as np
-
-    try:
-        counts = np.asarray(n)
-        if counts.dtype.kind in "SUc":
-            raise ValueError
-        counts = counts.astype(float)
-        right = bool(np.all(counts == np.floor(counts)) and np.all(np.isfinite(counts)))
-    except (TypeError, ValueError):
-        right = False
-    if not right or (at_least is not None and bool(np.any(counts < at_least))):
-        smallest = "" if at_least is None else f", {at_least} or more"
-        raise InputError(f"{name} is {n!r}; give whole numbers{smallest}")
-    return counts
-
-
-def float_or_array(found: Any) -> Any:
-    """Return an array without axes as a float, any other as it is."""
-    return found if found.ndim else float(found)

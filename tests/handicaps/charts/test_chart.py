@@ -154,8 +154,8 @@ def test_the_greatest_differences_that_numpy_holds():
 
 
 @pytest.mark.parametrize(
-    "differences", [[0, 5.5], [np.nan], [np.inf], 5.5, "7", ["7"], None, [True], [[1], [1, 2]]]
+    "differences", [[0, 5.5], [np.nan], [np.inf], 5.5, "7", ["7"], None, [[1], [1, 2]]]
 )
 def test_no_whole_points_in_an_array_are_refused_with_the_remedy(differences):
-    with pytest.raises(InputError, match="differences (hold|are)"):
+    with pytest.raises(InputError, match=r"differences (holds|is)"):
         chart("npl_8").races(differences)

@@ -128,10 +128,10 @@ def test_many_pairs_go_in_parts():
 @pytest.mark.parametrize(
     ("call", "remedy"),
     [
-        (lambda: win_given_ratings(math.inf, 1.0, 5, 5), "not finite"),
+        (lambda: win_given_ratings(math.inf, 1.0, 5, 5), "difference is inf"),
         (lambda: win_given_ratings(0.0, -1.0, 5, 5), "is -1"),
         (lambda: win_given_ratings(0.0, 301.0, 5, 5), "is 301"),
-        (lambda: win_given_ratings([0.0, 1.0], 1.0, [1, 2, 3], 5), "have shapes"),
+        (lambda: win_given_ratings([0.0, 1.0], 1.0, [1, 2, 3], 5), "m has shape"),
         (lambda: win_given_ratings(0.0, 1.0, 1.5, 5), "whole number"),
         (lambda: length_given_ratings(0.0, 1.0, 0, 5), "1 or more"),
         (lambda: fair_races_given_ratings(0.0, 1.0), "games is None and race_to is None"),

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.checks import number_probability, one_of, whole
+from evenbreak.checks import number_probability, one_of, positive, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.cheapest_path import (
@@ -108,7 +108,7 @@ class Candidates:
         """
         target, tilt = number_probability(target, "target"), number_probability(tilt, "tilt")
         criterion = one_of(criterion, "criterion", ("mean", "worst"))
-        budget = math.inf if mean_games is None else _above_0(mean_games, "mean_games")
+        budget = math.inf if mean_games is None else positive(mean_games, "mean_games")
         rows = self._row_limit(rows)
         cost = self._cost(target, tilt)
         for most in {self.limits.games_p90, games_p90} - {None}:
@@ -171,9 +171,3 @@ class Candidates:
             start += count
         rows[-1] = rows[-1]._replace(difference_to=None)
         return Chart(name, rows)
-
-
-def _above_0(value: Any, name: str) -> float:
-    if not (isinstance(value, int | float) and 0.0 < value < math.inf):
-        raise InputError(f"{name} is {value!r}; give a number above 0")
-    return float(value)

@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.checks import whole
+from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.rows import ChartRow, catalogue_rows, row_faults
 
 CHARTS = ("fargo_r6_hot", "npl_8", "npl_10", "npl_12", "npl_20")
 """The charts that come with the package, by name."""
+
+_WHOLE_POINTS = "whole points (round the two ratings before you subtract them)"
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,7 @@ class Chart:
         evenbreak.errors.InputError: difference is 5.5; give whole points (round the two
         ratings before you subtract them)
         """
-        points = _whole_points(difference)
+        points = whole(difference, "difference", at_least=None, wanted=_WHOLE_POINTS)
         row = next(row for row in reversed(self.rows) if row.difference_from <= abs(points))
         needs = row.stronger_needs, row.weaker_needs
         return needs if points >= 0 else needs[::-1]
@@ -103,7 +105,7 @@ class Chart:
         >>> m, n
         (array([5, 5, 4]), array([5, 4, 5]))
         """
-        points = _array_of_points(differences)
+        points = whole_numbers(differences, "differences", wanted=_WHOLE_POINTS)
         needs = np.array([row[2:] for row in self.rows])
         starts = [row.difference_from for row in self.rows]
         place = np.searchsorted(starts, np.abs(points), side="right") - 1
@@ -131,35 +133,6 @@ def _checked(row: ChartRow, name: str) -> ChartRow:
         whole(row.stronger_needs, f"stronger_needs of {name}", at_least=1),
         whole(row.weaker_needs, f"weaker_needs of {name}", at_least=1),
     )
-
-
-def _whole_points(difference: Any) -> int:
-    try:
-        points = int(difference)
-        right = bool(points == difference) and not isinstance(difference, str | bytes)
-    except (TypeError, ValueError, OverflowError):
-        right = False
-    if not right:
-        raise InputError(
-            f"difference is {difference!r}; give whole points (round the two ratings before "
-            "you subtract them)"
-        )
-    return points
-
-
-def _array_of_points(differences: ArrayLike) -> NDArray[np.float64]:
-    try:
-        array = np.asarray(differences)
-        points = array.astype(float) if array.dtype.kind in "iuf" else np.array(np.nan)
-    except ValueError:  # rows of different lengths
-        points = np.array(np.nan)
-    wrong = ~(np.isfinite(points) & (points == np.floor(points)))
-    if wrong.any():
-        held = f"hold {points[wrong].flat[0]:g}" if points.ndim else f"are {differences!r}"
-        raise InputError(
-            f"differences {held}; give whole points (round ratings before you subtract them)"
-        )
-    return points
 
 
 def chart(name: str) -> Chart:

@@ -20,8 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import roots_hermitenorm
 
-from evenbreak.checks import probability, whole
-from evenbreak.errors import InputError
+from evenbreak.checks import floats, plain, probability, together, whole
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import longest_matches
@@ -92,20 +91,14 @@ def win_given_ratings(
     """
     scale = scale_of(scale)
     gap, error = _checked(difference, standard_error, scale)
-    try:
-        gap, error, m, n = np.broadcast_arrays(gap, error, m, n)
-    except ValueError:
-        shapes = ", ".join(str(np.shape(part)) for part in (gap, error, m, n))
-        raise InputError(
-            f"difference, standard_error, m and n have shapes {shapes}; "
-            "give shapes that broadcast together"
-        ) from None
+    together(difference=gap, standard_error=error, m=m, n=n)
+    gap, error, m, n = np.broadcast_arrays(gap, error, m, n)
     longest = int(np.max(m + n, initial=2))
     nodes, weights = _rule(float(error.max(initial=0.0)), longest, scale)
     chance = np.zeros(gap.shape)
     for node, weight in zip(nodes, weights, strict=True):
         chance += weight * race_win_probability(scale.win_probability(gap + node * error), m, n)
-    return chance if chance.ndim else float(chance)
+    return plain(chance)
 
 
 def length_given_ratings(
@@ -190,17 +183,10 @@ def fair_races_given_ratings(
 
 
 def _checked(difference: ArrayLike, standard_error: ArrayLike, scale: Scale) -> tuple[Floats, Any]:
-    gap, error = np.asarray(difference, dtype=float), np.asarray(standard_error, dtype=float)
-    if not np.isfinite(gap).all():
-        raise InputError("difference holds a value that is not finite; give points")
     most = MOST_DOUBLINGS * scale.points_per_doubling
-    wrong = ~((error >= 0.0) & (error <= most))
-    if wrong.any():
-        raise InputError(
-            f"standard_error of a difference is {error[wrong].flat[0]:g}; give 0 to {most:g} "
-            f"points ({MOST_DOUBLINGS:g} doublings of the odds)"
-        )
-    return gap, error
+    wanted = f"0 to {most:g} points ({MOST_DOUBLINGS:g} doublings of the odds)"
+    error = floats(standard_error, "standard_error", low=0.0, high=most, wanted=wanted)
+    return floats(difference, "difference"), error
 
 
 def _rule(largest_error: float, longest: int, scale: Scale) -> tuple[Floats, Floats]:

@@ -13,7 +13,6 @@ game, or in which the break matters, are solved one by one.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -22,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import betainc
 
-from evenbreak.checks import whole
+from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.race import Race
@@ -74,8 +73,7 @@ class MatchRules:
     def __post_init__(self) -> None:
         object.__setattr__(self, "scale", scale_of(self.scale))
         object.__setattr__(self, "win_by", whole(self.win_by, "win_by", at_least=1))
-        if not (isinstance(self.break_points, int | float) and math.isfinite(self.break_points)):
-            raise InputError(f"break_points is {self.break_points!r}; give a finite number")
+        number(self.break_points, "break_points")
         if self.break_points and self.breaks is None:
             raise InputError(
                 "breaks is missing: with break_points the break matters; give winner_breaks, ..."
