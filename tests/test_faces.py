@@ -109,6 +109,8 @@ def test_csv_has_the_numbers_of_json(faces):
 def as_csv(value):
     if value is None:
         return ""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if not isinstance(value, float):
         return str(value)
     text = f"{value:.6f}"

@@ -75,6 +75,17 @@ def race(needs: tuple[int, int]) -> str:
     return f"{needs[0]}:{needs[1]}"
 
 
+def range_words(first: int, last: int | None) -> str:
+    """Return a range of whole numbers, which may be open-ended.
+
+    >>> range_words(7, 18), range_words(7, 7), range_words(49, None)
+    ('7 to 18', '7', '49 and more')
+    """
+    if last is None:
+        return f"{first} and more"
+    return f"{first} to {last}" if last > first else str(first)
+
+
 def count_of(number: int, one: str, many: str = "") -> str:
     """Return a number with the noun that it counts; `many` is `one` with an s where not given.
 

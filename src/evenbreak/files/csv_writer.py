@@ -45,10 +45,10 @@ def to_csv(frame: pd.DataFrame, *, excel: bool = False) -> bytes:
 def csv_lines(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Iterator[str]:
     r"""Yield a header and rows as lines of CSV, each with its line end.
 
-    A comma between cells. Floats have six decimals, whole numbers none; a value that is None,
-    NaN or infinite is an empty cell; dates are ISO. Text that begins with = + - @ or a control
-    character, which a spreadsheet might run as a formula, gets an apostrophe before it; numbers
-    never do.
+    A comma between cells. Floats have six decimals, whole numbers none; True is yes and False
+    no; a value that is None, NaN or infinite is an empty cell; dates are ISO. Text that begins
+    with = + - @ or a control character, which a spreadsheet might run as a formula, gets an
+    apostrophe before it; numbers never do.
 
     >>> list(csv_lines(["race_a", "p_win_a"], [[7, 0.5], [8, None]]))
     ['race_a,p_win_a\n', '7,0.500000\n', '8,\n']
@@ -63,6 +63,8 @@ def _cell(value: Any) -> str:
         return ""
     if isinstance(value, str):
         return text_cell(value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, float):
         return _number(value)
     if hasattr(value, "date"):

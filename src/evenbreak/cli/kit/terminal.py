@@ -25,4 +25,5 @@ def say(message: str) -> None:
     """Say something beside the answer, on stderr; on a terminal broken between words."""
     terminal = sys.stderr is not None and sys.stderr.isatty()
     # Names of files stay whole, so that they can be copied.
-    click.echo(paragraph(message, WIDTH) if terminal else printable(message), err=True)
+    for line in message.split("\n"):
+        click.echo(paragraph(line, WIDTH) if terminal else printable(line), err=True)
