@@ -10,7 +10,7 @@ import click
 from evenbreak.cli.kit.callbacks import PlainCommand, chance, number, pair, refuse, wants_json
 from evenbreak.cli.kit.output import chance_text, print_quantities, to_terminal
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.practice.runs import MOST_BALLS
+from evenbreak.cli.kit.values import MOST_BALLS
 
 if TYPE_CHECKING:
     from evenbreak.matches.straight_pool import StraightPool
