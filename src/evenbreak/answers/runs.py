@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from evenbreak.answers.answer import Answer, Quantities, Quantity
-from evenbreak.answers.wording import chance, decimals, percent
+from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
 
@@ -56,8 +56,8 @@ def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
     """Return how long a player's runs are, or what several innings bring, and what is asked for.
 
     >>> print(runs_answer(RunLength(0.96), Asked(at_least=100)).sentences[0])
-    100 or more happens 1.7 % of the time, once in 59 innings. Half of the runs are 16 balls or
-    fewer, although the average is 24.00.
+    A run of 100 or more comes 1.7 % of the time, once in 59 innings. Half of the runs are 16 balls
+    or fewer, although the average is 24.
     """
     innings = law.innings if isinstance(law, InningsScore) else 1
     safety = float(law.safety)
@@ -72,8 +72,8 @@ def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
         Quantity("safety", safety),
         Quantity("innings", innings),
         Quantity("mean", law.mean, "average: fair line of a bet by the ball", decimals(2)),
-        Quantity("median", law.median, "median: fair line of over or under"),
-        Quantity("mode", law.mode, "mode: the most likely number"),
+        Quantity("median", law.median, "median: fair line of over or under", games),
+        Quantity("mode", law.mode, "mode: the most likely number", games),
         Quantity("sd", law.sd, "standard deviation", decimals(2), detail=True),
         Quantity(
             "relative_sd",
@@ -117,7 +117,8 @@ def _asked(asked: Asked, chances: dict[str, float], innings: int) -> list[str]:
                 f"money it is {even} bet."
             )
             continue
-        text = f"{words} happens {percent(chances[key])} of the time"
+        what = "run" if innings == 1 else "score"
+        text = f"A {what} of {words} comes {percent(chances[key])} of the time"
         if innings == 1 and 0.0 < chances[key] < 0.1:
             text += f", once in {1 / chances[key]:,.0f} innings"
         sentences.append(f"{text}.")
@@ -127,7 +128,8 @@ def _asked(asked: Asked, chances: dict[str, float], innings: int) -> list[str]:
 def _middle(law: RunLength | InningsScore, innings: int) -> str:
     what = "runs" if innings == 1 else "scores"
     link = "although the average is" if law.median < law.mean - 1 else "and the average is"
-    return f"Half of the {what} are {law.median:,} balls or fewer, {link} {law.mean:,.2f}."
+    mean = f"{law.mean:,.2f}".rstrip("0").rstrip(".")
+    return f"Half of the {what} are {law.median:,} balls or fewer, {link} {mean}."
 
 
 def _heading(law: RunLength | InningsScore, innings: int) -> str:
