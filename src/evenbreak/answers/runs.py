@@ -127,8 +127,10 @@ def _asked(asked: Asked, chances: dict[str, float], innings: int) -> list[str]:
 
 def _middle(law: RunLength | InningsScore, innings: int) -> str:
     what = "runs" if innings == 1 else "scores"
-    link = "although the average is" if law.median < law.mean - 1 else "and the average is"
+    link = "although the average is" if law.mean - law.median >= 1 else "and the average is"
     mean = f"{law.mean:,.2f}".rstrip("0").rstrip(".")
+    if not law.median:
+        return f"At least half of the {what} are 0, {link} {mean}."
     return f"Half of the {what} are {law.median:,} balls or fewer, {link} {mean}."
 
 
