@@ -88,21 +88,22 @@ def _table(analysis: LogAnalysis) -> Table:
         Column("p_low", "between", decimals(2)),
         Column("p_high", "and", decimals(2)),
         Column("p_model", "model", chance, detail=True),
-        Column("visited", "attempts\nso far", chance),
+        Column("visited", "so far", chance),
         Column("expected", "by\nchance", chance, detail=True),
-        Column("long_run", "in the\nlong run", chance),
+        Column("long_run", "long run", chance),
         Column("gain", "gain", amount, detail=True),
         Column("lift", "lift", amount),
         Column("lift_low", "lift\nfrom", amount, detail=True),
         Column("lift_high", "to", amount, detail=True),
-        Column("p_best", "best to\npractise", decimals(2)),
+        Column("p_best", "best", decimals(2)),
     ]
     return Table(
         "levels",
         columns,
         [_row(report) for report in analysis.levels],
-        "Each level with the 95 % interval of your success rate, and its lift: by how much five "
-        "more successes in 100 there raise your average level.",
+        "Each level with the 95 % interval of your success rate; its share of the attempts so far "
+        "and in the long run; its lift, by how much five more successes in 100 there raise your "
+        "average level; and how likely it is the best one to practise:",
     )
 
 

@@ -71,8 +71,8 @@ def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
         Quantity("p_make", float(law.p), "chance to make a shot", chance),
         Quantity("safety", safety),
         Quantity("innings", innings),
-        Quantity("mean", law.mean, "average: fair line of a bet by the ball", decimals(2)),
-        Quantity("median", law.median, "median: fair line of over or under", games),
+        Quantity("mean", law.mean, "average: fair line if every ball pays", decimals(2)),
+        Quantity("median", law.median, "median: fair line for over or under", games),
         Quantity("mode", law.mode, "mode: the most likely number", games),
         Quantity("sd", law.sd, "standard deviation", decimals(2), detail=True),
         Quantity(
