@@ -10,6 +10,9 @@ from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
 
+FAIR = 0.005
+"""A bet that wins with a chance as near to 1/2 is fair at even money."""
+
 
 @dataclass(frozen=True)
 class Asked:
@@ -110,11 +113,11 @@ def _asked(asked: Asked, chances: dict[str, float], innings: int) -> list[str]:
     sentences = []
     for key, (words, _, _) in asked.ranges.items():
         if key == "p_over":
-            side = "good" if chances[key] > 0.5 else "bad"
-            even = "an even" if chances[key] == 0.5 else f"a {side}"
+            p = chances[key]
+            kind = "fair" if abs(p - 0.5) < FAIR else "good" if p > 0.5 else "bad"
             sentences.append(
-                f"Over {asked.over:.12g} wins {percent(chances[key])} of the time, so at even "
-                f"money it is {even} bet."
+                f"Over {asked.over:.12g} wins {percent(p)} of the time, so at even money it is a "
+                f"{kind} bet."
             )
             continue
         what = "run" if innings == 1 else "score"

@@ -1,0 +1,12 @@
+from evenbreak.answers.chart_list import DESCRIPTIONS, chart_list_answer
+from evenbreak.handicaps import CHARTS, LEVEL_CHARTS
+
+
+def test_every_chart_has_a_description_and_no_other():
+    assert set(DESCRIPTIONS) == {*CHARTS, *LEVEL_CHARTS}
+
+
+def test_the_races_of_a_chart_are_counted_once():
+    rows = {row["chart"]: row for row in chart_list_answer().to_dict()["charts"]}
+    assert (rows["npl_8"]["races"], rows["npl_8"]["longest_games"]) == (6, 7)
+    assert (rows["apa_8ball"]["races"], rows["apa_8ball"]["longest_games"]) == (12, 9)
