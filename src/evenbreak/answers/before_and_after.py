@@ -60,15 +60,15 @@ def before_and_after_answer(before: ScoresFile, after: ScoresFile, found: Compar
             "of 100 pairs of a score before and one after, the later one is higher."
         )
     return Answer(
-        f"{_side(before)} before, {_side(after)} after",
+        f"Before: {_scores(before)}\nAfter: {_scores(after)}",
         [*sentences, Quantities(_quantities(found))],
         details=list(_explained(found)),
         warnings=[*before.warnings, *after.warnings, *_doubts(found)],
     )
 
 
-def _side(file: ScoresFile) -> str:
-    return f"{count_of(len(file.scores), 'score')} ({file.source})"
+def _scores(file: ScoresFile) -> str:
+    return f"{count_of(len(file.scores), 'score')} in {file.source}"
 
 
 def _quantities(found: Comparison) -> list[Quantity]:
