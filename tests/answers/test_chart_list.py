@@ -1,9 +1,10 @@
-from evenbreak.answers.chart_list import DESCRIPTIONS, chart_list_answer
+from evenbreak.answers.chart_list import chart_list_answer
 from evenbreak.handicaps import CHARTS, LEVEL_CHARTS
 
 
-def test_every_chart_has_a_description_and_no_other():
-    assert set(DESCRIPTIONS) == {*CHARTS, *LEVEL_CHARTS}
+def test_every_chart_is_listed_with_its_title():
+    rows = chart_list_answer().to_dict()["charts"]
+    assert {row["chart"]: row["what"] for row in rows} == {**CHARTS, **LEVEL_CHARTS}
 
 
 def test_the_races_of_a_chart_are_counted_once():

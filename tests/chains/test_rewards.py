@@ -82,7 +82,7 @@ def test_what_is_earned_after_absorption_does_not_count():
     [
         ({"per_state": {"X": 1}}, "state 'X'"),
         ({"per_state": np.ones(2)}, r"shape \(2,\)"),
-        ({"per_state": {"S1": np.nan}}, "'S1' is not finite"),
+        ({"per_state": {"S1": np.nan}}, "nan for state 'S1'"),
         ({"per_arc": {("S1", "L"): 1}}, "no arc 'S1' -> 'L'"),
     ],
 )

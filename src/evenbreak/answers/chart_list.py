@@ -9,21 +9,12 @@ from evenbreak.answers.wording import count_of
 from evenbreak.handicaps.charts.chart import CHARTS, chart
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, level_chart
 
-DESCRIPTIONS = {
-    "fargo_r6_hot": "Fargo R6 Hot",
-    "npl_8": "National Pool League chart 8",
-    "npl_10": "National Pool League chart 10",
-    "npl_12": "National Pool League chart 12",
-    "npl_20": "National Pool League chart 20",
-    "apa_8ball": "APA 8-ball",
-}
-
 
 def chart_list_answer() -> Answer:
     """Return the charts that come with the package, with the races of each.
 
-    >>> print(chart_list_answer().sentences[0])
-    There are 5 charts by rating difference and 1 chart by skill level.
+    >>> [row["chart"] for row in chart_list_answer().to_dict()["charts"]][-1]
+    'apa_8ball'
     """
     return Answer(
         "Handicap charts that come with evenbreak; the longest match is in games",
@@ -39,17 +30,17 @@ def chart_list_answer() -> Answer:
                     Column("races", "races"),
                     Column("longest_games", "longest"),
                 ],
-                [_row(name) for name in DESCRIPTIONS],
+                [_row(name, title) for name, title in {**CHARTS, **LEVEL_CHARTS}.items()],
             ),
         ],
     )
 
 
-def _row(name: str) -> tuple[Any, ...]:
+def _row(name: str, title: str) -> tuple[Any, ...]:
     if name in CHARTS:
         by, races = "difference", {row[2:] for row in chart(name).rows}
     else:
         table = level_chart(name)
         pairs = [(i, j) for i in table.levels for j in table.levels if i >= j]
         by, races = "skill level", {table.race(*pair) for pair in pairs}
-    return name, DESCRIPTIONS[name], by, len(races), max(m + n - 1 for m, n in races)
+    return name, title, by, len(races), max(m + n - 1 for m, n in races)
