@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
 
 if TYPE_CHECKING:
     from evenbreak.files.scores import ScoresFile
     from evenbreak.stats.compare import Comparison, Scores
+
+TWO = decimals(2)
 
 FEW = 10
 """With fewer scores than this, a single one can change the answer."""
@@ -73,27 +75,26 @@ def _scores(file: ScoresFile) -> str:
 
 def _quantities(found: Comparison) -> list[Quantity]:
     effect = found.effect
-    tests = [
-        Quantity(f"p_{name}", test and test.p_value, words, chance, detail=True)
-        for name, words in TESTS
-        for test in [getattr(found, name)]
-    ]
-    interval = f"({found.low:.2f} to {found.high:.2f})" if found.low is not None else ""
     return [
         *_summary("before", found.before),
         *_summary("after", found.after),
         Quantity("confidence", found.confidence),
-        Quantity("difference", found.difference, "difference", decimals(2), note=interval),
+        Quantity(
+            "difference", found.difference, "difference", TWO, _between(found.low, found.high)
+        ),
         Quantity("low", found.low),
         Quantity("high", found.high),
-        *tests,
-        Quantity(
+        *(
+            statistic(f"p_{name}", test and test.p_value, words, chance)
+            for name, words in TESTS
+            for test in [getattr(found, name)]
+        ),
+        statistic(
             "g",
             effect.g,
             "Hedges' g: difference in standard deviations",
-            decimals(2),
-            note=f"({effect.low:.2f} to {effect.high:.2f})" if effect.low is not None else "",
-            detail=True,
+            TWO,
+            _between(effect.low, effect.high),
         ),
         Quantity("g_low", effect.low),
         Quantity("g_high", effect.high),
@@ -101,12 +102,15 @@ def _quantities(found: Comparison) -> list[Quantity]:
     ]
 
 
+def _between(low: float | None, high: float | None) -> str:
+    return f"({low:.2f} to {high:.2f})" if low is not None else ""
+
+
 def _summary(when: str, scores: Scores) -> list[Quantity]:
-    spread = f"standard deviation {when}"
     return [
         Quantity(f"n_{when}", scores.n),
-        Quantity(f"mean_{when}", scores.mean, f"average {when}", decimals(2)),
-        Quantity(f"sd_{when}", scores.sd, spread, decimals(2), detail=True),
+        Quantity(f"mean_{when}", scores.mean, f"average {when}", TWO),
+        statistic(f"sd_{when}", scores.sd, f"standard deviation {when}", TWO),
     ]
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, astuple
 from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.wording import decimals, listed, percent, race, range_words
-from evenbreak.handicaps.charts.audit import ChartAudit, ChartFit
+from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit, ChartFit
 from evenbreak.handicaps.charts.level_audit import LevelAudit, LevelCell
 
 SAME_SCALE = 0.05
@@ -59,21 +59,16 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
         _OFF,
         _MONOTONE,
     ]
-    rows = [
-        (
-            *((row.difference_from, row.difference_to), (row.stronger_needs, row.weaker_needs)),
-            *(row.p_win_low, row.p_win_middle, row.p_win_high),
-            *(row.even_difference, row.even_place, row.unfairness, row.monotone),
-        )
-        for row in report.rows
-    ]
     return Answer(
         f"Chart {report.name}, {where}{points:.4g} points double the odds of a game",
         [
             _least_fair(report),
             " ".join((*_order(report), *_made_for(report, fitted=fitted))),
             Table(
-                "rows", columns, rows, "The stronger player's chance over each band of differences:"
+                "rows",
+                columns,
+                list(map(_paired, report.rows)),
+                "The stronger player's chance over each band of differences:",
             ),
         ],
         details=list(_tilt(report, fitted=fitted)),
@@ -190,7 +185,7 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
             Table(
                 "",
                 columns,
-                [_cell(cell) for cell in between],
+                list(map(_paired, between)),
                 "The higher level's chance if the two are as close as their levels allow (start), "
                 "average for their levels (middle), or as far apart as these allow (end):",
             ),
@@ -211,7 +206,7 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
             "points_per_doubling": points,
             "misfit": report.misfit,
         },
-        csv=Table("cells", columns, [_cell(cell) for cell in report.cells]),
+        csv=Table("cells", columns, list(map(_paired, report.cells))),
     )
 
 
@@ -219,12 +214,10 @@ def _levels(two: tuple[int, int]) -> str:
     return f"{two[0]} v {two[1]}"
 
 
-def _cell(cell: LevelCell) -> tuple[Any, ...]:
-    return (
-        *((cell.level, cell.opponent_level), (cell.needs, cell.opponent_needs)),
-        *(cell.p_win_low, cell.p_win_middle, cell.p_win_high),
-        *(cell.even_difference, cell.difference, cell.unfairness, cell.monotone),
-    )
+def _paired(one: AuditRow | LevelCell) -> tuple[Any, ...]:
+    """Return the values of a row, the first four as two pairs."""
+    first, second, third, fourth, *others = astuple(one)
+    return (first, second), (third, fourth), *others
 
 
 def _least_fair_levels(between: Sequence[LevelCell]) -> str:

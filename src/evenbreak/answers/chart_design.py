@@ -173,7 +173,11 @@ class _Span(NamedTuple):
 
 
 def _differing(made: Chart, other: Chart, up_to: int) -> Iterator[_Span]:
-    both = ((d, made.race(d), other.race(d)) for d in range(up_to + 1))
+    ours_at, theirs_at = (
+        zip(*(needs.tolist() for needs in chart.races(range(up_to + 1))), strict=True)
+        for chart in (made, other)
+    )
+    both = zip(range(up_to + 1), ours_at, theirs_at, strict=True)
     for (ours, theirs), run in groupby(both, key=lambda one: one[1:]):
         if ours != theirs:
             where = [d for d, _, _ in run]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
@@ -35,13 +34,8 @@ def drill_answer(statistics: DrillStatistics, description: str) -> Answer:
     at any other level. As it is, you settle at an average level of 4.35.
     """
     law = statistics.distribution
-    pairs = zip(
-        statistics.drill.success, law.probability, statistics.gain, statistics.lift, strict=True
-    )
-    rows = [
-        (level, p, float(share), finite(gain), lift)
-        for level, (p, share, gain, lift) in enumerate(pairs, 1)
-    ]
+    success = statistics.drill.success
+    rows = zip(law.values, success, law.probability, statistics.gain, statistics.lift, strict=True)
     parts: list[Part] = [f"{_advice(statistics)} {_settled(law)}"]
     if statistics.period > 1:
         parts.append(
@@ -57,7 +51,7 @@ def drill_answer(statistics: DrillStatistics, description: str) -> Answer:
     ]
     return Answer(
         description,
-        [*parts, Table("levels", columns, rows)],
+        [*parts, Table("levels", columns, list(rows))],
         details=[
             Quantities([Quantity("mean", law.mean, "average level", decimals(3)), *spread(law)]),
             GAIN_WORDS,
@@ -101,15 +95,10 @@ def better(p: float) -> str:
     return "five more successes in 100" if p <= 1.0 - MORE else "successes without a miss"
 
 
-def finite(value: float) -> float | None:
-    """Return a gain, or None where it is infinite."""
-    return value if math.isfinite(value) else None
-
-
 def amount(value: float) -> str:
     """Return a gain or a lift with three decimals, or three digits if it is huge.
 
-    >>> amount(2.3014), amount(5.56e299)
-    ('2.301', '5.56e+299')
+    >>> amount(2.3014), amount(5.56e299), amount(float("inf"))
+    ('2.301', '5.56e+299', 'inf')
     """
     return f"{value:.3f}" if value < MUCH else f"{value:.3g}"

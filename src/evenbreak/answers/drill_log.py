@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.drill import GAIN_WORDS, amount, better, finite, spread
+from evenbreak.answers.drill import GAIN_WORDS, amount, better, spread
 from evenbreak.answers.wording import chance, count_of, decimals
 
 if TYPE_CHECKING:
     from evenbreak.files.drill_log import DrillLogFile
-    from evenbreak.practice.log_analysis import LevelReport, LogAnalysis
+    from evenbreak.practice.log_analysis import LogAnalysis
     from evenbreak.practice.log_tests import PlayedAgainTest
 
 UNLIKELY = 0.05
@@ -100,19 +100,10 @@ def _table(analysis: LogAnalysis) -> Table:
     return Table(
         "levels",
         columns,
-        [_row(report) for report in analysis.levels],
+        analysis.levels,
         "Each level with the 95 % interval of your success rate; its share of the attempts so far "
         "and in the long run; its lift, by how much five more successes in 100 there raise your "
         "average level; and how likely it is the best one to practise:",
-    )
-
-
-def _row(report: LevelReport) -> tuple[Any, ...]:
-    return (
-        *(report.level, report.attempts, report.successes),
-        *(report.p, report.p_low, report.p_high, report.p_model),
-        *(report.visited, report.expected, report.implied, finite(report.gain)),
-        *(report.lift, report.lift_low, report.lift_high, report.p_best),
     )
 
 

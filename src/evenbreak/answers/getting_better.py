@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Answer, Part, Quantities, Quantity
+from evenbreak.answers.answer import Answer, Part, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, luck_words, percent
 from evenbreak.stats.confidence import MeanInterval, mean_interval, sd_of
 from evenbreak.stats.trend import trend
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from evenbreak.files.scores import ScoresFile
     from evenbreak.stats.trend import Trend
 
+TWO = decimals(2)
 DAYS_A_WEEK = 7.0
 
 LUCK = 0.1
@@ -38,31 +39,17 @@ def getting_better_answer(file: ScoresFile, *, confidence: float = 0.95) -> Answ
     mean = float(file.scores.mean())
     quantities = [
         Quantity("n", len(file.scores)),
-        Quantity(
-            "mean",
-            mean,
-            "average",
-            decimals(2),
-            note=f"({own.low:.2f} to {own.high:.2f})" if own else "",
-        ),
-        Quantity("sd", own and own.sd, "standard deviation", decimals(2), detail=True),
+        Quantity("mean", mean, "average", TWO, note=_interval(own)),
+        statistic("sd", own and own.sd, "standard deviation", TWO),
         Quantity("confidence", confidence),
         Quantity("low", own and own.low),
         Quantity("high", own and own.high),
         Quantity("low_normal", normal and normal.low),
         Quantity("high_normal", normal and normal.high),
-        Quantity(
-            "slope_per_week",
-            line and line.slope,
-            "change in a week",
-            decimals(2),
-            note=f"({line.low:.2f} to {line.high:.2f})" if line else "",
-        ),
+        Quantity("slope_per_week", line and line.slope, "change in a week", TWO, _interval(line)),
         Quantity("slope_low", line and line.low),
         Quantity("slope_high", line and line.high),
-        Quantity(
-            "p_slope", line and line.p_value, "chance of such a slope by luck", chance, detail=True
-        ),
+        statistic("p_slope", line and line.p_value, "chance of such a slope by luck", chance),
     ]
     details: list[Part] = []
     if normal is not None:
@@ -83,6 +70,10 @@ def getting_better_answer(file: ScoresFile, *, confidence: float = 0.95) -> Answ
         details=details,
         warnings=file.warnings,
     )
+
+
+def _interval(found: MeanInterval | Trend | None) -> str:
+    return f"({found.low:.2f} to {found.high:.2f})" if found else ""
 
 
 def interval_of(file: ScoresFile, confidence: float) -> MeanInterval | None:

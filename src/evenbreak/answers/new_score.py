@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
 from evenbreak.stats.confidence import mean_interval, was_it_luck
 
 if TYPE_CHECKING:
     from evenbreak.files.scores import ScoresFile
     from evenbreak.stats.confidence import Luck
+
+TWO = decimals(2)
 
 
 def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95) -> Answer:
@@ -33,61 +35,35 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
     far off, up or down, comes about 12 times in 100. Several new scores would say more than one.
     """
     luck = was_it_luck(file.scores, score, confidence=confidence)
+    sd = mean_interval(file.scores, confidence).sd
     high = score >= luck.mean
-    more, share = luck.n + 1, f"{100 * confidence:g} %"
-    distance = decimals(2)
+    as_high, as_low = ("this high", None) if high else (None, "this low")
+    more, share = f"among {luck.n + 1} scores, by rank alone", f"{100 * confidence:g} %"
     quantities = [
         Quantity("score", score),
         Quantity("n", luck.n),
-        Quantity("mean", luck.mean, "average before", distance),
-        Quantity(
-            "sd",
-            mean_interval(file.scores, confidence).sd,
-            "standard deviation before",
-            distance,
-            detail=True,
-        ),
+        Quantity("mean", luck.mean, "average before", TWO),
+        statistic("sd", sd, "standard deviation before", TWO),
         Quantity("confidence", confidence),
-        Quantity(
-            "units", luck.t.units, "standard units off, by Student's t", distance, detail=True
-        ),
+        statistic("units", luck.t.units, "standard units off, by Student's t", TWO),
         Quantity("p_as_far", luck.t.as_far, "this far off by luck, up or down", chance),
-        Quantity("p_as_high", luck.t.as_high, "this high by luck" if high else None, chance),
-        Quantity("p_as_low", luck.t.as_low, None if high else "this low by luck", chance),
-        Quantity(
-            "p_as_high_by_rank",
-            luck.as_high_by_rank,
-            f"this high among {more} scores, by rank alone" if high else None,
-            chance,
-            detail=True,
+        Quantity("p_as_high", luck.t.as_high, as_high and f"{as_high} by luck", chance),
+        Quantity("p_as_low", luck.t.as_low, as_low and f"{as_low} by luck", chance),
+        statistic(
+            "p_as_high_by_rank", luck.as_high_by_rank, as_high and f"{as_high} {more}", chance
         ),
-        Quantity(
-            "p_as_low_by_rank",
-            luck.as_low_by_rank,
-            None if high else f"this low among {more} scores, by rank alone",
-            chance,
-            detail=True,
+        statistic("p_as_low_by_rank", luck.as_low_by_rank, as_low and f"{as_low} {more}", chance),
+        statistic(
+            "units_normal", luck.normal.units, "standard units off, by the normal distribution", TWO
         ),
-        Quantity(
-            "units_normal",
-            luck.normal.units,
-            "standard units off, by the normal distribution",
-            distance,
-            detail=True,
-        ),
-        Quantity(
-            "p_as_far_normal", luck.normal.as_far, "this far off, by that", chance, detail=True
-        ),
-        Quantity(
+        statistic("p_as_far_normal", luck.normal.as_far, "this far off, by that", chance),
+        statistic(
             "units_cautious",
             luck.cautious.units,
             f"standard units beyond the {share} interval",
-            distance,
-            detail=True,
+            TWO,
         ),
-        Quantity(
-            "p_as_far_cautious", luck.cautious.as_far, "this far off, by that", chance, detail=True
-        ),
+        statistic("p_as_far_cautious", luck.cautious.as_far, "this far off, by that", chance),
     ]
     return Answer(
         f"{score:g} after {count_of(luck.n, 'score')} in {file.source}",

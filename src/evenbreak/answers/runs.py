@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
@@ -77,21 +77,14 @@ def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
         Quantity("mean", law.mean, "average: fair line if every ball pays", decimals(2)),
         Quantity("median", law.median, "median: fair line for over or under", games),
         Quantity("mode", law.mode, "mode: the most likely number", games),
-        Quantity("sd", law.sd, "standard deviation", decimals(2), detail=True),
-        Quantity(
-            "relative_sd",
-            law.relative_sd,
-            "standard deviation / average",
-            decimals(3),
-            detail=True,
-        ),
-        Quantity(
+        statistic("sd", law.sd, "standard deviation", decimals(2)),
+        statistic("relative_sd", law.relative_sd, "standard deviation / average", decimals(3)),
+        # With safety play blank innings stand apart, and the rule does not hold for several.
+        statistic(
             "median_estimate",
-            # With safety play blank innings stand apart, and the rule does not hold for several.
             law.median_estimate if innings == 1 or safety == 1 else None,
             "median, by the rule of thumb",
             decimals(2),
-            detail=True,
         ),
         *(
             Quantity(key, chances.get(key), ranges[key][0] if key in ranges else None, chance)

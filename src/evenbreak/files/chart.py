@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from evenbreak.errors import DataError
 from evenbreak.files.cells import whole_numbers
@@ -16,9 +15,6 @@ from evenbreak.files.text_table import Table, read_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow, row_faults
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 DIFFERENCES = {
     "difference_from": ("from", "gap from", "points from"),
@@ -246,20 +242,6 @@ def _exists(path: str | Path) -> bool:
         return Path(path).exists()
     except OSError:  # a name that no file can have, such as a thousand letters
         return False
-
-
-def chart_frame(chart: Chart | LevelChart) -> pd.DataFrame:
-    """Return a chart as a DataFrame whose CSV `read_chart` reads.
-
-    >>> chart_frame(find_chart("npl_8")).tail(2)
-       difference_from  difference_to  stronger_needs  weaker_needs
-    4               40             48               5             2
-    5               49           <NA>               6             2
-    """
-    import pandas as pd
-
-    columns, rows = chart_table(chart)
-    return pd.DataFrame(rows, columns=columns).astype("Int64")
 
 
 def chart_table(chart: Chart | LevelChart) -> tuple[list[str], list[tuple[int | None, ...]]]:

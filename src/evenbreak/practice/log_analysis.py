@@ -42,10 +42,10 @@ class LevelReport(NamedTuple):
         the chance at this level by the fitted model p^(level - 1); None without a model.
     visited
         the fraction of all attempts that were at this level.
-    implied
-        that fraction in the long run, with the chances p, starting at level 1.
     expected
         the mean of that fraction in logs with the same starts and lengths, with the chances p.
+    implied
+        that fraction in the long run, with the chances p, starting at level 1.
     gain
         the derivative of the long-run mean level with respect to p; see `DrillStatistics`.
     lift, lift_low, lift_high
@@ -65,8 +65,8 @@ class LevelReport(NamedTuple):
     p_high: float
     p_model: float | None
     visited: float
-    implied: float
     expected: float
+    implied: float
     gain: float
     lift: float
     lift_low: float
@@ -216,7 +216,7 @@ def _reports(
         p_low, p_high = (
             binomtest(won, n).proportion_ci(_CONFIDENCE, method="wilson") if n else (0.0, 1.0)
         )
-        numbers = (n / len(log), law[i], expected[i], gain[i], lift[i], low[i], high[i], best[i])
+        numbers = (n / len(log), expected[i], law[i], gain[i], lift[i], low[i], high[i], best[i])
         p = won / n if n else None
         p_model = None if model is None else model.p**i
         reports.append(

@@ -90,9 +90,8 @@ class Chart:
         ratings before you subtract them)
         """
         points = whole(difference, "difference", at_least=None, wanted=_WHOLE_POINTS)
-        row = next(row for row in reversed(self.rows) if row.difference_from <= abs(points))
-        needs = row.stronger_needs, row.weaker_needs
-        return needs if points >= 0 else needs[::-1]
+        m, n = self.races(points)
+        return int(m), int(n)
 
     def races(self, differences: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return (m, n), two arrays: the games that player 1 and player 2 need, elementwise.

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.checks import whole
+from evenbreak.checks import together, whole, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.rows import catalogue_rows
 
@@ -78,18 +78,15 @@ class LevelChart:
         ...
         evenbreak.errors.InputError: level_1 is 1; give a level of the chart: 2, 3, 4, 5, 6, 7
         """
-        i, j = self._place(level_1, "level_1"), self._place(level_2, "level_2")
+        wanted = self._wanted
+        mine = whole(level_1, "level_1", at_least=None, wanted=wanted)
+        theirs = whole(level_2, "level_2", at_least=None, wanted=wanted)
+        i, j = int(self._places(mine, "level_1")), int(self._places(theirs, "level_2"))
         return self.needs[i][j], self.needs[j][i]
 
-    def _place(self, level: Any, name: str) -> int:
-        try:
-            return self.levels.index(level)
-        except ValueError:  # also for an array, whose comparison has no single truth value
-            raise InputError(f"{name} is {level!r}; {self._remedy}") from None
-
     @property
-    def _remedy(self) -> str:
-        return f"give a level of the chart: {', '.join(map(str, self.levels))}"
+    def _wanted(self) -> str:
+        return f"a level of the chart: {', '.join(map(str, self.levels))}"
 
     def races(
         self, levels_1: ArrayLike, levels_2: ArrayLike
@@ -110,28 +107,18 @@ class LevelChart:
         (array([4, 2]), array([2, 2]))
         """
         i, j = self._places(levels_1, "levels_1"), self._places(levels_2, "levels_2")
+        together(levels_1=i, levels_2=j)
         needs = np.array(self.needs)
-        try:
-            return needs[i, j], needs[j, i]
-        except IndexError:
-            raise InputError(
-                f"levels_1 and levels_2 have shapes {i.shape} and {j.shape}; "
-                "give shapes that broadcast together"
-            ) from None
+        return needs[i, j], needs[j, i]
 
     def _places(self, levels: ArrayLike, name: str) -> NDArray[np.int64]:
+        array = whole_numbers(levels, name, wanted=self._wanted)
         known = np.array(self.levels)
-        try:
-            array = np.asarray(levels)
-            numbers = array.dtype.kind in "iuf"
-        except ValueError:  # rows of different lengths
-            numbers = False
-        if not numbers:
-            raise InputError(f"{name} is {levels!r}; {self._remedy}")
         place = np.minimum(np.searchsorted(known, array), len(known) - 1)
         wrong = known[place] != array
         if wrong.any():
-            raise InputError(f"{name} holds {array[wrong].flat[0]}; {self._remedy}")
+            held = f"holds {array[wrong].flat[0]:g}" if array.ndim else f"is {levels!r}"
+            raise InputError(f"{name} {held}; give {self._wanted}")
         return place
 
 
