@@ -147,24 +147,6 @@ def test_wrong_use_is_named(run, line, wrong):
     assert wrong in " ".join(result.stderr.split())
 
 
-@pytest.mark.parametrize(
-    ("line", "named"),
-    [
-        ("--games 7..9 --mean-games 2", ["--mean-games is 2"]),
-        ("--games 7..9 --games-p90 3", ["--games-p90 is 3"]),
-        ("--games 7..9 --minutes 24 --minutes-per-game 8", ["--minutes allows 3 games"]),
-        ("--games 900..1000", ["narrow --games", "raise --least", "lower --up-to"]),
-        ("--games 1..99 --rows 60 --up-to 400", ["narrow --games", "lower --rows or --up-to"]),
-        ("--games 1..2 --least 5:5", ["--games is 1..2"]),
-    ],
-)
-def test_an_impossible_design_names_the_options(run, line, named):
-    result = run("chart", "design", *line.split())
-    assert (result.exit_code, result.stdout) == (2, "")
-    for words in named:
-        assert words in " ".join(result.stderr.split())
-
-
 WORDS = "--games 5..7 9..5 --least 2:2 --tilt 0 1 --target 0.6 --rule nearest --pareto --up-to 30"
 words = st.sampled_from(WORDS.split()) | st.text(max_size=4)
 
