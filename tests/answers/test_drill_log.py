@@ -102,13 +102,13 @@ def test_an_unsure_advice_names_the_second_level(analysis):
 def test_a_log_that_cannot_advise_says_why(log):
     answer = answer_of(analysed(log), log)
     assert answer.to_dict()["practise_next"] is None
-    assert "sure" not in answer.sentences[0]
+    assert "chance" not in answer.sentences[0]
 
 
 def test_the_only_level_missed_needs_no_certainty():
     answer = answer_of(analysed(DrillLog([2, 3], [1, 0])), DrillLog([2, 3], [1, 0]))
     assert "level 3" in answer.sentences[0]
-    assert "sure" not in answer.sentences[0]
+    assert "chance" not in answer.sentences[0]
 
 
 @pytest.mark.parametrize(

@@ -137,13 +137,13 @@ def _practise(analysis: LogAnalysis) -> str:
     others = [report for report in missed if report is not best]
     if not others:
         return f"{text}It is the only level that you missed."
-    text += f"It is {_percent(best.p_best)} sure that no other level helps more"
+    text += f"The chance that no other level helps more is {_percent(best.p_best)}"
     if best.p_best >= SURE:
         return f"{text}."
     second = max(others, key=lambda report: report.p_best)
     return (
-        f"{text}; for level {second.level} it is {_percent(second.p_best)}. A longer log would "
-        "settle it."
+        f"{text}; for level {second.level} it is {_percent(second.p_best)}, and a longer log would "
+        "tell them apart."
     )
 
 
