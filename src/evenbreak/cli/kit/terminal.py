@@ -25,5 +25,4 @@ def say(message: str) -> None:
     """Print a message on stderr; on a terminal its lines are wrapped."""
     terminal = sys.stderr is not None and sys.stderr.isatty()
     # File names stay whole, so that they can be copied.
-    for line in message.split("\n"):
-        click.echo(paragraph(line, WIDTH) if terminal else printable(line), err=True)
+    click.echo(paragraph(message, WIDTH) if terminal else printable(message), err=True)
