@@ -101,9 +101,17 @@ def win_given_ratings(
     return plain(chance)
 
 
+@overload
+def length_given_ratings(
+    difference: float, standard_error: float, m: int, n: int, *, scale: Any = "npl"
+) -> MatchLength[float, float]: ...
+@overload
 def length_given_ratings(
     difference: ArrayLike, standard_error: ArrayLike, m: int, n: int, *, scale: Any = "npl"
-) -> MatchLength:
+) -> MatchLength[Floats, Floats]: ...
+def length_given_ratings(
+    difference: ArrayLike, standard_error: ArrayLike, m: int, n: int, *, scale: Any = "npl"
+) -> MatchLength[Any, Any]:
     """Return how long the race m:n lasts, given the ratings and their standard error.
 
     The parameters are those of `win_given_ratings`, with a single race for all differences. The
