@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from evenbreak.games.ahead import Ahead
@@ -58,7 +58,7 @@ def _share(name: str) -> Callable[[Any, Any], Any]:
     return lambda p1, p2: long_run_share(p1, p2, BREAK_FORMATS[name])
 
 
-def _curves(columns: Mapping[str, Sequence[float]]) -> Records:
+def _curves(columns: Mapping[str, Any]) -> Records:
     for k, p in enumerate(_HUNDREDTHS):
         yield record({"p": p}, {name: values[k] for name, values in columns.items()})
 
