@@ -7,12 +7,17 @@ questions never imports it.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
+
+    Many: TypeAlias = Sequence[float] | NDArray[Any]
+    Floats: TypeAlias = NDArray[np.float64]
 
 
 def probability(value: Any, name: str) -> Any:
@@ -119,6 +124,69 @@ def whole(value: Any, name: str, *, at_least: int = 0) -> int:
     if not right:
         raise InputError(f"{name} is {value!r}; give a whole number, {at_least} or more")
     return number
+
+
+def number_between(value: Any, name: str, least: float, most: float, unit: str = "") -> float:
+    """Return `value` as a float if it is a number from `least` to `most`.
+
+    >>> number_between(0.0, "prior_sd", 0.001, 100, "in log-odds")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: prior_sd is 0.0; give a number from 0.001 to 100, in log-odds
+    """
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not least <= number <= most:
+        wanted = f"give a number from {least:g} to {most:,g}{unit and ', ' + unit}"
+        raise InputError(f"{name} is {value!r}; {wanted}")
+    return number
+
+
+def finite(value: Any, name: str, wanted: str = "a finite number") -> float:
+    """Return `value` as a float if it is a finite number.
+
+    >>> finite("x", "anchor", "points")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: anchor is 'x'; give points
+    """
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(f"{name} is {value!r}; give {wanted}")
+    return number
+
+
+@overload
+def numbers(value: float, name: str) -> float: ...
+@overload
+def numbers(value: Many, name: str) -> Floats: ...
+def numbers(value: float | Many, name: str) -> float | Floats:
+    """Return a float for a number and a float array for an array; either may be infinite.
+
+    >>> numbers([1, 2], "difference")
+    array([1., 2.])
+    """
+    if not hasattr(value, "__len__") and not hasattr(value, "ndim"):
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            number = math.nan
+        if math.isnan(number):
+            raise InputError(f"{name} is {value!r}; give a number")
+        return number
+    if isinstance(value, (str, bytes)):
+        raise InputError(f"{name} is {value!r}; give a number, not text")
+    import numpy as np
+
+    array = np.asarray(value, dtype=float)
+    if np.isnan(array).any():
+        raise InputError(f"{name} holds a value that is not a number; give numbers")
+    return float(array) if array.ndim == 0 else array
 
 
 def one_of(value: Any, name: str, choices: tuple[Any, ...]) -> Any:

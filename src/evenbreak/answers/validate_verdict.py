@@ -9,9 +9,10 @@ from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
 
 if TYPE_CHECKING:
-    from evenbreak.ratings.handicap_fairness import SpotFairness
+    from evenbreak.ratings.handicap_fairness import HandicapFairness
     from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.validate import Scored, Validation
+    from evenbreak.ratings.scored import Scored
+    from evenbreak.ratings.validate import Validation
 
 ODD = 0.01
 """A p-value below which chance is not blamed; several tests are looked at at once."""
@@ -188,6 +189,6 @@ def surely_off(estimate: Estimate, right: float) -> int:
     return int(middle - far > right) - int(middle + far < right)
 
 
-def share_of(spot: SpotFairness) -> Estimate:
+def share_of(spot: HandicapFairness) -> Estimate:
     """Return the part of handicap races that the longer race won."""
     return Estimate(spot.share, spot.low, spot.high)

@@ -1,6 +1,6 @@
 """Where the columns of a results table contradict each other.
 
-Every check is a mask over all rows; words are made only for the rows that fail.
+Every check is a mask over all rows; a message is made only for the rows that fail it.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ class Problem(NamedTuple):
 
 
 def find_problems(results: Results) -> list[Problem]:
-    """Return everything in which the rows contradict themselves, in the order of the rows.
+    """Return every contradiction in the rows, in the order of the rows.
 
-    Checked are: scores and races below zero, a player against himself, a race given
-    for one player alone, the scores against the races, the stated winner against
-    both, and the racks against all of these. Forfeits and 0-0 rows are not held to
-    their race: they were not played out.
+    It looks for scores and races below zero, players who play against themselves, a race
+    given for one player only, scores that do not fit the races, a stated winner who fits
+    neither, and racks that fit none of these. Forfeits and 0-0 rows need not fit their
+    race: they were not played out.
 
     >>> season = Results.from_names(["Ann"], ["Bo"], [4], [5], race_a=[7], race_b=[5], winner=[1])
     >>> for problem in find_problems(season):
@@ -61,8 +61,8 @@ def _cells(results: Results) -> Iterator[_Finding]:
         results.player_a == results.player_b,
         "player_b",
         lambda row: (
-            f"{results.players[results.player_b[row]]!r} plays against himself or herself; "
-            "correct one of the names"
+            f"{results.players[results.player_b[row]]!r} is on both sides of the match; correct one "
+            "of the names"
         ),
     )
 
@@ -72,22 +72,14 @@ def _below_zero(column: str, values: NDArray[np.int64], row: int) -> str:
     return f"{column} is {values[row]}, below zero; write {least}"
 
 
-def _stated_races(results: Results) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    zeros = np.zeros(len(results), dtype=np.int64)
-    race_a = zeros if results.race_a is None else results.race_a
-    race_b = zeros if results.race_b is None else results.race_b
-    return race_a, race_b
-
-
 def _finished(results: Results) -> Mask:
-    """Return which rows tell of a match played to its end, with scores that can be."""
+    """Return which rows hold a match played to its end, with scores that are possible."""
     whole = (results.score_a >= 0) & (results.score_b >= 0)
-    whole &= (results.score_a > 0) | (results.score_b > 0)
-    return whole if results.forfeit is None else whole & ~results.forfeit
+    return whole & ((results.score_a > 0) | (results.score_b > 0)) & ~results.given_away
 
 
 def _score(results: Results, row: int) -> str:
-    race_a, race_b = _stated_races(results)
+    race_a, race_b = results.races
     score = f"{results.score_a[row]}-{results.score_b[row]}"
     if race_a[row] and race_b[row]:
         score += f" in a race {race_a[row]}:{race_b[row]}"
@@ -95,8 +87,8 @@ def _score(results: Results, row: int) -> str:
 
 
 def _races(results: Results) -> Iterator[_Finding]:
-    """Find races that are stated by half, or that the scores do not fit."""
-    race_a, race_b = _stated_races(results)
+    """Find races that are stated for one player only, and scores that do not fit them."""
+    race_a, race_b = results.races
     for column, other, lone in (
         ("race_b", "race_a", (race_a > 0) & (race_b == 0)),
         ("race_a", "race_b", (race_b > 0) & (race_a == 0)),
@@ -120,8 +112,8 @@ def _races(results: Results) -> Iterator[_Finding]:
         raced & ~reached_a & ~reached_b,
         "score_a",
         lambda row: (
-            f"nobody reached the race ({_score(results, row)}); correct the scores or the race, "
-            "mark the match as a forfeit, or leave both races empty"
+            f"neither player reached their race ({_score(results, row)}); correct the scores or "
+            "the race, mark the match as a forfeit, or leave both races empty"
         ),
     )
 
@@ -138,16 +130,17 @@ def _beyond(results: Results, column: str, row: int) -> str:
 
 
 def who_won(results: Results) -> NDArray[np.int8]:
-    """Return 1 or 2 where the scores and races say who won, else 0.
+    """Return 1 or 2 where the scores and races determine the winner, else 0.
 
-    Without a race it is who won more games; of forfeits and 0-0 nobody won.
+    With a race that is the player who reached it, without one the player with more games.
+    Forfeits and 0-0 have no winner.
 
     >>> season = Results.from_names(["Ann"] * 2, ["Bo"] * 2, [4, 4], [3, 3], race_a=[5, 0],
     ...                             race_b=[3, 0])
     >>> who_won(season)
     array([2, 1], dtype=int8)
     """
-    race_a, race_b = _stated_races(results)
+    race_a, race_b = results.races
     reached_a, reached_b = results.score_a >= race_a, results.score_b >= race_b
     raced = (race_a > 0) & (race_b > 0)
     plain = (race_a == 0) & (race_b == 0)
@@ -158,11 +151,11 @@ def who_won(results: Results) -> NDArray[np.int8]:
 
 
 def _winners(results: Results) -> Iterator[_Finding]:
-    """Find stated winners who did not reach the race, or have no more games without one."""
+    """Find stated winners who did not reach the race or, without one, did not win more games."""
     if results.winner is None:
         return
     stated, won = results.winner, who_won(results)
-    race_a, race_b = _stated_races(results)
+    race_a, race_b = results.races
 
     def message(row: int) -> str:
         said, other = "ab"[stated[row] - 1], "ab"[won[row] - 1]
@@ -207,7 +200,9 @@ def _racks(results: Results) -> Iterator[_Finding]:
     yield (
         other,
         "racks",
-        lambda row: f"racks {racks[row]!r} has other letters than a and b; write one a or b a rack",
+        lambda row: (
+            f"racks {racks[row]!r} has letters other than a and b; write an a or a b for each rack"
+        ),
     )
     adds_up = (count_a == results.score_a) & (count_b == results.score_b)
     yield (
@@ -218,7 +213,7 @@ def _racks(results: Results) -> Iterator[_Finding]:
             f"{results.score_a[row]}-{results.score_b[row]}; correct one of them"
         ),
     )
-    race_a, race_b = _stated_races(results)
+    race_a, race_b = results.races
     won = np.where((race_a > 0) & (race_b > 0), who_won(results), 0)
     yield (
         stated & ~other & adds_up & (won > 0) & (won != last),

@@ -21,11 +21,12 @@ from scipy.sparse.linalg import LinearOperator, cg
 
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
+from evenbreak.ratings.pairs import sums_by_player
 
 Floats = NDArray[np.float64]
 
 _DENSE_UP_TO = 2000
-"""Players up to which the Hessian is factorised once; of more, each answer is iterated for."""
+"""Players up to which the Hessian is factorised once; with more, each answer is iterated."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,9 +63,7 @@ class Curvature:
 
     @cached_property
     def _diagonal(self) -> Floats:
-        total: Floats = np.bincount(self.low, self.weight, self.size).astype(np.float64)
-        total += np.bincount(self.high, self.weight, self.size)
-        return total + self.precision
+        return sums_by_player(self.size, self.low, self.high, self.weight) + self.precision
 
     @cached_property
     def _factor(self) -> Any:

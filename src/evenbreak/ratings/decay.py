@@ -1,13 +1,13 @@
-"""How much an older match still says: a weight that halves every so many days."""
+"""How much an older match still counts: a weight that halves every so many days."""
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.checks import finite
 from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 
@@ -49,7 +49,7 @@ def match_weights(
 ) -> NDArray[np.float64]:
     """Return the weight of each match: 1 on the day `as_of`, 1/2 `half_life` days before.
 
-    A game of weight w counts in the likelihood as its w-th power, so as w games.
+    A game of weight w enters the likelihood with the power w, so it counts as w games.
 
     Parameters
     ----------
@@ -82,12 +82,10 @@ def match_weights(
 
 
 def _half_life(value: Any) -> float:
-    try:
-        days = float(value)
-    except (TypeError, ValueError):
-        days = math.nan
-    if not (math.isfinite(days) and days > 0):
-        raise InputError(f"half_life is {value!r}; give a number of days above 0")
+    wanted = "a number of days above 0"
+    days = finite(value, "half_life", wanted)
+    if days <= 0:
+        raise InputError(f"half_life is {value!r}; give {wanted}")
     return days
 
 
@@ -97,7 +95,7 @@ def _dated(results: Results) -> NDArray[np.datetime64]:
         if not len(results):
             return np.zeros(0, dtype="datetime64[D]")
         raise InputError(
-            f"{undated:,} of {len(results):,} matches have no date; add their dates, or rate "
-            "without a half-life and a day"
+            f"{undated:,} of {len(results):,} matches have no date; add the dates, or rate without "
+            "a half-life and without a day"
         )
     return results.date

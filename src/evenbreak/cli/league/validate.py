@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.calibration import CalibrationBin, Estimate
     from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.validate import Scored, Validation
+    from evenbreak.ratings.scored import Scored
+    from evenbreak.ratings.validate import Validation
 
 COLUMNS = ("part", "of", "item", "count", "expected", "value", "low", "high", "p_value")
 WIDTH = 79
@@ -256,7 +257,7 @@ def _goodness(row: Scored, head: tuple[str, str, int]) -> list[tuple[Any, ...]]:
 
 
 def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
-    from evenbreak.ratings.within_matches import known_breaks
+    from evenbreak.ratings.advantages import known_breaks
 
     rows: list[tuple[Any, ...]] = []
     spread, runs, first = found.dispersion, found.streaks, found.first_breaks
