@@ -100,7 +100,7 @@ def test_all_problems_are_told_at_once(drill_file):
     ("text", "words"),
     [
         ("level,success\n", "has no attempts below its header"),
-        ("1,yes\n2,no\n", "names of the columns, such as level,success"),
+        ("1,yes\n2,no\n", "such as level,success"),
         ("level\n1\n", "there is no column 'success' among 'level'; add it"),
         ("", "is empty; write a header line"),
     ],

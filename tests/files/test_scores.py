@@ -47,10 +47,10 @@ def test_all_problems_at_once(read):
     assert problems(read, text) == [
         ":2: score 'fifty' is not a number; write one such as 48",
         ":3: date '3/9/2024' is not a date; "
-        "write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
+        "write 2024-09-03 or 3.9.2024 (3/9/2024 is ambiguous), or leave it empty",
         ":4: score is empty; write one such as 48",
         ":4: date '2024-02-30' is not a date; "
-        "write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
+        "write 2024-09-03 or 3.9.2024 (3/9/2024 is ambiguous), or leave it empty",
         ":5: score 1e+12 is not from -1e+09 to 1e+09; correct it",
     ]
 

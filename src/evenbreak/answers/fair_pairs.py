@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.files.results_columns import clean_name
+from evenbreak.files.player_names import clean_name
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import FairRace, fair_races
 from evenbreak.ratings.fitted import Ratings

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from evenbreak.errors import DataError
 from evenbreak.files.cells import whole_numbers
 from evenbreak.files.problems import Problems, printable, quoted
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow, row_faults
@@ -92,10 +92,10 @@ def read_chart_file(path: str | Path) -> ChartFile:
     return ChartFile(ChartDraft(name, rows), _told(faults), table.warnings)
 
 
-def _check_columns(table: Table, needed: Mapping[str, Sequence[str]]) -> None:
+def _check_columns(table: TextTable, needed: Mapping[str, Sequence[str]]) -> None:
     """Note the columns that are missing, or that there are no rows."""
     missing = [column for column in needed if column not in table]
-    if not table.columns:
+    if not table.found:
         table.problems.add(
             None,
             "has no column of a chart; name the columns "
@@ -120,7 +120,7 @@ def _told(problems: Problems) -> tuple[str, ...]:
     return ()
 
 
-def _rows(table: Table) -> tuple[ChartRow, ...]:
+def _rows(table: TextTable) -> tuple[ChartRow, ...]:
     """Return the rows as they stand; cells that are no whole numbers are noted."""
     columns = (
         _points(table, "difference_from"),
@@ -136,31 +136,31 @@ def _rows(table: Table) -> tuple[ChartRow, ...]:
     )
 
 
-def _points(table: Table, name: str, *, may_be_empty: bool = False) -> list[int]:
-    values, _ = whole_numbers(
+def _points(table: TextTable, name: str, *, may_be_empty: bool = False) -> list[int]:
+    points = whole_numbers(
         table, name, remedy="write whole points, such as 7", may_be_empty=may_be_empty
     )
-    return list(map(int, values))
+    return list(map(int, points.values))
 
 
-def _games(table: Table, name: str, *, may_be_empty: bool = False) -> list[int]:
+def _games(table: TextTable, name: str, *, may_be_empty: bool = False) -> list[int]:
     """Return a column of games, 0 where a cell is empty."""
-    values, _ = whole_numbers(
+    games = whole_numbers(
         table,
         name,
         at_least=1,
         remedy="write how many games, such as 5",
         may_be_empty=may_be_empty,
     )
-    return list(map(int, values))
+    return list(map(int, games.values))
 
 
-def _skill(table: Table, name: str) -> list[int]:
-    values, _ = whole_numbers(table, name, remedy="write a skill level, such as 4")
-    return list(map(int, values))
+def _skill(table: TextTable, name: str) -> list[int]:
+    skill = whole_numbers(table, name, remedy="write a skill level, such as 4")
+    return list(map(int, skill.values))
 
 
-def _levels(table: Table, name: str) -> LevelChart:
+def _levels(table: TextTable, name: str) -> LevelChart:
     """Return a chart of skill levels, or refuse the file."""
     own, other = _skill(table, "level"), _skill(table, "opponent_level")
     needs, theirs = _games(table, "needs"), _games(table, "opponent_needs", may_be_empty=True)
@@ -192,7 +192,7 @@ def _levels(table: Table, name: str) -> LevelChart:
 
 
 def _note(
-    table: Table,
+    table: TextTable,
     found: dict[tuple[int, int], tuple[int, int]],
     pair: tuple[int, int],
     games: int,

@@ -10,8 +10,10 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections import defaultdict
-from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
+
+from evenbreak.files.problems import quoted
 
 SHORTEST_WORD = 4
 """Letters that the longer of two words needs for a slip: Tim is not Tom mistyped."""
@@ -22,6 +24,9 @@ ALIKE = 3
 BLANK, SWAPPED = "_", "~"
 MARKS = {BLANK, SWAPPED}
 """Stand for any letter, and for the next two in either order; no word has them."""
+
+MOST_LISTED = 20
+"""How many groups of similar names are listed; the rest are counted."""
 
 Words = tuple[str, ...]
 
@@ -72,6 +77,21 @@ def similar_names(
         if kind == 0 or any(frozenset(pair) not in apart for pair in combinations(group, 2))
     ]
     return [group for _, group in sorted(_largest(ranked))]
+
+
+def similar_name_warnings(groups: Sequence[tuple[str, ...]], source: str, remedy: str) -> list[str]:
+    """Return a warning for each group of names in a file that may mean one player.
+
+    >>> similar_name_warnings([("CY", "Cy")], "r.csv", "if so, keep one of them")
+    ["r.csv: 'CY' and 'Cy' may be one player; if so, keep one of them"]
+    """
+    listed = [
+        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one "
+        f"player; {remedy}"
+        for group in groups[:MOST_LISTED]
+    ]
+    more = len(groups) - MOST_LISTED
+    return [*listed, f"{source}: and {more:,} more groups of similar names"] if more > 0 else listed
 
 
 def _words(name: str) -> Words:

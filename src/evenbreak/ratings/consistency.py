@@ -61,8 +61,8 @@ def _cells(results: Results) -> Iterator[_Finding]:
         results.player_a == results.player_b,
         "player_b",
         lambda row: (
-            f"{results.players[results.player_b[row]]!r} is on both sides of the match; correct one "
-            "of the names"
+            f"{results.players[results.player_b[row]]!r} is on both sides of the match; correct "
+            "one of the names"
         ),
     )
 
