@@ -117,7 +117,7 @@ def test_classes_out_of_reach_are_not_solved(monkeypatch):
         raise AssertionError("a class out of reach was factored")
 
     monkeypatch.setattr("evenbreak.chains.transient._FEW_ARCS", 0)
-    monkeypatch.setattr(factorisation, "WideElimination", fail)
+    monkeypatch.setattr(factorisation, "DecimalElimination", fail)
     assert stochastic_limit(chain, 71).probability[70:77] == pytest.approx(np.full(7, 1 / 7))
     with pytest.raises(AssertionError, match="out of reach"):
         stochastic_limit(chain, 77)
@@ -211,7 +211,7 @@ def test_a_large_class_carries_its_residual_unless_certified(monkeypatch):
     exact = stochastic_limit(chain)
     assert exact.residual is None
     monkeypatch.setattr(factorisation, "_MOST_ENTRIES", 0)
-    monkeypatch.setattr("evenbreak.chains.sparse_lu.GUARANTEED", 0.0)
+    monkeypatch.setattr("evenbreak.chains.certified_lu.GUARANTEED", 0.0)
     carried = stochastic_limit(Chain(chain.states, chain.matrix, 0))
     assert 0 < carried.residual < 1e-15
     assert carried.probability == pytest.approx(exact.probability, rel=1e-12)

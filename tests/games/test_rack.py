@@ -48,5 +48,5 @@ def test_no_player(who: object) -> None:
 
 def test_arrays_fit_together_or_are_refused() -> None:
     assert Rack([0.5, 0.6], [[0.1], [0.2]]).chance(1, 1).tolist() == [0.5, 0.6]
-    with pytest.raises(InputError, match=r"p1 and p2 have shapes \(2,\) and \(3,\)"):
+    with pytest.raises(InputError, match=r"p1 has shape \(2,\), p2 has shape \(3,\)"):
         Rack([0.5, 0.6], [0.1, 0.2, 0.3])

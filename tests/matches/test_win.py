@@ -231,7 +231,7 @@ def test_race_win_probability_is_the_beta_function_of_the_text() -> None:
     ("p", "m", "n", "message"),
     [
         (1.5, 3, 2, "p is 1.5, not a probability"),
-        ([0.5, float("nan")], 3, 2, "not a probability"),
+        ([0.5, float("nan")], 3, 2, "p holds nan"),
         (0.5, -1, 2, "m is -1; give whole numbers"),
         (0.5, 3, [2, 2.5], "give whole numbers"),
         (0.5, "3", 2, "m is '3'; give whole numbers"),

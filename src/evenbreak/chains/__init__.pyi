@@ -9,7 +9,7 @@ from .limits import stationary_laws as stationary_laws
 from .limits import stochastic_limit as stochastic_limit
 from .mixing import mixing_time as mixing_time
 from .mixing import spectral_gap as spectral_gap
-from .passage_times import Passage as Passage
+from .passage_times import PassageTime as PassageTime
 from .passage_times import first_passage as first_passage
 from .passage_times import steps_to_absorption as steps_to_absorption
 from .powers import propagate as propagate

@@ -1,7 +1,7 @@
 """The chain: states and a sparse column-stochastic matrix.
 
-M[i, j] = P(next state is i | state is j), as in the source text: a density v moves to
-M v. Everything else in this package is a function of a `Chain`.
+M[i, j] = P(next state is i | state is j), as in the source text: a density v becomes M v
+after one step. Everything else in this package is a function of a `Chain`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.chains.arcs import Arcs, arcs_of
-from evenbreak.chains.birth_death import Line, line_of
+from evenbreak.chains.birth_death import BirthDeath, birth_death_of
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
@@ -37,15 +37,14 @@ class Chain:
     states
         the states, in the order of the matrix; hashable and distinct.
     matrix
-        sparse CSC of shape (n, n), column-stochastic; a state without arcs of its own
-        has the self-loop 1 (it absorbs).
+        sparse CSC of shape (n, n), column-stochastic; an absorbing state has the self-loop 1.
     start
         the state in which the game begins, or None.
 
     Raises
     ------
     ChainError
-        if the matrix is not column-stochastic: it names the state, its sum and the remedy.
+        if the matrix is not column-stochastic; the message names the state and its sum.
     """
 
     states: Sequence[Hashable]
@@ -86,9 +85,9 @@ class Chain:
         return arcs_of(self.matrix)
 
     @cached_property
-    def line(self) -> Line | None:
-        """The chain as a line of states, where each moves to its neighbours only."""
-        return line_of(self.matrix)
+    def birth_death(self) -> BirthDeath | None:
+        """The chain as a line of states, if each moves to its neighbours only."""
+        return birth_death_of(self.matrix)
 
     @cached_property
     def structure(self) -> Structure:
@@ -101,7 +100,7 @@ class Chain:
         return TransientPart(self.arcs, np.flatnonzero(~self.structure.recurrent))
 
     def density(self, start: Any = None) -> NDArray[np.float64]:
-        """Return the density that `start` stands for: a vector of length n that sums to 1.
+        """Return the start as a density: a vector of length n that sums to 1.
 
         Parameters
         ----------
@@ -145,13 +144,13 @@ class Chain:
         return self.start
 
     def start_index(self, start: Any = None) -> int | None:
-        """Return the position of the state that `start` is, or None for a whole density."""
+        """Return the position of the start state, or None if the start is a density."""
         if start is None:
             start = self._own_start()
         return None if isinstance(start, (Mapping, np.ndarray)) else self._search(start)
 
     def _search(self, state: Hashable) -> int:
-        """Return the position of one state; cheaper than a dictionary of them all."""
+        """Return the position of one state, without making a dictionary of all of them."""
         if "position" in self.__dict__:
             return self.index(state)
         try:

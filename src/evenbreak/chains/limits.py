@@ -1,9 +1,15 @@
 """The stochastic limit: where a chain ends, or what it does in the long run.
 
-The limit is the projection of the start density on the eigenspace of M to the eigenvalue 1:
-each closed class gets the probability of ending in it, spread by its stationary law. Where
-all closed classes reached have period 1 it is lim M^n v; else M^n v goes round for ever and
-it is the long-run average (Cesàro) limit.
+The limit is the projection of the start density v on the eigenspace of M for eigenvalue 1,
+
+    limit = sum over closed classes C of a_C pi_C,
+
+with a_C the probability of ending in C from v and pi_C the stationary law of C. If every
+closed class that can be reached has period 1, it is lim M^n v; otherwise M^n v goes round
+for ever, and it is the long-run average (the Cesàro limit).
+
+References: Kemeny and Snell 1960, Finite Markov Chains, chapters III to V; O'Cinneide 1993
+for the accuracy, entry by entry.
 """
 
 from __future__ import annotations
@@ -11,15 +17,16 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.birth_death import line_law
-from evenbreak.chains.decimal_elimination import wide_law
-from evenbreak.chains.factorisation import Factorisation, path_order
+from evenbreak.chains.birth_death import birth_death_law
+from evenbreak.chains.decimal_elimination import decimal_law
+from evenbreak.chains.factorisation import Factorisation
+from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
@@ -28,6 +35,8 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.arcs import Arcs, Places
     from evenbreak.chains.chain import Chain
+
+Default = TypeVar("Default")
 
 _COLUMNS = 64
 _SHOWN = 5
@@ -46,9 +55,9 @@ class Limit(Mapping[Hashable, float]):
     period
         the least common multiple of the periods of the closed classes reached.
     residual
-        None where each entry is right to about machine precision (see `stochastic_limit`);
-        otherwise the largest entry by which the equations of a large class are missed, in
-        units of the largest entry of their right-hand side.
+        None if each entry is right to about machine precision (see `stochastic_limit`);
+        otherwise the most by which an equation of a large class is missed, in units of the
+        largest entry of the right-hand side.
 
     >>> from evenbreak.chains import chain_of
     >>> limit = stochastic_limit(chain_of([("rack", "won", 0.6), ("rack", "lost", 0.4)]), "rack")
@@ -70,7 +79,7 @@ class Limit(Mapping[Hashable, float]):
 
     @property
     def is_cesaro(self) -> bool:
-        """Whether this is a long-run average only, because M^n v itself has no limit."""
+        """Whether this is only a long-run average, because M^n v itself has no limit."""
         return self.period > 1
 
     def __getitem__(self, state: Hashable) -> float:
@@ -85,8 +94,14 @@ class Limit(Mapping[Hashable, float]):
     def __contains__(self, state: object) -> bool:
         return isinstance(state, Hashable) and state in self.chain.position
 
+    @overload
+    def get(self, state: Hashable, default: None = None) -> float | None: ...
+
+    @overload
+    def get(self, state: Hashable, default: Default) -> float | Default: ...
+
     def get(self, state: Hashable, default: Any = None) -> Any:
-        """Return the probability of a state, or `default` where the chain has no such state."""
+        """Return the probability of a state, or `default` if the chain has no such state."""
         try:
             return self[state]
         except ChainError:
@@ -96,9 +111,9 @@ class Limit(Mapping[Hashable, float]):
         likeliest = np.argsort(-self.probability, kind="stable")[:_SHOWN].tolist()
         shown = [f"{self.states[i]!r}: {self.probability[i]:.6g}" for i in likeliest]
         more = ", ..." if len(self) > _SHOWN else ""
-        told = "" if self.residual is None else f", residual={self.residual:.3g}"
+        missed = "" if self.residual is None else f", residual={self.residual:.3g}"
         return (
-            f"<Limit over {len(self)} state{'s' * (len(self) != 1)}, period={self.period}{told}: "
+            f"<Limit over {len(self)} state{'s' * (len(self) != 1)}, period={self.period}{missed}: "
             f"{', '.join(shown)}{more}>"
         )
 
@@ -108,10 +123,10 @@ class Limit(Mapping[Hashable, float]):
 
 
 def stationary_laws(chain: Chain) -> NDArray[np.float64]:
-    """Return the stationary law of each closed class, side by side; shape (n,).
+    """Return the stationary law of every closed class in one vector; shape (n,).
 
-    Each entry is conditional on being in the closed class of its state: the entries of a
-    class sum to 1. Transient states have 0.
+    Each entry is conditional on being in the closed class of its state, so the entries of
+    a class sum to 1. Transient states have 0.
 
     Parameters
     ----------
@@ -121,8 +136,8 @@ def stationary_laws(chain: Chain) -> NDArray[np.float64]:
     Raises
     ------
     AccuracyError
-        if a law cannot be vouched for: it spans more decades than floats do, and its class
-        is too large for wider numbers, or its class is too large and too slow to mix.
+        if a law cannot be guaranteed: it spans more decades than floats do and its class is
+        too large for decimal numbers, or its class is too large and mixes too slowly.
 
     >>> from evenbreak.chains import chain_of
     >>> stationary_laws(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 1.0), (0, 1, 1.0)]))
@@ -134,7 +149,7 @@ def stationary_laws(chain: Chain) -> NDArray[np.float64]:
 def _stationary(
     chain: Chain, classes: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float64], float | None]:
-    """Return the laws of the closed ones of `classes`, and the residual of the solve if any.
+    """Return the laws of those of `classes` that are closed, and the residual if there is one.
 
     One state of each class is cut out; the visits to the others between two visits to it
     are proportional to the law.
@@ -157,7 +172,7 @@ def _stationary(
         for label in np.unique(structure.label[states[doubtful[:, 0]]]):
             members = structure.members(label)
             law[members] = _law_of(chain.arcs.among(members)[0])
-    # The largest of a class is 1 before the sum, which might overflow.
+    # Scaled to a largest entry of 1 first, so that the sum cannot overflow.
     top = np.zeros(structure.count)
     np.maximum.at(top, structure.label[inside], law[inside])
     law[inside] /= top[structure.label[inside]]
@@ -167,19 +182,19 @@ def _stationary(
 
 
 def _law_of(arcs: Arcs) -> NDArray[np.float64]:
-    """Return the law of a closed class that spans more decades than floats do."""
+    """Return the law of one closed class, also if it spans more decades than floats do."""
     T = arcs.matrix()
-    order = path_order(T)
+    order = line_order(T)
     if order is None:
-        return wide_law(arcs)
+        return decimal_law(arcs)
     line = csc_array(T[:, order])[order]
     law = np.empty(arcs.size)
-    law[order] = line_law(line.diagonal(-1), line.diagonal(1))
+    law[order] = birth_death_law(line.diagonal(-1), line.diagonal(1))
     return law
 
 
 def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the probability to enter the recurrent states at each one; shape (n,)."""
+    """Return the probability that each recurrent state is the first one entered; shape (n,)."""
     if chain.structure.is_acyclic:
         return _ends(chain, v)
     states = chain.transient.states
@@ -195,7 +210,7 @@ def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _ends(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the probability of each end of a chain without cycles, in one substitution."""
+    """Return the probability of each end of a chain without cycles, by one substitution."""
     end = chain.structure.recurrent
     outflow = np.where(end, 1.0, chain.arcs.outflow)
     flow = Factorisation(chain.arcs, end.astype(float), outflow, chain.structure)
@@ -207,16 +222,16 @@ def _ends(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
 def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     """Return the probability of ending in each class, given the start; shape (classes,).
 
-    Classes are numbered as in `chain.structure`; those that are not closed have 0.
-    Each entry is right to about machine precision unless a transient class of more than
-    some 6,000 states without a narrow band stands in the way: then it is certified to 1e-6
-    only, and where that is all, `chain.transient.residual` is not None but says by how much
-    the equations are missed.
+    Classes are numbered as in `chain.structure`; those that are not closed have 0. Each
+    entry is right to about machine precision, unless play passes through a transient class
+    of more than some 6,000 states without a narrow band. Then it is certified to a relative
+    error of 1e-6 at least, and if that is all that can be said, `chain.transient.residual`
+    is not None but says by how much the equations are missed.
 
     Raises
     ------
     AccuracyError
-        if an entry cannot be vouched for.
+        if an entry cannot be guaranteed.
 
     >>> from evenbreak.chains import chain_of
     >>> chain = chain_of([("play", "won", 0.25), ("play", "lost", 0.5), ("play", "play", 0.25)])
@@ -226,13 +241,13 @@ def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     structure = chain.structure
     v = chain.density(start)
     arrivals = _arrivals(chain, v)
-    # Rounding adds up in one direction along a very long way; what is lost is known.
+    # Along a very long path rounding adds up in one direction; the sum shows how much.
     arrivals *= v.sum() / arrivals.sum()
     return np.bincount(structure.label, arrivals, structure.count).astype(np.float64, copy=False)
 
 
 def _reached(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which closed classes can be reached, be it with a chance below all floats."""
+    """Return which closed classes can be reached, even with a chance smaller than any float."""
     arcs, structure = chain.arcs, chain.structure
     seen = reachable(len(chain), arcs.sources, arcs.targets, v > 0.0)
     reached = np.zeros(structure.count, dtype=bool)
@@ -243,14 +258,14 @@ def _reached(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.bool_]:
 def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     """Return the expected number of steps begun in each state, given the start; shape (n,).
 
-    Transient states have a finite number; recurrent ones have inf where they are ever
-    reached, and 0 elsewhere.
-    The accuracy is that of `absorption`, with the residual in `chain.transient.residual`.
+    Transient states have a finite number. Recurrent states have inf if they can be reached,
+    otherwise 0. The accuracy is that of `absorption`, with the residual in
+    `chain.transient.residual`.
 
     Raises
     ------
     AccuracyError
-        if a number is larger than any float, or cannot be vouched for.
+        if a number is larger than any float, or cannot be guaranteed.
 
     >>> from evenbreak.chains import chain_of
     >>> expected_visits(chain_of([("miss", "miss", 0.75), ("miss", "in", 0.25)]), "miss")
@@ -267,7 +282,7 @@ def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
 def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     """Return the stochastic limit of the chain: where it ends, or its long-run average.
 
-    Each probability is conditional on the start alone. From the structure it is known
+    Each probability is conditional on the start alone. The structure of the graph says
     whether M^n v has this limit or goes round it with a period (see `Limit.is_cesaro`).
 
     Parameters
@@ -280,21 +295,21 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     Raises
     ------
     AccuracyError
-        if the limit cannot be vouched for: it spans more decades than floats do, in a class
-        too large for wider numbers, or a class is too large and too slow to mix.
+        if the limit cannot be guaranteed: it spans more decades than floats do in a class too
+        large for decimal numbers, or a class is too large and mixes too slowly.
     ChainError
-        if the start is not one.
+        if the start is neither a state nor a density.
 
     Notes
     -----
-    Each entry is right to a few units in the last place times the length of the way to it
-    (seen: 2e-14 over a line of 20,000 states, 3e-13 over 5,000 states with equal arcs in a
-    wider band), however stiff the chain, but for classes of more than some 6,000 states
-    without a narrow band: there a sparse factorisation is certified, and where the
-    certificate is worse than 1e-12 the limit carries its `residual`.
+    However stiff the chain, each entry is right to a few units in the last place times the
+    length of the path to it (seen: 2e-14 over a line of 20,000 states, 3e-13 over 5,000
+    states with equal arcs in a wider band). The exceptions are classes of more than some
+    6,000 states without a narrow band: there a sparse factorisation is certified, and if
+    the certificate is worse than 1e-12 the limit carries its `residual`.
 
-    Time and memory are linear in the number of arcs where the classes are single states,
-    lines or at most 64 states; else see `factorisation`. The reference is O'Cinneide 1993.
+    Time and memory are linear in the number of arcs if the classes are single states, lines
+    or at most 64 states; see `factorisation` for the others. Reference: O'Cinneide 1993.
 
     >>> from evenbreak.chains import chain_of
     >>> miss_forever = chain_of([("S1", "S2", 1.0), ("S2", "S1", 1.0)])
@@ -303,8 +318,8 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     ({'S1': 0.5, 'S2': 0.5}, 2, True)
     """
     at = chain.start_index(start)
-    if at is not None and chain.line is not None:
-        probability, period = chain.line.limit(at)
+    if at is not None and chain.birth_death is not None:
+        probability, period = chain.birth_death.limit(at)
         return Limit(chain, probability, period)
     structure = chain.structure
     if structure.is_acyclic:
@@ -322,7 +337,7 @@ def _residual(chain: Chain) -> float | None:
 
 
 def largest(*residuals: float | None) -> float | None:
-    """Return the largest of the residuals that there are, or None."""
+    """Return the largest of the residuals that are not None, or None."""
     return max((r for r in residuals if r is not None), default=None)
 
 
@@ -330,15 +345,15 @@ def limit_matrix(chain: Chain) -> csc_array:
     """Return the limits from all states; shape (n, n), column j is the limit from state j.
 
     Time and memory are those of one solve for each closed class that is entered from
-    outside, and of the entries that are not 0. What `stochastic_limit` says of its
-    accuracy holds here too. Where only a sparse factorisation helps, for the chances to end in
-    a class the residual is in `chain.transient.residual` afterwards; for the law of a
-    closed class it is in `stochastic_limit(chain, state).residual`, begun in the class.
+    outside, and of the entries that are not 0. The accuracy is that of `stochastic_limit`.
+    Where only a sparse factorisation helps, the residual of the chances of ending in a class
+    is in `chain.transient.residual` afterwards; that of the law of a closed class is in
+    `stochastic_limit(chain, state).residual` for a state of the class.
 
     Raises
     ------
     AccuracyError
-        if an entry cannot be vouched for.
+        if an entry cannot be guaranteed.
 
     >>> from evenbreak.chains import chain_of
     >>> chain = chain_of([(1, 0, 0.5), (1, 2, 0.5), (2, 1, 0.25), (2, 3, 0.75)])
@@ -355,7 +370,7 @@ def limit_matrix(chain: Chain) -> csc_array:
 
 
 def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
-    """Return the chance to end in each class, from each state; shape (classes, n)."""
+    """Return the chance of ending in each class, from each state; shape (classes, n)."""
     shape = chain.structure.count, len(chain)
     ends = csc_array((np.ones(len(inside)), (home, inside)), shape=shape)
     part = chain.transient

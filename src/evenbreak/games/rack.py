@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from evenbreak.checks import one_of, probability
+from evenbreak.checks import one_of, probability, together
 from evenbreak.errors import InputError
 
 
@@ -47,8 +47,7 @@ class Rack:
         object.__setattr__(self, "p1", probability(self.p1, "p1"))
         if self.p2 is not None:
             object.__setattr__(self, "p2", probability(self.p2, "p2"))
-            if not isinstance(self.p1, float) and not isinstance(self.p2, float):
-                _check_shapes(self.p1, self.p2)
+            together(p1=self.p1, p2=self.p2)
 
     @property
     def break_matters(self) -> bool:
@@ -81,14 +80,3 @@ class Rack:
             if value is not None and not isinstance(value, float):
                 raise InputError(f"{name} is an array; a graph takes one number, loop over them")
         return self
-
-
-def _check_shapes(p1: Any, p2: Any) -> None:
-    import numpy as np
-
-    try:
-        np.broadcast_shapes(p1.shape, p2.shape)
-    except ValueError:
-        raise InputError(
-            f"p1 and p2 have shapes {p1.shape} and {p2.shape}; give shapes that broadcast together"
-        ) from None

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, TypeVar
 
+from evenbreak.checks import together
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
@@ -53,11 +54,7 @@ def broadcast(match: AnyMatch) -> tuple[AnyMatch, tuple[int, ...]]:
 
 def shape_of(rack: Rack) -> tuple[int, ...]:
     """Return the shape that p1 and p2 have together; () for numbers."""
-    if isinstance(rack.p1, float) and isinstance(rack.p2, float | None):
-        return ()
-    import numpy as np
-
-    return np.broadcast_shapes(np.shape(rack.p1), () if rack.p2 is None else np.shape(rack.p2))
+    return together(p1=rack.p1, p2=rack.p2)
 
 
 def at_score(match: AnyMatch, score: Score | None) -> AnyMatch:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.checks import finite
+from evenbreak.checks import positive
 from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 
@@ -72,21 +72,13 @@ def match_weights(
     >>> match_weights(season, 30)
     array([0.5, 1. ])
     """
-    days = _half_life(half_life)
+    days = positive(half_life, "half_life", wanted="a number of days above 0")
     date = _dated(results)
     if not len(date):
         return np.zeros(0)
     today = date.max() if as_of is None else as_of
     age = np.maximum((today - date) / np.timedelta64(1, "D"), 0.0)
     return np.asarray(np.exp2(-age / days))
-
-
-def _half_life(value: Any) -> float:
-    wanted = "a number of days above 0"
-    days = finite(value, "half_life", wanted)
-    if days <= 0:
-        raise InputError(f"half_life is {value!r}; give {wanted}")
-    return days
 
 
 def _dated(results: Results) -> NDArray[np.datetime64]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
-from evenbreak.checks import finite, number_between
+from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of, match_weights, until
 from evenbreak.ratings.fitted import Ratings
@@ -104,7 +104,7 @@ def fit(
     >>> fit(season, scale="fargo", anchor={"Ann": 600}).rating.round(1)
     array([600. , 539.7, 503.5])
     """
-    prior_sd = number_between(prior_sd, "prior_sd", NARROWEST, WIDEST, "in log-odds")
+    prior_sd = checked_prior(prior_sd)
     scale = scale_of(scale)
     centre, named = _anchors(anchor, scale, results.players)
     day = None if as_of is None else day_of(as_of)
@@ -153,6 +153,12 @@ def fit(
         _skill=found.skill,
         _break_precision=found.break_precision,
     )
+
+
+def checked_prior(prior_sd: Any) -> float:
+    """Return the standard deviation of a prior if it is within the limits, in log-odds."""
+    wanted = f"a number from {NARROWEST:g} to {WIDEST:g}, in log-odds"
+    return number(prior_sd, "prior_sd", low=NARROWEST, high=WIDEST, wanted=wanted)
 
 
 class _Found(NamedTuple):
@@ -208,7 +214,7 @@ def _break(value: Any, scale: Scale) -> _Break:
         return _Break(False, False, 0.0)
     if value == "fit":
         return _Break(True, True, 0.0)
-    points = finite(value, "break_advantage", "points, 'fit' or None")
+    points = number(value, "break_advantage", wanted="points, 'fit' or None")
     return _Break(True, False, scale.log_odds(points))
 
 
@@ -217,12 +223,12 @@ def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float
     if not isinstance(anchor, Mapping):
         if anchor is None:
             return scale.centre, {}
-        return finite(anchor, "anchor", "a finite number of points"), {}
+        return number(anchor, "anchor", wanted="a finite number of points"), {}
     for name in anchor:
         if name not in players:
             raise InputError(f"anchor {name!r} is not in the results; give a name that is")
     return scale.centre, {
-        name: finite(points, f"anchor of {name!r}", "a finite number of points")
+        name: number(points, f"anchor of {name!r}", wanted="a finite number of points")
         for name, points in anchor.items()
     }
 
@@ -237,8 +243,8 @@ def _shifted(
     at = np.array([players.index(name) for name in named], dtype=np.int64)
     missing = np.array(list(named.values())) - rating[at]
     rating = rating.copy()
-    for number in np.unique(component[at]):
-        rating[component == number] += missing[component[at] == number].mean()
+    for label in np.unique(component[at]):
+        rating[component == label] += missing[component[at] == label].mean()
     return rating
 
 

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from evenbreak.checks import column
 from evenbreak.errors import InputError
 
 FORMATS = ("", "winner", "loser", "alternate", "a", "b")
@@ -117,16 +118,10 @@ class Results:
             given = getattr(self, name)
             if given is None:
                 continue
-            # A copy, so that a later change of the caller's array changes nothing here.
-            column = np.array(given, dtype=kind)
-            if column.shape != (rows,):
-                raise InputError(
-                    f"{name} has the shape {column.shape}; give one value for each of {rows} rows"
-                )
-            column.flags.writeable = False
-            object.__setattr__(self, name, column)
+            values = column(given, name, rows, "rows", kind)
+            object.__setattr__(self, name, values)
             limit = len(self.players) if name.startswith("player_") else _CODES.get(name)
-            if limit is not None and rows and not (0 <= column.min() <= column.max() < limit):
+            if limit is not None and rows and not (0 <= values.min() <= values.max() < limit):
                 raise InputError(f"{name} holds a code outside 0..{limit - 1}; give codes in range")
         self._refuse_unknown()
 
@@ -135,8 +130,8 @@ class Results:
         if self.unscored is None:
             return
         for name in ("race_a", "race_b", "winner"):
-            column = getattr(self, name)
-            if (self.unscored if column is None else self.unscored & (column <= 0)).any():
+            values = getattr(self, name)
+            if (self.unscored if values is None else self.unscored & (values <= 0)).any():
                 raise InputError(f"unscored marks a match without {name}; give it, or the scores")
         if (self.unscored & ((self.score_a != 0) | (self.score_b != 0))).any():
             raise InputError("unscored marks a match with games in its score; unmark it")
@@ -186,7 +181,7 @@ class Results:
         """Return the rows that a mask or positions pick; `players` stays as it is."""
         columns = {name: getattr(self, name) for name in _TYPES}
         picked: dict[str, Any] = {
-            name: None if column is None else column[rows] for name, column in columns.items()
+            name: None if values is None else values[rows] for name, values in columns.items()
         }
         return Results(self.players, **picked)
 

@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from evenbreak.checks import column
 from evenbreak.errors import InputError
 
 NOT_STATED = -1
@@ -84,7 +84,7 @@ class Roster:
             ("matches", matches, np.int64, NOT_STATED),
         ):
             values = np.full(many, unstated) if given is None else given
-            object.__setattr__(self, name, _column(values, name, kind, many))
+            object.__setattr__(self, name, column(values, name, many, "players", kind))
         if np.isinf(self.rating).any():
             raise InputError("rating holds infinity; give numbers, NaN for a new player")
         if (self.standard_error < 0).any() or np.isinf(self.standard_error).any():
@@ -149,20 +149,3 @@ class Roster:
             component=self.component,
             matches=self.matches,
         )
-
-
-def _column(values: Any, name: str, kind: Any, many: int) -> NDArray[Any]:
-    try:
-        # A copy, so that a later change of the caller's array changes nothing here.
-        numbers = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} is {values!r}; give a number for each player") from None
-    if kind is np.int64 and not (np.isfinite(numbers) & (numbers == np.floor(numbers))).all():
-        raise InputError(f"{name} holds a value that is not whole; give whole numbers")
-    column = numbers.astype(kind)
-    if column.shape != (many,):
-        raise InputError(
-            f"{name} has the shape {column.shape}; give one value for each of {many} players"
-        )
-    column.flags.writeable = False
-    return column

@@ -7,14 +7,19 @@ p = 1 / (1 + 2^(-d/s)), so the odds p / (1 - p) are 2^(d/s).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
-from evenbreak.checks import numbers, probability
+from evenbreak.checks import probability
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
-    from evenbreak.checks import Floats, Many
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Many: TypeAlias = Sequence[float] | NDArray[Any]
+    Floats: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -72,7 +77,7 @@ class Scale:
     def log_odds(self, difference: Many) -> Floats: ...
     def log_odds(self, difference: float | Many) -> float | Floats:
         """Return the natural log-odds of a game, given a difference in points."""
-        return numbers(difference, "difference") / self.points_per_log_odds
+        return _numbers(difference, "difference") / self.points_per_log_odds
 
     @overload
     def points(self, log_odds: float) -> float: ...
@@ -80,7 +85,7 @@ class Scale:
     def points(self, log_odds: Many) -> Floats: ...
     def points(self, log_odds: float | Many) -> float | Floats:
         """Return the difference in points that has these natural log-odds."""
-        return numbers(log_odds, "log_odds") * self.points_per_log_odds
+        return _numbers(log_odds, "log_odds") * self.points_per_log_odds
 
     @overload
     def win_probability(self, difference: float) -> float: ...
@@ -105,7 +110,7 @@ class Scale:
         >>> scale_of("fargo").win_probability(-10_000.0)
         7.888609052210118e-31
         """
-        doublings = numbers(difference, "difference") / self.points_per_doubling
+        doublings = _numbers(difference, "difference") / self.points_per_doubling
         if isinstance(doublings, float):
             odds: float = 2.0 ** -abs(doublings)  # at most 1, so that nothing overflows
             return (odds if doublings < 0 else 1.0) / (1.0 + odds)
@@ -196,3 +201,27 @@ def scale_of(text_or_number: Any) -> Scale:
             f"from {_FEWEST_POINTS:g} to {_MOST_POINTS:,.0f}"
         )
     return Scale(f"{points:g} points", points)
+
+
+@overload
+def _numbers(value: float, name: str) -> float: ...
+@overload
+def _numbers(value: Many, name: str) -> Floats: ...
+def _numbers(value: float | Many, name: str) -> float | Floats:
+    """Return a float for a number and a float array for an array; either may be infinite."""
+    if not hasattr(value, "__len__") and not hasattr(value, "ndim"):
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            number = math.nan
+        if math.isnan(number):
+            raise InputError(f"{name} is {value!r}; give a number")
+        return number
+    if isinstance(value, (str, bytes)):
+        raise InputError(f"{name} is {value!r}; give a number, not text")
+    import numpy as np
+
+    array = np.asarray(value, dtype=float)
+    if np.isnan(array).any():
+        raise InputError(f"{name} holds a value that is not a number; give numbers")
+    return float(array) if array.ndim == 0 else array

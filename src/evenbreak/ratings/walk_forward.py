@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import expit
 
-from evenbreak.checks import number_between
+from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.daily_refit import DailyRefit
-from evenbreak.ratings.fit import NARROWEST, PRIOR_SD, WIDEST
+from evenbreak.ratings.fit import PRIOR_SD, checked_prior
 from evenbreak.ratings.results import Results
 
 Floats = NDArray[np.float64]
@@ -130,9 +130,10 @@ def walk_forward(
     >>> forecasts.p_game.round(3), forecasts.p_game_integrated.round(3)
     (array([0.5  , 0.687]), array([0.5  , 0.675]))
     """
-    precision = number_between(prior_sd, "prior_sd", NARROWEST, WIDEST, "in log-odds") ** -2
+    precision = checked_prior(prior_sd) ** -2
     if half_life is not None:
-        half_life = number_between(half_life, "half_life", 0.01, 1e6, "in days")
+        wanted = "a number from 0.01 to 1,000,000, in days"
+        half_life = number(half_life, "half_life", low=0.01, high=1e6, wanted=wanted)
     season, left_out = _in_order(results)
     days, date_of = np.unique(np.asarray(season.date), return_inverse=True)
     if len(days) < 2:

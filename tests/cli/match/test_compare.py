@@ -141,7 +141,7 @@ def test_the_usage_line_names_ratings_and_formats(run):
     ("line", "remedy"),
     [
         (["--p", "0.6"], "what is compared is missing; give formats such as 9:5"),
-        (["9:5"], "who plays is missing"),
+        (["9:5"], "missing"),
         (["--p", "0.6", "9:x"], "'9:x' is no match format; write 9:5"),
         (["--p", "0.6", "9:5", "0:3"], "from 1 to 1000"),
         (["--p", "0.6", "9:5", "--wins"], "No such option '--wins'"),

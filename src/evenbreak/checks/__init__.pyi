@@ -1,0 +1,12 @@
+from .arrays import column as column
+from .arrays import floats as floats
+from .arrays import plain as plain
+from .arrays import probability as probability
+from .arrays import together as together
+from .arrays import whole_numbers as whole_numbers
+from .numbers import number as number
+from .numbers import number_probabilities as number_probabilities
+from .numbers import number_probability as number_probability
+from .numbers import one_of as one_of
+from .numbers import positive as positive
+from .numbers import whole as whole

@@ -1,0 +1,219 @@
+"""Checks of arrays, their shapes and their columns; numpy is imported only for an array."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, overload
+
+from evenbreak.checks.limits import Limits
+from evenbreak.checks.numbers import number_probability
+from evenbreak.errors import InputError
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    import numpy as np
+    from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+
+@overload
+def probability(value: float | Fraction, name: str) -> float: ...
+
+
+@overload
+def probability(value: Sequence[Any], name: str) -> NDArray[np.float64]: ...
+
+
+@overload
+def probability(value: Any, name: str) -> Any: ...
+
+
+def probability(value: Any, name: str) -> Any:
+    """Return `value` as a float if it is one probability, as an array if it holds several.
+
+    Parameters
+    ----------
+    value
+        a number, or something that numpy can make a float array of.
+    name
+        what the value is called where the caller wrote it.
+
+    Raises
+    ------
+    InputError
+        if a value is not a number from 0 to 1.
+
+    >>> probability(1, "p"), probability([0, 0.5], "p")
+    (1.0, array([0. , 0.5]))
+    >>> probability(1.5, "p")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: p is 1.5, not a probability; give a number from 0 to 1
+    """
+    if hasattr(value, "__len__") or hasattr(value, "ndim"):
+        return plain(floats(value, name, low=0.0, high=1.0))
+    return number_probability(value, name)
+
+
+def floats(
+    values: Any,
+    name: str,
+    *,
+    low: float = -math.inf,
+    high: float = math.inf,
+    above: float = -math.inf,
+    below: float = math.inf,
+    wanted: str = "",
+) -> NDArray[np.float64]:
+    """Return `values` as a float array if all of them are finite and within the limits.
+
+    Parameters
+    ----------
+    values
+        a number, or something that numpy can make a float array of; text is refused. One
+        number becomes an array without dimensions, which `plain` turns back into a float.
+    name, low, high, above, below, wanted
+        as for `number`.
+
+    Raises
+    ------
+    InputError
+        if a value is not such a number.
+
+    >>> floats([3, 4.5], "speed", low=0)
+    array([3. , 4.5])
+    >>> floats([3, -1], "speed", low=0)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: speed holds -1.0; give finite numbers, 0 or more
+    """
+    array, limits = _array(values), Limits(low, high, above, below)
+    # The smallest and the largest are enough: NaN and infinity show in them.
+    if array.size and not limits.hold(array.min(), array.max()):
+        many = array.ndim > 0
+        wrong = next(x for x in array.flat if not limits.hold(x, x))
+        held = f"holds {wrong}" if many else f"is {values!r}"
+        raise InputError(f"{name} {held}; give {wanted or limits.numbers(many=many)}")
+    return array
+
+
+def whole_numbers(
+    values: Any, name: str, *, at_least: int | None = None, wanted: str = ""
+) -> NDArray[np.float64]:
+    """Return `values` as a float array if all of them are whole numbers, none too small.
+
+    >>> whole_numbers([1, 2.0], "n")
+    array([1., 2.])
+    >>> whole_numbers([1, 2.5], "n", at_least=0)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: n holds 2.5; give whole numbers, 0 or more
+    """
+    least = -math.inf if at_least is None else at_least
+    wanted = wanted or "whole numbers" + ("" if at_least is None else f", {at_least} or more")
+    array = floats(values, name, low=least, wanted=wanted)
+    broken = array != array.round()
+    if broken.any():
+        held = f"holds {float(array[broken][0])!r}" if array.ndim else f"is {values!r}"
+        raise InputError(f"{name} {held}; give {wanted}")
+    return array
+
+
+def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = float) -> NDArray[Any]:
+    """Return a read-only copy of `values`, one value for each player, row or match.
+
+    It is a copy so that a later change to the caller's array changes nothing here. NaN and
+    infinity pass where `dtype` can hold them.
+
+    Parameters
+    ----------
+    values
+        the `count` values.
+    name
+        what they are called where the caller wrote them.
+    count, each
+        how many values there must be, and of what: 3, 'players'.
+    dtype
+        their type; floats become ints only if they are whole numbers.
+
+    Raises
+    ------
+    InputError
+        if the values do not have this type, or there are more or fewer of them.
+
+    >>> column([80.5, 92], "rating", 3, "players")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: rating has shape (2,); give one value for each of 3 players
+    """
+    import numpy as np
+
+    kind = np.dtype(dtype)
+    try:
+        given = np.asarray(values)
+        with np.errstate(invalid="ignore"):  # NaN becomes some int, and then differs
+            found = np.array(given, dtype=kind)
+        right = kind.kind != "i" or given.dtype.kind in "bi" or bool((found == given).all())
+    except (TypeError, ValueError, OverflowError):
+        right = False
+    if not right:
+        wanted = "whole numbers" if kind.kind == "i" else f"values of type {kind}"
+        raise InputError(f"{name} is {values!r}; give {wanted}")
+    if found.shape != (count,):
+        raise InputError(
+            f"{name} has shape {found.shape}; give one value for each of {count} {each}"
+        )
+    found.flags.writeable = False
+    return found
+
+
+def together(**arrays: ArrayLike) -> tuple[int, ...]:
+    """Return the shape to which the arrays broadcast; numbers have the shape ().
+
+    Raises
+    ------
+    InputError
+        if they do not broadcast; it names each array and its shape.
+
+    >>> together(p=0.5, m=[1, 2, 3])
+    (3,)
+    >>> together(p=0.5, m=[1, 2], n=[1, 2, 3])
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: m has shape (2,), n has shape (3,); give shapes that broadcast
+    """
+    arrays = {name: array for name, array in arrays.items() if hasattr(array, "__len__")}
+    if not arrays:
+        return ()
+    import numpy as np
+
+    shapes = {name: shape for name, array in arrays.items() if (shape := np.shape(array))}
+    try:
+        return np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        held = ", ".join(f"{name} has shape {shape}" for name, shape in shapes.items())
+        raise InputError(f"{held}; give shapes that broadcast") from None
+
+
+def plain(array: Any) -> Any:
+    """Return a float for an array without dimensions, any other array as it is.
+
+    >>> import numpy as np
+    >>> plain(np.array(2.5)), plain(np.array([2.5]))
+    (2.5, array([2.5]))
+    """
+    return array if array.ndim else float(array)
+
+
+def _array(values: Any) -> NDArray[np.float64]:
+    """Return `values` as a float array; NaN for what is not numbers."""
+    import numpy as np
+
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind in "biufO":  # else numpy reads text and drops imaginary parts
+            return array.astype(float, copy=False)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    return np.array(math.nan)

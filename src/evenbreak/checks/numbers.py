@@ -1,0 +1,157 @@
+"""Checks of single values. None of them imports numpy: scalar questions start without it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, TypeVar
+
+from evenbreak.checks.limits import Limits
+from evenbreak.errors import InputError
+
+Choice = TypeVar("Choice")
+
+
+def number(
+    value: Any,
+    name: str,
+    *,
+    low: float = -math.inf,
+    high: float = math.inf,
+    above: float = -math.inf,
+    below: float = math.inf,
+    wanted: str = "",
+) -> float:
+    """Return `value` as a float if it is one finite number within the limits.
+
+    Parameters
+    ----------
+    value
+        a number; text is refused, and so are arrays with dimensions.
+    name
+        what the value is called where the caller wrote it.
+    low, high
+        the limits, included.
+    above, below
+        the limits, excluded.
+    wanted
+        what to give, for the error message; by default the limits say it.
+
+    Raises
+    ------
+    InputError
+        if the value is not such a number.
+
+    >>> number(7, "drift", low=0)
+    7.0
+    >>> number("x", "half_life", above=0, wanted="a number of days above 0")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: half_life is 'x'; give a number of days above 0
+    """
+    found, limits = _float(value), Limits(low, high, above, below)
+    if not limits.hold(found, found):
+        raise InputError(f"{name} is {value!r}; give {wanted or limits.numbers()}")
+    return found
+
+
+def positive(value: Any, name: str, *, wanted: str = "") -> float:
+    """Return `value` as a float if it is one finite number above 0.
+
+    >>> positive(0, "mass")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: mass is 0; give a finite number above 0
+    """
+    return number(value, name, above=0.0, wanted=wanted)
+
+
+def number_probability(value: Any, name: str) -> float:
+    """Return `value` as a float if it is one probability, not an array of them.
+
+    >>> number_probability([0.4, 0.5], "p1")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: p1 is [0.4, 0.5]; give one number from 0 to 1
+    """
+    found = _float(value)
+    if not 0.0 <= found <= 1.0:
+        many = isinstance(value, list | tuple) or hasattr(value, "ndim")
+        problem = "; give one" if many else ", not a probability; give a"
+        raise InputError(f"{name} is {value!r}{problem} number from 0 to 1")
+    return found
+
+
+def number_probabilities(values: Any, name: str, each: str) -> tuple[float, ...]:
+    """Return `values` as one probability or more; errors call the i-th of them `each` i.
+
+    >>> number_probabilities([], "shots", "shot")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: shots is []; give a list of numbers from 0 to 1
+    """
+    listed = list(values) if hasattr(values, "__iter__") else []
+    if not listed:
+        raise InputError(f"{name} is {values!r}; give a list of numbers from 0 to 1")
+    return tuple(number_probability(value, f"{each} {i}") for i, value in enumerate(listed, 1))
+
+
+def whole(value: Any, name: str, *, at_least: int | None = 0, wanted: str = "") -> int:
+    """Return `value` as an int if it is a whole number that is not too small.
+
+    Parameters
+    ----------
+    value
+        a whole number, of any numeric type.
+    name
+        what the value is called where the caller wrote it.
+    at_least
+        the smallest number that is allowed; None for no limit.
+    wanted
+        what to give, for the error message; by default the limit says it.
+
+    Raises
+    ------
+    InputError
+        if the value is not such a number.
+
+    >>> whole(3.0, "m")
+    3
+    >>> whole(0, "m", at_least=1)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: m is 0; give a whole number, 1 or more
+    """
+    try:
+        found = int(value)
+        right = bool(found == value) and not isinstance(value, str | bytes)
+    except (TypeError, ValueError, OverflowError):
+        right = False
+    if not right or (at_least is not None and found < at_least):
+        least = "" if at_least is None else f", {at_least} or more"
+        raise InputError(f"{name} is {value!r}; give {wanted or 'a whole number' + least}")
+    return found
+
+
+def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
+    """Return the one of `choices` that `value` equals: 1 for 1.0 or True.
+
+    >>> one_of(3, "first_breaker", (1, 2))
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: first_breaker is 3; give 1 or 2
+    """
+    try:
+        return choices[choices.index(value)]
+    except ValueError:  # an array raises it too: its comparison is not one truth value
+        listed = " or ".join(repr(choice) for choice in choices)
+        raise InputError(f"{name} is {value!r}; give {listed}") from None
+
+
+def _float(value: Any) -> float:
+    """Return one number as a float; NaN for what is not one."""
+    if isinstance(value, str | bytes) or getattr(value, "ndim", False):
+        return math.nan
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        return math.nan
