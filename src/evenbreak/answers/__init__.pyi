@@ -4,5 +4,7 @@ from .fair_pairs import matchups_frame as matchups_frame
 from .fair_pairs import most_active as most_active
 from .frames import ratings_frame as ratings_frame
 from .frames import summary_frame as summary_frame
-from .rating_changes_frame import moves_frame as moves_frame
-from .rating_changes_frame import moves_of_files as moves_of_files
+from .night_results import moves_of_files as moves_of_files
+from .rate import rate_answer as rate_answer
+from .rating_changes import rating_changes_answer as rating_changes_answer
+from .validate import validate_answer as validate_answer

@@ -94,7 +94,7 @@ def validate(
     prior_sd: float | None = None,
     half_life: float | None = None,
     seed: int = 1,
-    progress: Callable[[str], None] = lambda _: None,
+    progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Validation:
     """Predict a season date by date, and return how good the predictions were.
 
@@ -110,7 +110,7 @@ def validate(
     seed
         of the bootstrap and of the simulated seasons.
     progress
-        called with a sentence that says what is done next.
+        called with how many steps are done, and of how many.
 
     Raises
     ------
@@ -129,20 +129,25 @@ def validate(
     [('game', 'plug-in', 0.654), ('game', 'integrated', 0.655)]
     """
     tried = PRIORS if prior_sd is None else (prior_sd,)
-    many = "" if len(tried) == 1 else f", with each of {len(tried)} priors"
-    progress(f"Predicting each date from the dates before it{many}")
-    walks = [walk_forward(results, prior_sd=sd, half_life=half_life) for sd in tried]
+    steps = len(tried) + 5
+    walks = []
+    for done, sd in enumerate(tried, 1):
+        walks.append(walk_forward(results, prior_sd=sd, half_life=half_life))
+        progress(done, steps)
     raced = bool(walks[0].race_a.any())
     kinds: list[tuple[Of, How]] = [("game", "plug-in"), ("game", "integrated")]
     kinds += [("match", "plug-in"), ("match", "integrated")] if raced else []
-    best = {kind: best_predictions(walks, *kind, results, half_life) for kind in kinds}
+    best = {}
+    for done, kind in enumerate(kinds, len(tried) + 1):
+        best[kind] = best_predictions(walks, *kind, results, half_life)
+        progress(done, steps)
     used = best["game", "integrated"]
     walk = used.walk
     by_dates = int(walk.date_of[-1]) + 1 >= FEWEST_DATES
     cluster = walk.date_of if by_dates else np.arange(len(walk))
     rng = np.random.default_rng(seed)
-    progress("Comparing the season with simulated seasons")
     spread = dispersion(walk, rng)
+    progress(steps, steps)
     scored = tuple(
         one.scored(cluster, rng, loss_as_it_went(walks, *kind)) for kind, one in best.items()
     )

@@ -106,7 +106,7 @@ def command(
 
         check_workbook()
     from evenbreak.answers.fair_pairs import RaceLimits, find_players, most_active
-    from evenbreak.answers.rate_words import prior_words
+    from evenbreak.answers.rate import choice_words
     from evenbreak.files.folder import check_folder, write_files
     from evenbreak.files.results import read_results
     from evenbreak.ratings.scale import scale_of
@@ -125,7 +125,7 @@ def command(
     say(f"Rating {len(file.results.players):,} players")
     ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of)
     if choice is not None:
-        say(prior_words(ratings, choice)[-1])
+        say(choice_words(ratings, choice))
     if players:
         chosen = find_players(ratings, _names(players, ratings.players), said="--players")
     else:
