@@ -34,6 +34,9 @@ PACKAGES = (
         for init in (ROOT / "src" / "evenbreak").glob("*/__init__.py")
     ),
 )
+OF_MOST_COMMANDS = {"--help", "--text", "--csv", "--json", "--html", "--verbose"}
+"""Options that the page of the commands describes once for all."""
+
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 LONG_NUMBER = re.compile(r"\d*\.\d{12,}(e-?\d+)?")
 FENCE = re.compile(r"^```(?P<language>[^\n`]*)\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -142,7 +145,8 @@ def on_a_terminal(command: str) -> str:
             shown += piece
     os.close(ours)
     assert process.returncode == 0, shown.decode()
-    return shown.decode().replace("\r\n", "\n")
+    # A line that shows progress is written over.
+    return re.sub(r"[^\n]*\r", "", shown.decode().replace("\r\n", "\n"))
 
 
 @pytest.mark.usefixtures("desk")
@@ -215,7 +219,8 @@ def test_every_option_is_described_and_no_other(name: str) -> None:
         if text.startswith("--")
     }
     described = set(re.findall(r"^\| `(--[a-z0-9-]+)", section(name), flags=re.MULTILINE))
-    assert described == options - {"--help"}
+    assert described <= options
+    assert options - described <= OF_MOST_COMMANDS
 
 
 def test_every_command_is_described_and_no_other() -> None:

@@ -114,7 +114,7 @@ def _in_words(moves: Moves) -> str:
             sentences.append(f"{verb}: {some_of(names, MOST_NAMES)}.")
     played = (moves.won + moves.lost > 0) & (change == 0)
     if played.any():
-        sentences.append(f"{count_of(int(played.sum()), 'player')} played without a change.")
+        sentences.append(f"Unchanged: {count_of(int(played.sum()), 'player')} who played.")
     return " ".join(sentences) or "Nobody's rating changed."
 
 

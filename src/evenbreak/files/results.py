@@ -116,7 +116,7 @@ def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
     changed = [f"{quoted(name)} as {quoted(meant)}" for name, meant in names.items()]
     more = len(changed) - MOST_RENAMED
     shown = changed[:MOST_RENAMED] + ([f"and {more:,} more"] if more > 0 else [])
-    return [f"{source}: read according to {aliases}: {', '.join(shown)}"]
+    return [f"{source}: names read according to {aliases}: {', '.join(shown)}"]
 
 
 def _repeated_rows(table: TextTable) -> list[str]:

@@ -9,7 +9,7 @@ import click
 from evenbreak.cli.kit.values import Number, refuse
 
 if TYPE_CHECKING:
-    from evenbreak.cli.kit.options import Command
+    from evenbreak.cli.kit.options import Command, Decorator
     from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
@@ -47,13 +47,18 @@ class Day(click.ParamType):  # type: ignore[type-arg]
 
 DAYS = Number(0.01, 1e6, "; give a number of days from 0.01 to 1,000,000, such as 180")
 
-prior_option = click.option(
-    "--prior",
-    metavar="POINTS|best",
-    type=PointsOr("best", 0.0),
-    help="How far apart players are assumed to be before any result: the standard deviation; "
-    "best: the one that predicts best.  [default: what doubles the odds]",
-)
+
+def prior_option(default: str) -> Decorator[Any]:
+    """Return the option --prior; `default` says what applies if it is not given."""
+    return click.option(
+        "--prior",
+        metavar="POINTS|best",
+        type=PointsOr("best", 0.0),
+        help="How far apart players are assumed to be before any result: the standard deviation; "
+        f"best: the one that predicts best.  [default: {default}]",
+    )
+
+
 half_life_option = click.option(
     "--half-life",
     metavar="DAYS",
@@ -72,7 +77,7 @@ def how_to_rate(command: Command) -> Command:
             help="Rate as of this day: leave later matches out.  [default: the last date]",
         ),
         half_life_option,
-        prior_option,
+        prior_option("what doubles the odds"),
     ):
         command = add(command)
     return command

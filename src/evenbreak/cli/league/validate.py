@@ -25,7 +25,7 @@ Examples:
 
 @click.command("validate", epilog=EXAMPLES)
 @click.argument("results", metavar="RESULTS.csv")
-@prior_option
+@prior_option("best")
 @half_life_option
 @scale_option()
 @seed_option("The seed of the intervals and simulated seasons.")
