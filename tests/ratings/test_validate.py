@@ -89,9 +89,9 @@ def test_a_slope_of_a_few_matches_is_withheld():
 
 
 def test_progress_is_reported():
-    said = []
-    validate(season(0.6, matches=90), prior_sd=0.8, progress=said.append)
-    assert [words.split()[0] for words in said] == ["Predicting", "Comparing"]
+    steps = []
+    validate(season(0.6, matches=90), prior_sd=0.8, progress=lambda *step: steps.append(step))
+    assert steps == [(done, 6) for done in range(1, 7)]
 
 
 def test_the_same_seed_gives_the_same_figures(found):
