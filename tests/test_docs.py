@@ -86,7 +86,7 @@ def test_python_examples(page: Path) -> None:
     for block in blocks(page.read_text(encoding="utf-8")):
         if block.language != "python":
             continue
-        if ">>>" not in block.body:
+        if not re.search("^>>> ", block.body, re.MULTILINE):
             exec(compile(block.body, f"{name_of(page)}:{block.line}", "exec"), names)  # noqa: S102
             continue
         parser = doctest.DocTestParser()

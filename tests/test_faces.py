@@ -10,6 +10,8 @@ import io
 import json
 import os
 import re
+import shlex
+import tempfile
 from html.parser import HTMLParser
 
 import pytest
@@ -37,17 +39,31 @@ ASKED = {
     "data/demo_newcomers_night.csv",
     "validate": "validate data/demo_league.csv",
     "validate_prior": "validate data/demo_league.csv --prior 200",
+    "report": "report data/demo_league.csv --out OUT --top 6",
+    "report_lengths": "report data/demo_league.csv --out OUT --scale fargo --games 7..13 --top 14",
+    "matchups": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10",
+    "matchups_both": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10 "
+    "--games 7..13 --minutes-per-game 8 --tables 2",
+    "matchups_uneven": "matchups data/demo_roster.csv --race-to 3",
 }
 """A question for each command, and for each kind of answer that it has."""
+
+OWN_PAGE = ("report", "matchups")
+"""Commands whose --html writes a page of their own."""
+
+NO_CSV = ("report",)
+"""Commands that print text into a pipe too, since they write files."""
 
 WORDLESS = re.compile(r"\s+")
 
 
 def ask(line: str, *options: str) -> str:
-    import shlex
-
-    with contextlib.chdir(ROOT):  # so that files are named as a reader names them
-        result = CliRunner().invoke(program, [*shlex.split(line), *options])
+    with (
+        tempfile.TemporaryDirectory() as out,
+        contextlib.chdir(ROOT),
+    ):  # named as a reader names them
+        words = [word.replace("OUT", out) for word in shlex.split(line)]
+        result = CliRunner().invoke(program, [*words, *options])
     assert result.exit_code == 0, result.output
     return result.stdout
 
@@ -73,9 +89,13 @@ class Cells(HTMLParser):
 def faces(request, tmp_path_factory):
     """The answer to one question in each face."""
     name, line = request.param, ASKED[request.param]
+    command = line.split()[0]
     page = tmp_path_factory.mktemp("page") / "answer.html"
-    text = ask(line, "--text", "--verbose", "--html", str(page))
-    return name, text, json.loads(ask(line, "--json")), ask(line, "--csv"), page.read_text("utf-8")
+    page.write_text("", "utf-8")
+    writes_page = () if command in OWN_PAGE else ("--html", str(page))
+    text = ask(line, "--text", "--verbose", *writes_page)
+    table = "" if command in NO_CSV else ask(line, "--csv")
+    return name, text, json.loads(ask(line, "--json")), table, page.read_text("utf-8")
 
 
 def test_every_face_has_the_same_sentences(faces):
@@ -86,7 +106,7 @@ def test_every_face_has_the_same_sentences(faces):
     assert answer["sentences"]
     for sentence in [answer["heading"], *answer["sentences"], *answer["details"]]:
         assert squeezed(sentence) in squeezed(text)
-        assert squeezed(sentence) in on_page
+        assert squeezed(sentence) in on_page or not page
 
 
 def test_a_page_has_the_numbers_of_the_text(faces):
@@ -100,6 +120,8 @@ def test_a_page_has_the_numbers_of_the_text(faces):
 
 def test_csv_has_the_numbers_of_json(faces):
     _, _, answer, table, _ = faces
+    if not table:
+        pytest.skip("prints no CSV, since it writes files")
     header, *rows = csv.reader(io.StringIO(table))
     if header == ["quantity", "value"]:
         records = {name: answer[name] for name, _ in rows}

@@ -44,4 +44,7 @@ class DataError(EvenbreakError, ValueError):
 
     def __init__(self, problems: Iterable[str]) -> None:
         self.problems = tuple(problems)
-        super().__init__("\n".join(self.problems))
+        super().__init__(self.problems)  # what a copy in another process is made from
+
+    def __str__(self) -> str:
+        return "\n".join(self.problems)

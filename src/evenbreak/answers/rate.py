@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.answers.answer import Answer, Column, Table
-from evenbreak.answers.fair_pairs import by_strength
-from evenbreak.answers.frames import scale_text
+from evenbreak.answers.chosen_players import by_strength
+from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def rate_answer(
     else:
         first, table = _highest_in_words(ratings), _players_table(ratings)
     return Answer(
-        f"{file.source}: {_counted(ratings)}\nRatings on {scale_text(ratings.scale)}",
+        f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
         [first, *_fit_in_words(ratings, choice), *unlinked_words(ratings), table],
         details=[prior_words(ratings), *([] if pairs else [_ERRORS_IN_WORDS])],
         warnings=[*file.warnings, *warnings],
@@ -181,10 +181,10 @@ def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]
 def prior_words(ratings: Ratings) -> str:
     """Return what was assumed about players before any result."""
     width = _ONE(ratings.scale.points(ratings.prior_sd))
-    mean = "" if ratings.named else f"a mean of {ratings.anchor:g} and "
+    start = "average" if ratings.named else f"at {ratings.anchor:g}"
     return (
-        f"Before any result, ratings are assumed to have {mean}a standard deviation of {width} "
-        "points (the prior)."
+        f"Before any result, every player is assumed to be {start}, give or take {width} points "
+        "(the prior)."
     )
 
 

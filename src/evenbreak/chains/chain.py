@@ -114,19 +114,7 @@ class Chain:
             if a state is unknown, no start is known, or the density has a negative entry
             or does not sum to 1 within 1e-9.
         """
-        if start is None:
-            start = self._own_start()
-        v = np.zeros(len(self))
-        if isinstance(start, Mapping):
-            for state, chance in start.items():
-                v[self.index(state)] = chance
-        elif isinstance(start, np.ndarray):
-            if start.shape != v.shape:
-                raise ChainError(f"the start density has shape {start.shape}; give {v.shape}")
-            v = start.astype(float)
-        else:
-            v[self._search(start)] = 1.0
-            return v
+        v = self.vector(self._own_start() if start is None else start, "start")
         if (v < 0.0).any():
             state = self.states[int(np.flatnonzero(v < 0.0)[0])]
             raise ChainError(
@@ -136,6 +124,38 @@ class Chain:
             raise ChainError(
                 f"the start density sums to {v.sum():.12g}; give probabilities that sum to 1"
             )
+        return v
+
+    def vector(self, given: Any, name: str) -> NDArray[np.float64]:
+        """Return a number for each state, shape (n,).
+
+        Parameters
+        ----------
+        given
+            an array of n numbers; a mapping from states to numbers, 0 for the others; or a
+            state, which gets 1.
+        name
+            what it is called, for the error message.
+
+        Raises
+        ------
+        ChainError
+            if a state is unknown, the shape is not (n,), or a number is not finite.
+        """
+        v = np.zeros(len(self))
+        if isinstance(given, np.ndarray):
+            if given.shape != v.shape:
+                raise ChainError(f"{name} has shape {given.shape}; give {v.shape}")
+            v += given
+        elif isinstance(given, Mapping):
+            for state, value in given.items():
+                v[self.index(state)] = value
+        else:
+            v[self._search(given)] = 1.0
+        if not np.isfinite(v).all():
+            first = int(np.flatnonzero(~np.isfinite(v))[0])
+            held = f"{float(v[first])!r} for state {self.states[first]!r}"
+            raise ChainError(f"{name} holds {held}; give finite numbers")
         return v
 
     def _own_start(self) -> Hashable:

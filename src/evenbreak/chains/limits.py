@@ -22,18 +22,14 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from evenbreak.chains.arcs import reachable
-from evenbreak.chains.birth_death import birth_death_law
-from evenbreak.chains.decimal_elimination import decimal_law
-from evenbreak.chains.factorisation import Factorisation
-from evenbreak.chains.line_elimination import line_order
-from evenbreak.chains.transient import TransientPart
+from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
+from evenbreak.chains.stationary import laws_of, stationary_laws
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.chains.arcs import Arcs, Places
+    from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
 Default = TypeVar("Default")
@@ -122,163 +118,6 @@ class Limit(Mapping[Hashable, float]):
         return dict(zip(self.states, self.probability.tolist(), strict=True))
 
 
-def stationary_laws(chain: Chain) -> NDArray[np.float64]:
-    """Return the stationary law of every closed class in one vector; shape (n,).
-
-    Each entry is conditional on being in the closed class of its state, so the entries of
-    a class sum to 1. Transient states have 0.
-
-    Parameters
-    ----------
-    chain
-        the chain.
-
-    Raises
-    ------
-    AccuracyError
-        if a law cannot be guaranteed: it spans more decades than floats do and its class is
-        too large for decimal numbers, or its class is too large and mixes too slowly.
-
-    >>> from evenbreak.chains import chain_of
-    >>> stationary_laws(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 1.0), (0, 1, 1.0)]))
-    array([0.66666667, 0.33333333, 0.        ])
-    """
-    return _stationary(chain, chain.structure.closed)[0]
-
-
-def _stationary(
-    chain: Chain, classes: NDArray[np.bool_]
-) -> tuple[NDArray[np.float64], float | None]:
-    """Return the laws of those of `classes` that are closed, and the residual if there is one.
-
-    One state of each class is cut out; the visits to the others between two visits to it
-    are proportional to the law.
-    """
-    structure = chain.structure
-    wanted = classes & structure.closed
-    law = np.zeros(len(chain))
-    cut = structure.order[structure.offsets[:-1][wanted]]
-    law[cut] = 1.0
-    inside = wanted[structure.label]
-    rest = inside.copy()
-    rest[cut] = False
-    residual = None
-    if rest.any():
-        states = np.flatnonzero(rest)
-        part = TransientPart(chain.arcs, states)
-        x, doubtful = part.attempt((chain.arcs.matrix() @ law)[states, None])
-        law[states] = x[:, 0]
-        residual = part.residual
-        for label in np.unique(structure.label[states[doubtful[:, 0]]]):
-            members = structure.members(label)
-            law[members] = _law_of(chain.arcs.among(members)[0])
-    # Scaled to a largest entry of 1 first, so that the sum cannot overflow.
-    top = np.zeros(structure.count)
-    np.maximum.at(top, structure.label[inside], law[inside])
-    law[inside] /= top[structure.label[inside]]
-    total = np.bincount(structure.label[inside], law[inside], structure.count)
-    law[inside] /= total[structure.label[inside]]
-    return law, residual
-
-
-def _law_of(arcs: Arcs) -> NDArray[np.float64]:
-    """Return the law of one closed class, also if it spans more decades than floats do."""
-    T = arcs.matrix()
-    order = line_order(T)
-    if order is None:
-        return decimal_law(arcs)
-    line = csc_array(T[:, order])[order]
-    law = np.empty(arcs.size)
-    law[order] = birth_death_law(line.diagonal(-1), line.diagonal(1))
-    return law
-
-
-def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the probability that each recurrent state is the first one entered; shape (n,)."""
-    if chain.structure.is_acyclic:
-        return _ends(chain, v)
-    states = chain.transient.states
-    arrivals = v.copy()
-    arrivals[states] = 0.0
-    if len(states) and v[states].any():
-        visits = np.zeros(len(chain))
-        visits[states] = chain.transient.visits(v[states])
-        flow = chain.arcs.matrix() @ visits
-        flow[states] = 0.0
-        arrivals += flow
-    return arrivals
-
-
-def _ends(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the probability of each end of a chain without cycles, by one substitution."""
-    end = chain.structure.recurrent
-    outflow = np.where(end, 1.0, chain.arcs.outflow)
-    flow = Factorisation(chain.arcs, end.astype(float), outflow, chain.structure)
-    # Visits to other states may overflow or underflow; the flow into the ends does not.
-    with np.errstate(all="ignore"):
-        return np.where(end, flow.visits(v[:, None])[:, 0], 0.0)
-
-
-def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
-    """Return the probability of ending in each class, given the start; shape (classes,).
-
-    Classes are numbered as in `chain.structure`; those that are not closed have 0. Each
-    entry is right to about machine precision, unless play passes through a transient class
-    of more than some 6,000 states without a narrow band. Then it is certified to a relative
-    error of 1e-6 at least, and if that is all that can be said, `chain.transient.residual`
-    is not None but says by how much the equations are missed.
-
-    Raises
-    ------
-    AccuracyError
-        if an entry cannot be guaranteed.
-
-    >>> from evenbreak.chains import chain_of
-    >>> chain = chain_of([("play", "won", 0.25), ("play", "lost", 0.5), ("play", "play", 0.25)])
-    >>> absorption(chain, "play")[chain.structure.label].round(3).tolist()
-    [0.0, 0.333, 0.667]
-    """
-    structure = chain.structure
-    v = chain.density(start)
-    arrivals = _arrivals(chain, v)
-    # Along a very long path rounding adds up in one direction; the sum shows how much.
-    arrivals *= v.sum() / arrivals.sum()
-    return np.bincount(structure.label, arrivals, structure.count).astype(np.float64, copy=False)
-
-
-def _reached(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which closed classes can be reached, even with a chance smaller than any float."""
-    arcs, structure = chain.arcs, chain.structure
-    seen = reachable(len(chain), arcs.sources, arcs.targets, v > 0.0)
-    reached = np.zeros(structure.count, dtype=bool)
-    reached[structure.label[seen]] = True
-    return reached & structure.closed
-
-
-def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
-    """Return the expected number of steps begun in each state, given the start; shape (n,).
-
-    Transient states have a finite number. Recurrent states have inf if they can be reached,
-    otherwise 0. The accuracy is that of `absorption`, with the residual in
-    `chain.transient.residual`.
-
-    Raises
-    ------
-    AccuracyError
-        if a number is larger than any float, or cannot be guaranteed.
-
-    >>> from evenbreak.chains import chain_of
-    >>> expected_visits(chain_of([("miss", "miss", 0.75), ("miss", "in", 0.25)]), "miss")
-    array([ 4., inf])
-    """
-    v = chain.density(start)
-    states = chain.transient.states
-    visits = np.zeros(len(chain))
-    visits[states] = chain.transient.visits(v[states])
-    visits[_reached(chain, v)[chain.structure.label]] = np.inf
-    return visits
-
-
 def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     """Return the stochastic limit of the chain: where it ends, or its long-run average.
 
@@ -323,17 +162,15 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
         return Limit(chain, probability, period)
     structure = chain.structure
     if structure.is_acyclic:
-        return Limit(chain, _ends(chain, chain.density(start)))
+        return Limit(chain, ends_of(chain, chain.density(start)))
     mass = absorption(chain, start)
-    law, residual = _stationary(chain, mass > 0.0)
+    law, residual = laws_of(chain, mass > 0.0)
     law *= mass[structure.label]
-    reached = _reached(chain, chain.density(start))
+    reached = closed_classes_reached(chain, chain.density(start))
     period = math.lcm(*structure.periods[reached].tolist())
-    return Limit(chain, law, period, largest(_residual(chain), residual))
-
-
-def _residual(chain: Chain) -> float | None:
-    return chain.transient.residual if "transient" in chain.__dict__ else None
+    if "transient" in chain.__dict__:
+        residual = largest(chain.transient.residual, residual)
+    return Limit(chain, law, period, residual)
 
 
 def largest(*residuals: float | None) -> float | None:

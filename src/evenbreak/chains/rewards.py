@@ -118,22 +118,17 @@ def _expected_reward(
     per_arc: Mapping[tuple[Hashable, Hashable], float] | None,
 ) -> NDArray[np.float64]:
     """Return the expected reward of a step begun in each state; shape (n,)."""
-    reward = np.zeros(len(chain))
-    if isinstance(per_state, Mapping):
-        for state, amount in per_state.items():
-            reward[chain.index(state)] = amount
-    elif per_state is not None:
-        given = np.asarray(per_state, dtype=float)
-        if given.shape != reward.shape:
-            raise ChainError(f"per_state has shape {given.shape}; give {reward.shape}")
-        reward += given
+    if per_state is None:
+        per_state = {}
+    elif not isinstance(per_state, Mapping):
+        per_state = np.asarray(per_state, dtype=float)
+    reward = chain.vector(per_state, "per_state")
     for (source, target), amount in (per_arc or {}).items():
         j, i = chain.index(source), chain.index(target)
         chance = float(chain.matrix[i, j])
         if chance == 0.0:
             raise ChainError(f"there is no arc {source!r} -> {target!r} to earn a reward on")
         reward[j] += chance * amount
-    if not np.all(np.isfinite(reward)):
-        state = chain.states[int(np.flatnonzero(~np.isfinite(reward))[0])]
-        raise ChainError(f"the reward of state {state!r} is not finite; give finite numbers")
+    if not np.isfinite(reward).all():
+        raise ChainError("the reward of an arc is not finite; give finite numbers")
     return reward

@@ -25,7 +25,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.chains.limits import largest, stationary_laws, stochastic_limit
+from evenbreak.chains.limits import largest, stochastic_limit
+from evenbreak.chains.stationary import stationary_laws
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
@@ -167,7 +168,7 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     >>> round(share.value, 12), round(share[1, 1], 12)
     (0.666666666667, 0.888888888889)
     """
-    c = _weights(chain, weights)
+    c = chain.vector(weights, "weights")
     structure, part = chain.structure, chain.transient
     recurrent = structure.recurrent
     limit = stochastic_limit(chain, start)
@@ -186,22 +187,6 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
         residual=largest(limit.residual, part.residual, missed),
         _slopes=slopes,
     )
-
-
-def _weights(chain: Chain, weights: Any) -> NDArray[np.float64]:
-    c = np.zeros(len(chain))
-    if isinstance(weights, np.ndarray):
-        if weights.shape != c.shape:
-            raise ChainError(f"weights has shape {weights.shape}; give {c.shape}")
-        c += weights
-    elif isinstance(weights, Mapping):
-        for state, weight in weights.items():
-            c[chain.index(state)] = weight
-    else:
-        c[chain.index(weights)] = 1.0
-    if not np.all(np.isfinite(c)):
-        raise ChainError("a weight is not finite; give finite numbers")
-    return c
 
 
 def _signed_values(part: TransientPart, r: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -21,7 +21,7 @@ from evenbreak.errors import AccuracyError, ChainError, DataError, InputError
         (click.UsageError("no"), 2, "Error: no\n"),
         (OSError(errno.ENOSPC, "No space left", "out.csv"), 1, "Error: out.csv: No space left\n"),
         (OSError(errno.EIO, "Input/output error"), 1, "Error: Input/output error\n"),
-        (OSError("odd"), 1, "Error: odd\n"),
+        (OSError("no line"), 1, "Error: no line\n"),
     ],
 )
 def test_each_error_has_its_exit_code_and_a_line_for_each_problem(capsys, error, code, printed):

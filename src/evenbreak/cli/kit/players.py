@@ -41,7 +41,8 @@ def players_of(
     if p is not None:
         return TwoPlayers(Rack(p))
     if len(ratings) != 2:
-        refuse(f"{len(ratings)} rating(s) given, {', '.join(ratings)}; {REMEDY}")
+        given = "only one rating is" if len(ratings) == 1 else f"{len(ratings)} ratings are"
+        refuse(f"{given} given, {' '.join(ratings)}; {REMEDY}")
     a, b = (float(rating) for rating in ratings)
     if not math.isfinite(a - b):
         refuse("the ratings are too far apart to calculate with; give smaller numbers")

@@ -169,6 +169,6 @@ def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
 
 
 def _places(players: Ratings | Results, names: Sequence[str], option: str) -> list[int]:
-    from evenbreak.answers.fair_pairs import find_players
+    from evenbreak.answers.chosen_players import find_players
 
     return find_players(players, names, said=option)

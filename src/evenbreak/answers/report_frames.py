@@ -1,4 +1,4 @@
-"""From ratings to the tables that a report consists of."""
+"""The tables that `evenbreak report` writes: ratings.csv and summary.csv."""
 
 from __future__ import annotations
 
@@ -7,29 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak import __version__
-from evenbreak.answers.fair_pairs import RaceLimits, by_strength
+from evenbreak.answers.chosen_players import by_strength
+from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import RosterFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     import pandas as pd
-
-
-def scale_text(scale: Scale) -> str:
-    """Return what to call a scale: like one that has a name, but never that one itself.
-
-    >>> from evenbreak.ratings.scale import scale_of
-    >>> scale_text(scale_of("fargo"))
-    'a Fargo-like scale (100 points double the odds of a game)'
-    >>> scale_text(scale_of(50))
-    'a scale of its own (50 points double the odds of a game)'
-    """
-    names = {"npl": "an NPL-like scale", "fargo": "a Fargo-like scale", "elo": "an Elo-like scale"}
-    name = names.get(scale.name, "a scale of its own")
-    return f"{name} ({scale.points_per_doubling:.6g} points double the odds of a game)"
 
 
 def ratings_frame(ratings: Ratings) -> pd.DataFrame:
@@ -55,9 +42,9 @@ def ratings_frame(ratings: Ratings) -> pd.DataFrame:
 
 
 def summary_frame(
-    file: ResultsFile, ratings: Ratings, matchups: pd.DataFrame, limits: RaceLimits
+    file: ResultsFile, ratings: Ratings, paired: pd.DataFrame, offered: OfferedRaces
 ) -> pd.DataFrame:
-    """Return what a report was made of and how, as rows of key and value.
+    """Return what a report was made from and how, as rows of key and value.
 
     `components` counts those of players with games; `anchor` is the mean rating of each
     component, so the rating of a player without games; the standard deviation of the prior
@@ -82,18 +69,18 @@ def summary_frame(
         "players_without_games": int(ratings.idle.sum()),
         "components": count_groups(ratings),
         "groups_of_similar_names": len(file.similar_names),
-        "scale": f"{scale_text(scale)}; not an official rating",
+        "scale": f"{like_scale_words(scale)}; not an official rating",
         "points_per_doubling": scale.points_per_doubling,
         "anchor": ratings.anchor,
         "prior_sd_log_odds": ratings.prior_sd,
         "prior_sd_points": float(scale.points(ratings.prior_sd)),
         "half_life_days": ratings.half_life,
         "as_of": None if ratings.as_of is None else str(ratings.as_of),
-        "race_to": limits.race_to,
-        "games_lo": limits.games[0] if limits.games else None,
-        "games_hi": limits.games[1] if limits.games else None,
-        "pairs": len(matchups),
-        "pairs_without_race": int(matchups["race_a"].isna().sum()),
+        "race_to": offered.race_to,
+        "games_lo": offered.games[0] if offered.games else None,
+        "games_hi": offered.games[1] if offered.games else None,
+        "pairs": len(paired),
+        "pairs_without_race": int(paired["race_a"].isna().sum()),
         "evenbreak_version": __version__,
     }
     return pd.DataFrame(
@@ -102,7 +89,7 @@ def summary_frame(
 
 
 def count_groups(ratings: Ratings) -> int:
-    """Return how many groups of players never met; one without results is no group."""
+    """Return how many groups of players never met; a player without results is no group."""
     return len(np.unique(ratings.component[~ratings.idle]))
 
 
@@ -112,7 +99,7 @@ def file_name(file: ResultsFile | RosterFile) -> str:
 
 
 def dates_of(results: Results, as_of: np.datetime64 | None = None) -> tuple[str, str]:
-    """Return the first and the last day, up to `as_of`, on which a match was played, '' if none."""
+    """Return the first and last day, up to `as_of`, on which a match was played; '' if unknown."""
     counted = results.played().results, results.won_only()
     stated = [part.date for part in counted if part.date is not None]
     days = np.concatenate(stated) if stated else np.zeros(0, "datetime64[D]")

@@ -2,18 +2,12 @@ import numpy as np
 import pytest
 
 from evenbreak import __version__
-from evenbreak.answers.fair_pairs import RaceLimits, matchups_frame, most_active
-from evenbreak.answers.frames import (
-    count_groups,
-    dates_of,
-    ratings_frame,
-    scale_text,
-    summary_frame,
-)
+from evenbreak.answers.fair_pairs import matchups_frame
+from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.report_frames import count_groups, dates_of, ratings_frame, summary_frame
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.scale import scale_of
 
 
 @pytest.fixture(scope="module")
@@ -59,9 +53,9 @@ def test_everybody_is_rated_the_strongest_first(season):
 
 def test_the_summary_says_what_was_read_and_left_out(season, file):
     ratings = fit(season, scale="elo")
-    limits = RaceLimits((5, 9))
-    frame = summary_frame(file, ratings, matchups_frame(ratings, range(5), limits), limits)
-    told = dict(zip(frame["key"], frame["value"], strict=True))
+    offered = OfferedRaces((5, 9))
+    frame = summary_frame(file, ratings, matchups_frame(ratings, range(5), offered), offered)
+    facts = dict(zip(frame["key"], frame["value"], strict=True))
     expected = {
         "results_file": "r.csv",
         "results_sha256": "0123",
@@ -85,10 +79,10 @@ def test_the_summary_says_what_was_read_and_left_out(season, file):
         "pairs_without_race": 7,
         "evenbreak_version": __version__,
     }
-    assert {key: told[key] for key in expected} == expected
-    assert "Elo-like" in told["scale"]
-    assert "not an official rating" in told["scale"]
-    assert told["prior_sd_points"] == pytest.approx(
+    assert {key: facts[key] for key in expected} == expected
+    assert "Elo-like" in facts["scale"]
+    assert "not an official rating" in facts["scale"]
+    assert facts["prior_sd_points"] == pytest.approx(
         ratings.prior_sd * ratings.scale.points_per_log_odds
     )
 
@@ -96,15 +90,10 @@ def test_the_summary_says_what_was_read_and_left_out(season, file):
 def test_a_file_without_dates_has_none_in_its_summary():
     season = Results.from_names(["Ann"], ["Bo"], [7], [5])
     bare = ResultsFile(season, "stdin", (), (), "")
-    ratings, limits = fit(season), RaceLimits(race_to=7)
-    frame = summary_frame(bare, ratings, matchups_frame(ratings, [0, 1], limits), limits)
-    told = dict(zip(frame["key"], frame["value"], strict=True))
-    assert (told["first_date"], told["last_date"], told["results_file"]) == ("", "", "stdin")
-
-
-@pytest.mark.parametrize("name", ["npl", "fargo", "elo", 50])
-def test_a_scale_is_only_like_one_that_has_a_name(name):
-    assert "like" in scale_text(scale_of(name)) or "of its own" in scale_text(scale_of(name))
+    ratings, offered = fit(season), OfferedRaces(race_to=7)
+    frame = summary_frame(bare, ratings, matchups_frame(ratings, [0, 1], offered), offered)
+    facts = dict(zip(frame["key"], frame["value"], strict=True))
+    assert (facts["first_date"], facts["last_date"], facts["results_file"]) == ("", "", "stdin")
 
 
 def test_players_known_by_winners_alone_are_no_players_without_results():
@@ -123,4 +112,3 @@ def test_players_known_by_winners_alone_are_no_players_without_results():
     assert not ratings.idle.any()
     assert count_groups(ratings) == 1
     assert dates_of(season) == ("2026-01-05", "2026-01-12")
-    assert most_active(ratings, 1) == [1]
