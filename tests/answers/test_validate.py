@@ -57,6 +57,16 @@ def test_json_holds_everything(demo_answer, demo):
     assert (data["streaks"], data["seed"]) == (None, 1)
 
 
+def test_scores_that_vary_more_are_explained_and_others_are_not(demo_answer, demo, chosen):
+    more = 100 * (demo.dispersion.seen / demo.dispersion.by_chance - 1)
+    (text,) = [one for one in demo_answer.sentences if one.startswith("Match scores")]
+    assert f"{more:.0f} %" in text
+    assert "winner breaks" in text
+    file = ResultsFile(chosen.forecasts.results, "r.csv", (), (), "")
+    sentences = validate_answer(file, chosen, NPL).sentences
+    assert not any(one.startswith("Match scores") for one in sentences)
+
+
 def test_a_prior_that_suits_is_named_beside_the_default(chosen, alike):
     file = ResultsFile(chosen.forecasts.results, "r.csv", (), (), "")
     best = f"--prior {NPL.points(chosen.prior_sd):.3g}"

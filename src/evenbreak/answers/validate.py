@@ -5,22 +5,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.answer import Answer, Column, Part, Table
-from evenbreak.answers.validate_findings import findings, spread_words
+from evenbreak.answers.validate_details import details
 from evenbreak.answers.validate_judgement import (
+    UNLIKELY,
     at_the_edge,
     clearly_off,
     points_text,
     share_of,
+    winner_breaks,
     wrong_chances,
 )
 from evenbreak.answers.validate_rows import findings_table
 from evenbreak.answers.validate_verdict import verdict
-from evenbreak.answers.wording import count_of, decimals, percent
+from evenbreak.answers.wording import count_of, listed, percent
 from evenbreak.ratings.fit import PRIOR_SD
 
 if TYPE_CHECKING:
     from evenbreak.files.results import ResultsFile
-    from evenbreak.ratings.calibration import CalibrationBin, Estimate
     from evenbreak.ratings.scale import Scale
     from evenbreak.ratings.validate import Validation
 
@@ -46,18 +47,12 @@ def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed:
     There are too few matches to say whether these ratings can be trusted.
     """
     text = verdict(found, scale)
-    remarks = [_handicaps(found), spread_words(found), _prior(found, scale)]
+    remarks = [_handicaps(found), _spread(found), _prior(found, scale)]
     parts: list[Part] = [text, _games(found), *filter(None, remarks)]
     return Answer(
         _heading(file, found),
         parts,
-        details=[
-            _EXPLAINED,
-            _scored(found, scale),
-            *_matches(found),
-            *_by_spot(found),
-            *findings(found, scale),
-        ],
+        details=list(details(found, scale)),
         warnings=file.warnings,
         data={"verdict": text, **_figures(found, scale), "seed": seed},
         csv=findings_table(found),
@@ -92,16 +87,12 @@ def _games(found: Validation) -> Table:
         Column("seen", "won", percent),
         Column("range", "95 % range", _percents),
     ]
-    rows = [(row.predicted, row.games, row.seen, _around(row)) for row in found.games]
+    rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
     title = (
         "How often favourites won single games. The ratings are right where the chance given lies "
         "in the range."
     )
     return Table("", columns, rows, title)
-
-
-def _around(row: CalibrationBin) -> tuple[float, float]:
-    return row.low, row.high
 
 
 def _percents(ends: tuple[float, float]) -> str:
@@ -133,6 +124,25 @@ def _handicaps(found: Validation) -> str:
     return f"The handicaps look fair. {figures}."
 
 
+def _spread(found: Validation) -> str:
+    """Return why scores vary more than they should, '' where they do not."""
+    test = found.dispersion
+    if test is None or test.p_value >= UNLIKELY or test.seen <= test.by_chance:
+        return ""
+    more = 100.0 * (test.seen / test.by_chance - 1.0)
+    others = []
+    if winner_breaks(found):
+        others.append("a strong break under winner breaks")
+    if found.spots:
+        others.append("handicaps that know more about the players than these ratings")
+    also = listed(others, "or")
+    return (
+        f"Match scores vary {more:.0f} % more than expected, so favourites win fewer long races "
+        "than predicted. Players have good and bad days, or the ratings lag behind."
+        + (f" {also[0].upper()}{also[1:]} would have the same effect." if also else "")
+    )
+
+
 def _prior(found: Validation, scale: Scale) -> str:
     """Return whether the default prior will do, where the verdict does not say which to use."""
     if len(found.priors) == 1 or found.skill.low <= 0.0 or at_the_edge(found.prior_sd, found):
@@ -143,76 +153,6 @@ def _prior(found: Validation, scale: Scale) -> str:
         f"Rating with --prior {points_text(found.prior_sd, scale)} would suit this league best; "
         f"the default of {points_text(PRIOR_SD, scale)} points will do too."
     )
-
-
-_EXPLAINED = (
-    "How good the predictions were, with 95 % intervals. Log-loss is the mean of -ln of the chance "
-    "given to what happened, the Brier score the mean squared error: lower is better, and a coin "
-    "has 0.6931 and 0.25. The slope says whether chances mean what they say: 1 is right, below 1 "
-    "they are too extreme, above 1 too cautious. Plug-in takes the ratings at face value, "
-    "integrated averages over their uncertainty. The prior, in points, is how far apart players "
-    "are assumed to be before any result."
-)
-
-
-def _scored(found: Validation, scale: Scale) -> Table:
-    columns = [
-        Column("of", "what", left=True),
-        Column("how", "how", left=True),
-        Column("prior", "prior", decimals(1)),
-        Column("log_loss", "log-loss", lambda one: _span(one, 4, "-")),
-        Column("brier", "Brier", decimals(3)),
-        Column("slope", "slope", lambda one: _span(one, 2, " to ")),
-    ]
-    rows = [
-        (
-            *(row.of, row.how, row.prior_sd * scale.points_per_log_odds),
-            *(row.log_loss, row.brier.value, row.slope),
-        )
-        for row in found.scored
-    ]
-    return Table("", columns, rows)
-
-
-def _span(estimate: Estimate, digits: int, to: str) -> str:
-    value, low, high = (f"{part:.{digits}f}" for part in estimate)
-    return f"{value}  {low}{to}{high}"
-
-
-def _matches(found: Validation) -> list[Part]:
-    """Return how often favourites won matches, where there were races."""
-    if not found.matches:
-        return []
-    columns = [
-        Column("predicted", "chance given", decimals(3)),
-        Column("matches", "matches"),
-        Column("seen", "won", decimals(3)),
-        Column("range", "95 % interval", lambda ends: f"{ends[0]:.3f} to {ends[1]:.3f}"),
-    ]
-    rows = [(row.predicted, row.matches, row.seen, _around(row)) for row in found.matches]
-    return [Table("", columns, rows, "Matches that the favourite won:")]
-
-
-def _by_spot(found: Validation) -> list[Part]:
-    """Return how often players who gave games won, by how many they gave."""
-    if not found.spots:
-        return []
-    columns = [
-        Column("spot", "games given", lambda spot: str(spot)),
-        Column("matches", "matches"),
-        Column("won", "won"),
-        Column("share", "share", decimals(3)),
-        Column("range", "95 % interval", lambda ends: f"{ends[0]:.3f} to {ends[1]:.3f}"),
-        Column("expected", "predicted", decimals(3)),
-    ]
-    rows = [
-        (
-            *("all" if row.spot is None else row.spot, row.matches, row.won, row.share),
-            *((row.low, row.high), row.expected),
-        )
-        for row in found.spots
-    ]
-    return [Table("", columns, rows, "Matches that the player who gave games won:")]
 
 
 def _figures(found: Validation, scale: Scale) -> dict[str, Any]:
