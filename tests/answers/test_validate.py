@@ -25,7 +25,7 @@ def test_the_verdict_comes_first(demo_answer, demo):
 def test_the_answer_fits_a_screen_and_statistics_are_details(demo_answer):
     shown = to_text(demo_answer)
     assert shown.count("\n") <= 40
-    for word in ("log-loss", "Brier", "slope", "plug-in", "(p "):
+    for word in ("log-loss", "Brier", "slope", "plug-in", "spread of scores"):
         assert word not in shown
         assert word in to_text(demo_answer, verbose=True)
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from evenbreak.ratings.daily_refit import DailyRefit
 from evenbreak.ratings.pairs import count_pairs
-from evenbreak.ratings.posterior import curvature, find_mode
+from evenbreak.ratings.posterior import find_mode
 
 RNG = np.random.default_rng(4)
 PLAYERS, MATCHES = 12, 60
@@ -30,7 +30,7 @@ def test_day_by_day_ends_where_one_fit_does():
 def test_the_variance_of_a_difference_is_that_of_the_inverse_hessian():
     league = refitted(40)
     pairs = count_pairs(PLAYERS, A[:40], B[:40], WON[:40], LOST[:40])
-    covariance = np.linalg.inv(curvature(pairs, league.skill, 2.0).matrix.toarray())
+    covariance = np.linalg.inv(pairs.curvature(league.skill, 0.0, 2.0, None).matrix.toarray())
     a, b = np.array([0, 3, 5]), np.array([1, 7, 5])
     exact = covariance[a, a] + covariance[b, b] - 2 * covariance[a, b]
     np.testing.assert_allclose(league.difference_variance(a, b), exact, rtol=1e-9, atol=1e-12)

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from scipy.special import expit
 
 from evenbreak.ratings.pairs import count_pairs
-from evenbreak.ratings.posterior import curvature, find_mode
+from evenbreak.ratings.posterior import find_mode
 
 
 def two_players(won, lost):
@@ -27,7 +27,7 @@ def test_two_players_are_where_wins_and_prior_balance(precision):
 def test_the_curvature_is_the_laplacian_of_games_plus_the_prior():
     skill = np.array([0.4, -0.2])
     weight = 12 * expit(0.6) * expit(-0.6)
-    matrix = curvature(two_players(9, 3), skill, 2.0).matrix.toarray()
+    matrix = two_players(9, 3).curvature(skill, 0.0, 2.0, None).matrix.toarray()
     np.testing.assert_allclose(matrix, [[weight + 2, -weight], [-weight, weight + 2]])
 
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.special import expit
 
+from evenbreak.ratings.covariance import sums_by_player
 from evenbreak.ratings.newton import damped, find_zero, tolerance
-from evenbreak.ratings.pairs import sums_by_player
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

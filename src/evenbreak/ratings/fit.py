@@ -123,7 +123,7 @@ def fit(
         found = _by_all(
             likelihood_terms(scored, won_only, weights, breaks=breaks.enters), prior_sd, breaks
         )
-    component = _components(found.graph)
+    component = _components(found.played.graph)
     rating = centre + scale.points_per_log_odds * found.skill
     races_won, races_lost = _races(won_only)
     return Ratings(
@@ -168,7 +168,6 @@ class _Found(NamedTuple):
     gradient: float
     iterations: int
     played: PairCounts | LikelihoodTerms
-    graph: sparse.csr_array
     advantage: float | None = None
     break_precision: float | None = None
     break_games: float = 0.0
@@ -185,7 +184,7 @@ class _Break(NamedTuple):
 def _by_games(pairs: PairCounts, prior_sd: float) -> _Found:
     """Return the mode where every game counts alike."""
     mode = find_mode(pairs, prior_sd**-2)
-    return _Found(mode.point, mode.gradient, mode.iterations, pairs, pairs.games)
+    return _Found(mode.point, mode.gradient, mode.iterations, pairs)
 
 
 def _by_all(terms: LikelihoodTerms, prior_sd: float, breaks: _Break) -> _Found:
@@ -202,7 +201,6 @@ def _by_all(terms: LikelihoodTerms, prior_sd: float, breaks: _Break) -> _Found:
         mode.gradient,
         mode.iterations,
         terms,
-        terms.graph,
         mode.advantage if enters else None,
         break_precision,
         known,

@@ -14,7 +14,6 @@ from evenbreak.errors import InputError
 from evenbreak.ratings.covariance import Curvature
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
 from evenbreak.ratings.pairs import PairCounts
-from evenbreak.ratings.posterior import curvature
 from evenbreak.ratings.scale import Scale
 
 Floats = NDArray[np.float64]
@@ -95,8 +94,6 @@ class Ratings:
     @property
     def weight(self) -> float:
         """How many games, and matches known by their winner alone, there are, by weight."""
-        if isinstance(self._played, PairCounts):
-            return float(self._played.games.sum())
         return self._played.amount
 
     @cached_property
@@ -226,11 +223,10 @@ class Ratings:
 
     @cached_property
     def _curvature(self) -> Curvature:
-        precision = self.prior_sd**-2
-        if isinstance(self._played, PairCounts):
-            return curvature(self._played, self._skill, precision)
         advantage = self.scale.log_odds(self.break_advantage or 0.0)
-        return self._played.curvature(self._skill, advantage, precision, self._break_precision)
+        return self._played.curvature(
+            self._skill, advantage, self.prior_sd**-2, self._break_precision
+        )
 
     def _levels(self) -> list[tuple[NDArray[np.bool_], Floats]]:
         """Return the players of each anchored component, and each one's share in its level."""

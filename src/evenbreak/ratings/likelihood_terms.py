@@ -19,9 +19,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.special import expit
 
-from evenbreak.ratings.covariance import Curvature
+from evenbreak.ratings.covariance import Curvature, sums_by_player
 from evenbreak.ratings.own_break_wins import BreakWinsTerms
-from evenbreak.ratings.pairs import sums_by_player
 from evenbreak.ratings.race_likelihood import race_slopes
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.who_broke import count_broken

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
+from scipy.special import expit
+
+from evenbreak.ratings.covariance import Curvature
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -25,6 +28,28 @@ class PairCounts:
     games: sparse.csr_array
     low: NDArray[np.intp]
     high: NDArray[np.intp]
+
+    @property
+    def graph(self) -> sparse.csr_array:
+        """Who met whom: shape (players, players), upper triangular."""
+        return self.games
+
+    @property
+    def amount(self) -> float:
+        """How many games there are."""
+        return float(self.games.sum())
+
+    def curvature(
+        self,
+        skill: Floats,
+        advantage: float,  # noqa: ARG002
+        precision: float,
+        break_precision: float | None,  # noqa: ARG002
+    ) -> Curvature:
+        """Return the Hessian of the negative log-posterior; the break does not matter here."""
+        difference = skill[self.low] - skill[self.high]
+        weight = self.games.data * expit(difference) * expit(-difference)
+        return Curvature(len(skill), self.low, self.high, weight, precision)
 
 
 def count_pairs(
@@ -51,29 +76,3 @@ def count_pairs(
         np.repeat(np.arange(players), np.diff(games.indptr)),
         games.indices.astype(np.intp),
     )
-
-
-def sums_by_player(
-    players: int,
-    low: NDArray[np.intp],
-    high: NDArray[np.intp],
-    for_low: Floats,
-    for_high: Floats | None = None,
-) -> Floats:
-    """Return for each player the sum over their pairs.
-
-    Parameters
-    ----------
-    players
-        how many there are.
-    low, high
-        the two players of each pair.
-    for_low, for_high
-        what each pair adds to its low and its high player; the same where only one is given.
-
-    >>> sums_by_player(3, np.array([0, 0]), np.array([1, 2]), np.array([1.0, 10.0]))
-    array([11., 1., 10.])
-    """
-    total: Floats = np.bincount(low, for_low, players).astype(np.float64)
-    total += np.bincount(high, for_low if for_high is None else for_high, players)
-    return total

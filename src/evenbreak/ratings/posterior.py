@@ -23,18 +23,11 @@ from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, cg
 from scipy.special import expit
 
-from evenbreak.ratings.covariance import Curvature
+from evenbreak.ratings.covariance import sums_by_player
 from evenbreak.ratings.newton import Mode, damped, find_zero, tolerance
-from evenbreak.ratings.pairs import PairCounts, sums_by_player
+from evenbreak.ratings.pairs import PairCounts
 
 Floats = NDArray[np.float64]
-
-
-def curvature(pairs: PairCounts, skill: Floats, precision: float) -> Curvature:
-    """Return the Hessian of the negative log-posterior, in natural log-odds."""
-    difference = skill[pairs.low] - skill[pairs.high]
-    weight = pairs.games.data * expit(difference) * expit(-difference)
-    return Curvature(len(skill), pairs.low, pairs.high, weight, precision)
 
 
 def find_mode(pairs: PairCounts, precision: float) -> Mode:
