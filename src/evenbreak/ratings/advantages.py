@@ -30,7 +30,7 @@ class FirstBreaks(NamedTuple):
     p_value
         the two-sided chance of as large a difference.
     matches
-        races of which the first breaker is known.
+        races whose first breaker is known.
     """
 
     won: int
@@ -112,7 +112,7 @@ def break_advantage(forecasts: Forecasts) -> Estimate | None:
 
 
 def known_breaks(forecasts: Forecasts) -> int:
-    """Return how many racks `break_advantage` counts: those of which it is known who broke."""
+    """Return how many racks `break_advantage` counts: those whose breaker is known."""
     return int(_tally(forecasts).sum())
 
 

@@ -78,7 +78,7 @@ def fit(
         back from this day. None is the last date of the results.
     break_advantage
         by how many points the breaker of a rack plays better; 'fit' to estimate it from
-        the racks of which it is known who broke (see `count_broken`); None: the break
+        the racks whose breaker is known (see `count_broken`); None: the break
         does not matter.
 
     Raises

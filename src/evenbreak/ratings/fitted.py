@@ -46,7 +46,7 @@ class Ratings:
     matches, forfeits, empty
         rows used, rows left out as forfeits, and rows left out as 0-0.
     races_won, races_lost
-        matches of each player of which only the race and the winner are known.
+        matches of each player that are known by race and winner alone.
     named
         the players whose ratings anchor their components, and these ratings.
     half_life, as_of, later
@@ -56,7 +56,7 @@ class Ratings:
         by how many points the breaker of a rack plays better, estimated or given; None
         where the break does not matter.
     break_games
-        the games, by weight, of which it is known who broke, if the break matters.
+        the games, by weight, whose breaker is known, if the break matters.
     """
 
     players: tuple[str, ...]

@@ -79,7 +79,7 @@ class LikelihoodTerms:
 
     @property
     def games_with_breaker(self) -> float:
-        """How many games, weighted, there are of which it is known who broke."""
+        """How many games, weighted, have a known breaker."""
         return float((self.won + self.lost)[self.broke != 0].sum())
 
     def log_likelihood(self, skill: Floats, advantage: float = 0.0) -> float:
@@ -140,8 +140,8 @@ def likelihood_terms(
     Parameters
     ----------
     scored, won_only
-        matches with games in them, and matches of which only race and winner are known,
-        between the same players.
+        matches with games in them, and matches known by race and winner alone, between the
+        same players.
     weights
         of the matches in `scored` and in `won_only`.
     breaks

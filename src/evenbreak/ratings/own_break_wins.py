@@ -1,7 +1,7 @@
 """How many racks players won on their own break, where a match is known by its score alone.
 
-In a race of which the break format and the first breaker are known, the score i:j and the
-winner of the last rack determine how many racks each player broke: a broke n of them. It is
+In a race whose break format and first breaker are known, the score i:j and the winner of the
+last rack determine how many racks each player broke: a broke n of them. It is
 not known how many of those a won, k. The sequences of racks with the same k are equally
 likely, and there are c(k) of them, so that with the skills' difference d and the break
 advantage β

@@ -21,7 +21,7 @@ from scipy.special import betainc, betaln, expit, hyp2f1, log_expit
 from evenbreak.errors import InputError
 
 _FAR = 1e-200
-"""Below such a chance W is not formed, so that neither it nor its logarithm underflows."""
+"""For smaller chances the logarithm is worked out without W, which would underflow."""
 
 
 class RaceSlopes(NamedTuple):

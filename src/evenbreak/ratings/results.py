@@ -204,7 +204,7 @@ class Results:
         return Played(kept, int(forfeit.sum()), int((empty & ~forfeit).sum()))
 
     def won_only(self) -> Results:
-        """Return the matches of which only the race and the winner are known, without forfeits."""
+        """Return the matches known by race and winner alone, without forfeits."""
         if self.unscored is None:
             return self.select(np.zeros(0, dtype=np.int64))
         return self.select(self.unscored & ~self.given_away)

@@ -68,11 +68,11 @@ class Streaks(NamedTuple):
 
 
 def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | None:
-    """Compare the spread of scores about the predictions with seasons that the model plays.
+    """Compare the spread of scores about the predictions with that of simulated seasons.
 
-    Returns None where there is no race with games after the first date. A value above
-    what chance plays tells of good and bad days, or of ratings that lag behind; one
-    below it of matches that are kept close.
+    None where there is no race with games after the first date. More spread than by chance
+    points to good and bad days, or to ratings that lag behind; less, to matches that are
+    kept close.
     """
     rows = (forecasts.race_a > 0) & (forecasts.date_of > 0)
     if not rows.any():
