@@ -142,7 +142,8 @@ def on_a_terminal(command: str) -> str:
             shown += piece
     os.close(ours)
     assert process.returncode == 0, shown.decode()
-    return shown.decode().replace("\r\n", "\n")
+    # A line that shows progress is written over.
+    return re.sub(r"[^\n]*\r", "", shown.decode().replace("\r\n", "\n"))
 
 
 @pytest.mark.usefixtures("desk")

@@ -60,6 +60,16 @@ ASKED = {
     "oneball_alone": "oneball 0.4 0.8",
     "chain": "chain data/safety_battle.csv",
     "chain_steps": "chain data/safety_battle.csv --steps 4",
+    "rate": "rate data/demo_league.csv --scale fargo",
+    "rate_asked": "rate data/demo_league.csv --prior best --half-life 180 --break-advantage fit "
+    "--anchor 'Zoë Kestleman=100'",
+    "rate_pair": "rate data/demo_league.csv --pair 'Zoë Kestleman' 'Ines Valbrecht'",
+    "rate_system": "rate --system npl --roster data/demo_roster.csv --chart npl_10 "
+    "--aliases data/demo_aliases.csv data/demo_night.csv",
+    "rate_newcomers": "rate --system npl --roster data/demo_newcomers.csv "
+    "data/demo_newcomers_night.csv",
+    "validate": "validate data/demo_league.csv",
+    "validate_prior": "validate data/demo_league.csv --prior 200",
     "report": "report data/demo_league.csv --out OUT --top 6",
     "report_lengths": "report data/demo_league.csv --out OUT --scale fargo --games 7..13 --top 14",
     "matchups": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10",

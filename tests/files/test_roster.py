@@ -3,9 +3,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.answers.rate_frames import rate_frame
+from evenbreak.answers.faces.to_csv import to_csv
+from evenbreak.answers.rate import rate_answer
 from evenbreak.errors import DataError
-from evenbreak.files.csv_writer import to_csv
+from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import OPTIONAL, REQUIRED, read_roster
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.roster import NOT_STATED
@@ -57,7 +58,8 @@ def test_a_list_of_ratings_is_a_roster_with_the_errors_of_differences(tmp_path):
     season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
     ratings = fit(season)
     path = tmp_path / "ratings.csv"
-    path.write_bytes(to_csv(rate_frame(ratings)))
+    answer = rate_answer(ResultsFile(season, "season.csv", (), (), ""), ratings)
+    path.write_text("".join(to_csv(answer)), encoding="utf-8")
     roster = read_roster(path).roster
     at = [ratings.players.index(name) for name in roster.players]
     np.testing.assert_allclose(roster.standard_error, ratings.quasi_error[at], atol=1e-6)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.answers.rating_changes_frame import moves_of_files
+from evenbreak.answers.night_results import moves_of_files
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import RosterFile

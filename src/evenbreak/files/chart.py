@@ -11,7 +11,7 @@ from pathlib import Path
 from evenbreak.errors import DataError
 from evenbreak.files.cells import whole_numbers
 from evenbreak.files.problems import Problems, printable, quoted
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow, row_faults
@@ -93,10 +93,10 @@ def read_chart_file(path: str | Path) -> ChartFile:
     return ChartFile(ChartDraft(name, rows), faults.listed(), table.warnings)
 
 
-def _check_columns(table: Table, needed: Mapping[str, Sequence[str]]) -> None:
+def _check_columns(table: TextTable, needed: Mapping[str, Sequence[str]]) -> None:
     """Note missing columns, or missing rows, as problems."""
     missing = [column for column in needed if column not in table]
-    if not table.columns:
+    if not table.found:
         table.problems.add(
             None,
             "has none of the columns of a chart; name the columns "
@@ -112,7 +112,7 @@ def _check_columns(table: Table, needed: Mapping[str, Sequence[str]]) -> None:
         table.problems.add(None, "has no rows of a chart; write one per line below the header")
 
 
-def _rows(table: Table) -> tuple[ChartRow, ...]:
+def _rows(table: TextTable) -> tuple[ChartRow, ...]:
     """Return the rows as they are; cells that are not whole numbers are noted as problems."""
     start, end, stronger, weaker = (_whole(table, name) for name in DIFFERENCES)
     has_end = map(bool, table.cells("difference_to"))
@@ -122,7 +122,7 @@ def _rows(table: Table) -> tuple[ChartRow, ...]:
     )
 
 
-def _levels(table: Table, name: str) -> LevelChart:
+def _levels(table: TextTable, name: str) -> LevelChart:
     """Return a chart by skill level; a DataError with all problems where there is none."""
     own, other, needs, theirs = (_whole(table, column) for column in LEVELS)
     table.problems.raise_any()
@@ -153,7 +153,7 @@ def _levels(table: Table, name: str) -> LevelChart:
 
 
 def _note(
-    table: Table,
+    table: TextTable,
     found: dict[tuple[int, int], tuple[int, int]],
     pair: tuple[int, int],
     games: int,
@@ -169,18 +169,18 @@ def _note(
         )
 
 
-def _whole(table: Table, column: str) -> list[int]:
+def _whole(table: TextTable, column: str) -> list[int]:
     """Return a column of whole numbers, 0 where a cell may be empty and is."""
     games = column.endswith("needs")
     wanted = "points, such as 7" if column in DIFFERENCES else "a skill level, such as 4"
-    values, _ = whole_numbers(
+    found = whole_numbers(
         table,
         column,
         at_least=1 if games else 0,
         remedy=f"write {'a number of games, such as 5' if games else wanted}",
         may_be_empty=column in MAY_BE_EMPTY,
     )
-    return list(map(int, values))
+    return list(map(int, found.values))
 
 
 def read_chart(path: str | Path) -> Chart | LevelChart:

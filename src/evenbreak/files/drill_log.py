@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.files.cells import read_cells, whole_numbers
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.practice.drill_log import MOST_LEVELS, DrillLog
 
 if TYPE_CHECKING:
@@ -108,11 +108,11 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
     return DrillLogFile(log, table.source, (*table.warnings, *_jump_warning(table, log)))
 
 
-def _sessions(table: Table) -> NDArray[np.int64]:
-    """Return a number for each row, which changes where the session or the date does."""
+def _sessions(table: TextTable) -> NDArray[np.int64]:
+    """Return a number for each row that changes where the session or the date does."""
     changes = np.zeros(len(table), dtype=bool)
     for name in OPTIONAL:
-        distinct, codes = table.texts(name)
+        distinct, codes = table.columns[name]
         stated = np.array([bool(text) for text in distinct], dtype=bool)[codes]
         # The last row with something in the cell: an empty cell means the same as that one.
         said = np.maximum.accumulate(np.where(stated, np.arange(len(table)), 0))
@@ -120,7 +120,7 @@ def _sessions(table: Table) -> NDArray[np.int64]:
     return changes.cumsum()
 
 
-def _jump_warning(table: Table, log: DrillLog) -> list[str]:
+def _jump_warning(table: TextTable, log: DrillLog) -> list[str]:
     if not len(log.jumps):
         return []
     row = int(log.jumps[0])

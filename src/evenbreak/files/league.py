@@ -20,7 +20,7 @@ from evenbreak.files.roster import (
     roster_of,
 )
 from evenbreak.files.schedule import LAST_WEEK
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.league.players import ESTABLISHED, LeaguePlayers
 from evenbreak.ratings.roster import NOT_STATED, Roster
 
@@ -137,7 +137,7 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     )
 
 
-def _check_ratings(table: Table) -> None:
+def _check_ratings(table: TextTable) -> None:
     """Note ratings that are too far out; what is no number `roster_of` tells."""
     aside = replace(table, problems=Problems(table.source))
     rating = numbers(aside, "rating", remedy="", may_be_empty=True).values
@@ -152,7 +152,7 @@ def _check_ratings(table: Table) -> None:
 
 
 def _within(
-    table: Table, name: str, example: str, least: float, most: float
+    table: TextTable, name: str, example: str, least: float, most: float
 ) -> NDArray[np.float64]:
     """Read a column of numbers from `least` to `most`, NaN where a cell is empty."""
     remedy = f"write {example}, or leave it empty"
@@ -165,7 +165,7 @@ def _within(
     return values
 
 
-def _week(table: Table, name: str) -> NDArray[np.int64]:
+def _week(table: TextTable, name: str) -> NDArray[np.int64]:
     """Read a column of weeks, 0 where a cell is empty."""
     remedy = "write 1 for the first week, 2, ..., or leave it empty"
     weeks: NDArray[np.int64] = whole_numbers(

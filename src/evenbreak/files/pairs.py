@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.files.known_names import KnownNames
+from evenbreak.files.player_names import clean_name
 from evenbreak.files.problems import quoted
 from evenbreak.files.results_columns import REQUIRED as RESULTS
-from evenbreak.files.results_columns import clean_name
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.ratings.roster import Roster
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     return PairsFile(pairs, table.warnings)
 
 
-def pairs_in(table: Table, roster: Roster) -> NDArray[np.int64]:
+def pairs_in(table: TextTable, roster: Roster) -> NDArray[np.int64]:
     """Return the pairs in a table as places in the roster, -1 where it notes a problem."""
     known = KnownNames(roster.players)
     pairs = np.full((len(table), 2), -1)

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.files.cells import numbers, whole_numbers
+from evenbreak.files.player_names import clean_name
 from evenbreak.files.problems import quoted
-from evenbreak.files.results_columns import clean_name
-from evenbreak.files.similar_names import similar_names
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.similar_names import similar_name_warnings, similar_names
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.ratings.roster import NOT_STATED, Roster
 
 if TYPE_CHECKING:
@@ -55,9 +55,6 @@ LEAGUE = {
 
 LARGEST = 1e6
 """The largest rating or error that is accepted, in points."""
-
-WARNED = 20
-"""How many groups of similar names are listed; the rest are counted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +111,7 @@ def read_roster(path: str | Path) -> RosterFile:
     return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **seasons}))
 
 
-def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
+def roster_of(table: TextTable, *, all_rated: bool = False) -> RosterFile:
     """Return the roster in a table, or raise all the problems found in it.
 
     Parameters
@@ -154,13 +151,14 @@ def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
         )
     table.problems.raise_any()
     roster = Roster(names, rating, error, games, component=component, matches=matches)
-    warnings = (*table.warnings, *_alike(names, table.source))
+    similar = similar_name_warnings(similar_names(names), table.source, "if so, keep one of them")
     sha256 = hashlib.sha256(table.content).hexdigest()
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
+    warnings = (*table.warnings, *similar)
     return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi)
 
 
-def _names(table: Table) -> list[str]:
+def _names(table: TextTable) -> list[str]:
     """Return the names, noting those that are empty or appear twice."""
     names = [clean_name(text) for text in table.cells("player")]
     first: dict[str, int] = {}
@@ -177,14 +175,13 @@ def _names(table: Table) -> list[str]:
     return names
 
 
-def _counts(table: Table, name: str) -> NDArray[np.int64]:
+def _counts(table: TextTable, name: str) -> NDArray[np.int64]:
     """Read a column of counts, `NOT_STATED` where a cell is empty."""
-    counts, good = whole_numbers(table, name, may_be_empty=True)
-    stated = np.array([bool(text) for text in table.cells(name)], dtype=bool)
-    return np.where(stated & good, counts, NOT_STATED)
+    counts = whole_numbers(table, name, may_be_empty=True)
+    return np.where(counts.stated & counts.good, counts.values, NOT_STATED)
 
 
-def _points(table: Table, name: str, remedy: str, *, least: float) -> NDArray[np.float64]:
+def _points(table: TextTable, name: str, remedy: str, *, least: float) -> NDArray[np.float64]:
     """Read a column of points from `least` to `LARGEST`, NaN where a cell is empty."""
     points: NDArray[np.float64] = numbers(table, name, remedy=remedy, may_be_empty=True).values
     table.problems.add_rows(
@@ -193,15 +190,3 @@ def _points(table: Table, name: str, remedy: str, *, least: float) -> NDArray[np
         lambda row: f"{name} {points[row]:g} is not from {least:,.0f} to {LARGEST:,.0f}; {remedy}",
     )
     return points
-
-
-def _alike(names: list[str], source: str) -> list[str]:
-    groups = similar_names(names)
-    listed = [
-        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one "
-        "player; if so, keep only one of them"
-        for group in groups[:WARNED]
-    ]
-    more = len(groups) - WARNED
-    more_groups = [f"{source}: and {more:,} more groups of similar names"] if more > 0 else []
-    return [*listed, *more_groups]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.cells import whole_numbers
 from evenbreak.files.pairs import PAIRS, pairs_in
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.league.schedule import FixedSchedule
 from evenbreak.ratings.roster import Roster
 
@@ -77,7 +77,7 @@ def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
     return ScheduleFile(FixedSchedule(week, *pairs.T), table.source, warnings)
 
 
-def _twice(table: Table, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> Iterator[str]:
+def _twice(table: TextTable, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> Iterator[str]:
     """Yield a line for each match that another line of the same week has too, up to a few."""
     _, first, same = np.unique(
         np.column_stack([week, np.sort(pairs, axis=1)]),

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.cells import dates, numbers
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.stats.confidence import LARGEST
 
 REQUIRED = {"score": ("points", "result", "total", "balls")}
@@ -68,7 +68,7 @@ def read_scores(path: str | Path) -> ScoresFile:
     )
 
 
-def _undated(table: Table, rows: NDArray[np.int64]) -> list[str]:
+def _undated(table: TextTable, rows: NDArray[np.int64]) -> list[str]:
     """Return a warning if some scores have a date and others, those of `rows`, do not."""
     if "date" not in table or rows.size == len(table):
         return []

@@ -188,10 +188,10 @@ def test_aliases_mend_names_and_the_page_keeps_their_folder_to_itself(run, tmp_p
     words = ("report", "-", "--out", str(out), "--aliases", str(aliases), "--html")
     result = run(*words, stdin=season)
     assert result.exit_code == 0
-    assert f"{aliases} says: 'Annie' as 'Ann'" in result.stderr
+    assert f"{aliases} : 'Annie' as 'Ann'" in result.stderr
     assert {row["player"] for row in rows(out, "ratings.csv")} == {"Ann", "Bo", "Cy"}
     page = content(out)["sheet.html"].decode()
-    assert "aliases.csv says: &#39;Annie&#39; as &#39;Ann&#39;" in page
+    assert "aliases.csv: &#39;Annie&#39; as &#39;Ann&#39;" in page
     assert "private" not in page
 
 
@@ -237,7 +237,7 @@ def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "code", "remedy"),
     [
-        (["--prior", "0"], 2, "'0'"),
+        (["--prior", "0"], 2, "--prior is 0"),
         (["--prior", "1e9"], 2, "--prior"),
         (["--half-life", "0"], 2, "'0'"),
         (["--as-of", "yesterday"], 2, "'yesterday'"),
