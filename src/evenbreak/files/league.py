@@ -48,8 +48,8 @@ class LeagueFile:
         what the file is called in messages.
     warnings
         what a person should look at although the file can be used, a line each.
-    guessed
-        how many players have a skill that is drawn, from rating and standard error.
+    drawn
+        for how many players the skill is drawn, from rating and standard error.
     exact
         how many are taken to be rated rightly, for want of a skill and a standard error.
     """
@@ -58,7 +58,7 @@ class LeagueFile:
     roster: Roster
     source: str
     warnings: tuple[str, ...]
-    guessed: int
+    drawn: int
     exact: int
 
 

@@ -4,7 +4,6 @@ from .dump_cycle import dump_cycle as dump_cycle
 from .nights import Night as Night
 from .nights import nights_of as nights_of
 from .nights import played_nights as played_nights
-from .on_dask import DaskExecutor as DaskExecutor
 from .one_season import PlayedSeason as PlayedSeason
 from .one_season import season_matches as season_matches
 from .play import run_chunk as run_chunk

@@ -17,16 +17,19 @@ from contextlib import closing
 from functools import reduce
 from itertools import islice
 from operator import add
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from evenbreak.checks import whole
 from evenbreak.league.batches import Parts, parts_of
-from evenbreak.league.executors import in_order
 from evenbreak.league.play import run_chunk
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
+from evenbreak.league.workers import in_order
+
+if TYPE_CHECKING:
+    import distributed
 
 _BATCH = 64
 """Tallies that are added up before they are added to the rest: each sum copies what it has."""
@@ -83,7 +86,7 @@ def simulate(
     *,
     replicas: int,
     seed: int,
-    executor: Executor | None = None,
+    executor: Executor | distributed.Client | None = None,
     jobs: int = 1,
     progress: Callable[[int, int], None] | None = None,
 ) -> Tally:
@@ -98,8 +101,8 @@ def simulate(
     seed
         a whole number from 0; the same one gives the same tally to the last bit.
     executor
-        who works: a `DaskExecutor` for a cluster, or any executor of `concurrent.futures`; None
-        for as many processes as `jobs` says.
+        who works: any executor of `concurrent.futures`, or a `distributed.Client` for a dask
+        cluster; None: as many processes as `jobs` says.
     jobs
         number of processes where there is no executor; 1 works in this one.
     progress
@@ -110,7 +113,7 @@ def simulate(
     InputError
         if a number is not whole or too small.
     WorkerError
-        if a worker process ends before its work is done, or the cluster is gone.
+        if a worker process ends before its work is done.
 
     Notes
     -----

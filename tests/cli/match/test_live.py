@@ -3,11 +3,11 @@ import io
 import json
 
 import pytest
+from evenbreak.cli.match.live_table import comeback_text
 from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.cli.match.live import COLUMNS, OF_THE_TABLE
-from evenbreak.cli.match.live_table import comeback_text
 from evenbreak.games import Ahead, Race, Rack, winner_breaks
 from evenbreak.matches import live_odds, race_win_probability
 

@@ -8,16 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from evenbreak.answers.season_frames import (
-    fairness_frame,
-    season_frame,
-    standings_frame,
-    weeks_frame,
-)
+from evenbreak.answers.season_tables import fairness_frame, standings_frame, weeks_frame
 from evenbreak.league import (
     FixedSchedule,
     LeaguePlayers,
-    RandomPairing,
     Season,
     Tally,
     run_chunk,
@@ -196,20 +190,3 @@ def test_one_replica_has_no_errors_and_somebody_who_never_plays_no_part():
     assert frame["p_win"].isna().tolist().count(True) == 1
     assert frame["player"].iloc[0] in {"player 1", "player 2"}
     assert weeks_frame(tally)["error_mean_se"].isna().all()
-
-
-def test_the_summary_says_what_was_simulated_and_what_came_of_it():
-    season = Season(LeaguePlayers.of([90, 60]), "npl", None, RandomPairing(2), weeks=3)
-    frame = season_frame(season, chunks(season, 3, 10), {"seed": 7})
-    told = frame.set_index("quantity")["value"]
-    assert told["seed"] == 7
-    assert (told["system"], told["chart"], told["schedule"]) == (
-        "npl",
-        "npl_10",
-        "random, 2 a week",
-    )
-    assert (told["replicas"], told["matches_a_season"]) == (30, 6.0)
-    assert told["mean_rating_change"] == 0.0
-    errors = frame.set_index("quantity")["standard_error"]
-    assert errors["p_stronger_wins"] > 0
-    assert math.isnan(errors["seed"])

@@ -1,4 +1,4 @@
-"""The tables of one simulated season in full: its matches, and what is behind them."""
+"""The tables of one simulated season in full: its matches, and the true skills behind them."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ def matches_frame(played: PlayedSeason) -> pd.DataFrame:
 
 
 def truth_frame(season: Season, played: PlayedSeason) -> pd.DataFrame:
-    """Return what nobody knows of a real league: the skills behind the matches of one season.
+    """Return what is never known of a real league: the true skills behind the matches.
 
     Returns
     -------
     pandas.DataFrame
-        player; rating, with which he began; skill, the true one then; rating_end and
-        skill_end, those after the last week. `read_league` takes it for a roster.
+        player; rating and skill, at the start; rating_end and skill_end, after the last week.
+        `read_league` reads it as a roster.
     """
     import pandas as pd
 

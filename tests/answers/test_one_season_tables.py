@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from evenbreak.answers.one_season_frames import matches_frame, truth_frame
+from evenbreak.answers.one_season_tables import matches_frame, truth_frame
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.files.league import read_league
 from evenbreak.files.results import read_results
