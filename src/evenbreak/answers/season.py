@@ -188,9 +188,10 @@ def _luck(data: Mapping[str, Any]) -> str:
         return "How much of the table is luck? One season cannot show it; simulate more."
     share = luck**2 / (between**2 + luck**2) if between or luck else 1.0
     return (
-        f"How much of the table is luck? About {100 * share:.0f} % of the differences in one season's "
-        "table; the rest is who the players are and how often they play. A player's wins vary by "
-        f"about {luck:.1f} from season to season, and the players' averages by about {between:.1f}."
+        f"How much of the table is luck? About {100 * share:.0f} % of the differences in one "
+        "season's table; the rest is who the players are and how often they play. A player's wins "
+        f"vary by about {luck:.1f} from season to season, and the players' averages by about "
+        f"{between:.1f}."
     )
 
 
@@ -213,7 +214,7 @@ def _standings(standings: pd.DataFrame) -> Table:
     return Table("", columns, rows)
 
 
-def _cells(record: Mapping[str, Any]) -> tuple[Any, ...]:
+def _cells(record: Mapping[Any, Any]) -> tuple[Any, ...]:
     # One season has no spread, and of a large league no histograms are kept.
     low, high = record["points_p10"], record["points_p90"]
     known = not math.isnan(record["points_sd"]) and low == low

@@ -224,7 +224,7 @@ _MEASURES = ("p_win", "p_hill_hill", "p_shutout", "mean_games")
 
 
 def _spans(season: Season, tally: Tally) -> tuple[int, Floats]:
-    """Return gaps put together to wider ones: their width, and sums of shape (batches, spans, 5)."""
+    """Return gaps put together to wider ones: the width, and sums of shape (batches, spans, 5)."""
     third = season.system.scale.points_per_doubling / 3.0
     each = max(1, round(third / tally.gap_width))
     starts = np.arange(0, tally.gaps.shape[1], each)

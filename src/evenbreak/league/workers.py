@@ -81,10 +81,13 @@ def in_order(
             with _processes(jobs, task, shared) as submit:
                 yield from _results(submit, pieces, jobs)
         elif isinstance(executor, Executor):
-            yield from _results(partial(executor.submit, task, shared), pieces, os.cpu_count() or 1)
+            submit = executor.submit
+            workers = os.cpu_count() or 1
+            yield from _results(lambda piece: submit(task, shared, piece), pieces, workers)
         else:
-            workers = sum(executor.nthreads().values())
-            yield from _results(_on_cluster(executor, task, shared), pieces, workers)
+            client: Any = executor
+            workers = sum(client.nthreads().values())
+            yield from _results(_on_cluster(client, task, shared), pieces, workers)
     except BrokenExecutor as error:
         raise WorkerError(
             "a worker process ended before its work was done: it was killed (did memory run out?), "
@@ -164,10 +167,10 @@ def _interrupts_blocked() -> Iterator[None]:
 
 
 def _begin(task: Callable[[Any, Any], Any], shared: Any) -> None:
-    """In a new worker process: keep the task, and end at once with Ctrl-C or the parent."""
+    """In a new worker process: keep the task, ignore Ctrl-C, and end when the parent does."""
     global _kept
     _kept = (task, shared)
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     Thread(target=_end_with_parent, daemon=True).start()
@@ -182,4 +185,10 @@ def _end_with_parent() -> None:
 
 def _do(piece: Any) -> Any:
     task, shared = _kept
-    return task(shared, piece)
+    # Ctrl-C ends a worker at once, except while it sends a result: the pool would wait for the
+    # rest of it forever.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        return task(shared, piece)
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.values import refuse
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ class SystemName(click.ParamType):  # type: ignore[type-arg]
             self.fail(str(error), param, ctx)
 
 
-def system_option(default: str | None = "npl") -> Any:
+def system_option(default: str | None = "npl") -> Decorator[Any]:
     """Return the option --system; without a default, a command gets None for npl."""
     return click.option(
         "--system",

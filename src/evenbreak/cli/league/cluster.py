@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
 from threading import Thread
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from evenbreak.errors import EvenbreakError, InputError, WorkerError
 
@@ -40,10 +40,11 @@ def cluster_at(address: str) -> Iterator[distributed.Client]:
     for name in ("distributed", "tornado.application"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     found: Future[distributed.Client] = Future()
+    start: Any = Client
 
     def connect() -> None:
         try:
-            found.set_result(Client(address, timeout=_PATIENCE, set_as_default=False))
+            found.set_result(start(address, timeout=_PATIENCE, set_as_default=False))
         except Exception as error:
             found.set_exception(error)
 
