@@ -24,10 +24,12 @@ COMMANDS = {
     "fair": Entry("match.fair", "Find the race that is nearest to an even chance."),
     "matchups": Entry("league.matchups", "Tell tonight's races for a list of rated players."),
     "chart": Entry("chart", "List and show handicap charts, audit one, or design one."),
-    "ladder": Entry("ladder.ladder", "Tell how wrong a league's ratings are, how fair its nights."),
-    "sandbag": Entry("sandbag", "Tell what losing on purpose pays, and watch for it."),
+    "ladder": Entry(
+        "ladder.ladder", "Show how far off ratings are in the long run, and what helps."
+    ),
+    "sandbag": Entry("sandbag", "Show what losing on purpose pays, and watch for it."),
     "simulate": Entry(
-        "league.simulate", "Simulate a league's season: ratings, nights, who profits."
+        "league.simulate", "Simulate a league's season: ratings, fairness, who gains."
     ),
     "validate": Entry("league.validate", "Tell how far the ratings of a league can be trusted."),
     "oneball": Entry("match.oneball", "Answer who wins the one-ball game, and which shot is best."),

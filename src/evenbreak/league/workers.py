@@ -81,9 +81,8 @@ def in_order(
             with _processes(jobs, task, shared) as submit:
                 yield from _results(submit, pieces, jobs)
         elif isinstance(executor, Executor):
-            submit = executor.submit
-            workers = os.cpu_count() or 1
-            yield from _results(lambda piece: submit(task, shared, piece), pieces, workers)
+            give, workers = executor.submit, os.cpu_count() or 1
+            yield from _results(lambda piece: give(task, shared, piece), pieces, workers)
         else:
             client: Any = executor
             workers = sum(client.nthreads().values())

@@ -1,10 +1,15 @@
-"""A season from its files: nights, problems told once, and the lines of players and matches."""
+"""Who is flagged and after which match, and what each match of a player weighs."""
 
 import numpy as np
 import pytest
 
-from evenbreak.answers.watch_files import events_marked, match_rows, nights_of_files, watch_rows
-from evenbreak.errors import DataError, InputError
+from evenbreak.answers.sandbag_watch import (
+    match_rows,
+    sandbag_player_answer,
+    sandbag_watch_answer,
+    watch_rows,
+)
+from evenbreak.answers.season_nights import nights_of_files
 from evenbreak.files.results import read_results
 from evenbreak.files.roster import read_roster
 from evenbreak.handicaps import Ladder, chart, system_of
@@ -23,28 +28,6 @@ def files(folder, season=SEASON, roster=ROSTER):
     for name, text in (("season.csv", season), ("roster.csv", roster)):
         (folder / name).write_text(text, encoding="utf-8")
     return read_roster(folder / "roster.csv"), read_results(folder / "season.csv")
-
-
-def test_nights_move_the_ratings_and_a_forfeit_does_not(tmp_path):
-    first, season = files(tmp_path)
-    nights = nights_of_files(NPL, first, season, chart=TEN)
-    assert [night.rows.tolist() for night in nights] == [[0], [1], [2, 3]]
-    assert nights[-1].moves.after.rating.tolist() == [81, 79]
-
-
-def test_a_stranger_is_told_once_with_his_line(tmp_path):
-    first, season = files(tmp_path, SEASON.replace("Bo", "Boo"))
-    with pytest.raises(DataError) as caught:
-        nights_of_files(NPL, first, season, chart=TEN)
-    (problem,) = caught.value.problems
-    assert problem.split("/")[-1].startswith("season.csv:2: 'Boo' is not on the list")
-
-
-def test_events_that_count_for_little(tmp_path):
-    _, season = files(tmp_path)
-    assert events_marked(season.results, ["league"]).tolist() == [True, False, True, True]
-    with pytest.raises(InputError, match=r"'leage' is not in the results.*cup, league"):
-        events_marked(season.results, ["leage"])
 
 
 def test_lines_of_players_and_of_one_players_matches(tmp_path):
@@ -76,3 +59,26 @@ def test_an_alarm_has_its_match_and_date(tmp_path):
     assert row.flagged
     assert row.league_wide
     assert row.alarm_date == str(file.results.date[row.alarm_match - 1])
+
+
+def test_the_answer_names_the_flagged_and_shows_the_others(tmp_path):
+    first, season = files(tmp_path)
+    nights = nights_of_files(NPL, first, season, chart=TEN)
+    flagged = watch(nights, NPL, Ladder("npl").law(), alpha=0.5)
+    answer = sandbag_watch_answer(flagged, season.results, "season.csv")
+    names = [row.player for row in watch_rows(flagged, season.results) if row.flagged]
+    assert all(name in answer.sentences[0] for name in names)
+    assert f"{len(names)} of 2" in answer.sentences[0] or "None" in answer.sentences[0]
+    assert [row["player"] for row in answer.to_dict()["players"]] == list(
+        answer.to_frame()["player"]
+    )
+    one = sandbag_player_answer(flagged[0], nights, season.results)
+    assert len(one.to_dict()["matches"]) == 3
+
+
+def test_a_season_without_matches_has_no_players(tmp_path):
+    _, season = files(tmp_path)
+    empty = season.results.select(np.array([], dtype=int))
+    answer = sandbag_watch_answer([], empty, "season.csv")
+    assert answer.to_dict()["players"] == []
+    assert len(answer.parts) == 1
