@@ -12,9 +12,9 @@ from . import ratings as ratings
 from . import sheets as sheets
 from . import source_text as source_text
 from . import stats as stats
+from .chains.absorption import absorption as absorption
+from .chains.absorption import expected_visits as expected_visits
 from .chains.explore import chain_of as chain_of
-from .chains.limits import absorption as absorption
-from .chains.limits import expected_visits as expected_visits
 from .chains.limits import limit_matrix as limit_matrix
 from .chains.limits import stochastic_limit as stochastic_limit
 from .chains.mixing import mixing_time as mixing_time

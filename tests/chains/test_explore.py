@@ -256,7 +256,7 @@ class Endless(Wild):
     [
         ({0: {1: -0.5, 2: 1.5}}, GameError, "0 -> 1 has probability -0.5"),
         ({0: {1: float("nan")}}, GameError, "probability nan"),
-        ({0: {1: 0.0, 2: 0.0}}, GameError, "no move from 0 has a chance"),
+        ({0: {1: 0.0, 2: 0.0}}, GameError, "every move from 0 has probability 0"),
         ({0: {1: 0.5, 2: 0.4}}, ChainError, "'?0'? sum to 0.9"),
         ({0: {1: 1.5}}, GameError, "probability 1.5"),
     ],

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from evenbreak.answers.scale_doubts import two_ratings_doubts
+from evenbreak.answers.scale_words import scale_words
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale
@@ -92,13 +93,3 @@ class TwoPlayers:
         if self.first_breaker != usual or not always:
             text += f", {self.names[self.first_breaker - 1]} breaks first"
         return text
-
-
-def scale_words(scale: Scale) -> str:
-    """Return a scale in words.
-
-    >>> from evenbreak.ratings import scale_of
-    >>> scale_words(scale_of("fargo"))
-    'on the fargo scale (100 points double the odds)'
-    """
-    return f"on the {scale.name} scale ({scale.points_per_doubling:.6g} points double the odds)"

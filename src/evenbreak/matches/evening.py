@@ -1,12 +1,12 @@
-"""When an evening of matches ends: several tables, a list of matches, chance lengths.
+"""When an evening of matches ends: a list of matches of random length on several tables.
 
-Whenever a table is free, the first match of the list of which neither player is at another
-table begins there. Lengths are independent of each other.
+Whenever a table is free, the first match on the list whose players are both free begins there.
+Lengths are independent of each other.
 
-With one table the end is the sum of all lengths, a convolution. With several, and nobody on
-the list twice, the state after each match is when each table gets free, in the order of
-those times: the law of the end is exact while these states are few. Otherwise the evening is
-played out many times by pseudo-random numbers.
+With one table the end is the sum of all lengths, a convolution. With several tables, and no
+player on the list twice, the state after each match is the sorted list of times at which the
+tables become free; the distribution of the end is exact while these states are few. Otherwise
+the evening is simulated many times.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
 _MOST_MOVES = 1_000_000  # states times lengths of one exact step
-_WORK = 200_000_000  # matches times matches times runs that are played out
+_WORK = 200_000_000  # matches times matches times simulated runs
 _FEWEST_RUNS, _MOST_RUNS = 1_000, 50_000
 _MOST_MATCHES = 1_000
 _LONGEST = 100_000  # games of a match
@@ -48,7 +48,7 @@ class LengthLaw(Protocol):
 
 
 class Length(NamedTuple):
-    """The law of one match's length: P(it takes games[k] games) = probability[k]."""
+    """The distribution of a match's length: P(it takes games[k] games) = probability[k]."""
 
     games: ArrayLike
     probability: ArrayLike
@@ -56,19 +56,19 @@ class Length(NamedTuple):
 
 @dataclass(frozen=True)
 class Evening:
-    """When the last match ends, in games: the time that one game takes is the unit.
+    """When the last match ends; the unit is the time that one game takes.
 
     Parameters
     ----------
     mean, sd
         mean and standard deviation of the end.
     p90
-        the smallest time by which all is over with chance .9.
+        the smallest time by which all is over with probability 0.9.
     runs
-        how many evenings were played out; 0 where the answer is exact.
+        how many evenings were simulated; 0 where the answer is exact.
     mean_error
-        the standard error of `mean` from playing out; 0 where exact. `p90` has none: it is a
-        whole number, which as a rule comes out the same each time.
+        the standard error of `mean` from the simulation; 0 where exact. `p90` has none: it is
+        a whole number, which usually comes out the same each time.
     """
 
     mean: float
@@ -79,7 +79,7 @@ class Evening:
 
     @property
     def exact(self) -> bool:
-        """Whether the answer is exact, without pseudo-random numbers."""
+        """Whether the answer is exact, without simulation."""
         return self.runs == 0
 
 
@@ -96,26 +96,25 @@ def evening(
     Parameters
     ----------
     lengths
-        the law of each match's length in games, in the order of the list: a `Length`, a
-        `MatchLength`, a `RaceLaw`.
+        the distribution of each match's length in games, in the order of the list: a `Length`,
+        a `MatchLength` or a `RaceLaw`.
     tables
         how many tables there are.
     players
-        the two players of each match, so that nobody plays twice at once; None: no player is
-        on the list twice.
+        the two players of each match, so that nobody plays two matches at once; None: no
+        player is on the list twice.
     rng
-        where pseudo-random numbers come from, if there is need of them; None: a generator
-        with the seed 0.
+        the random generator, if one is needed; None: a generator with the seed 0.
     runs
-        how often the evening is played out; None: exact where that is quick, otherwise
-        50,000 times, fewer for more than some sixty matches.
+        how often the evening is simulated; None: exact where that is quick, otherwise 50,000
+        times, fewer for more than about sixty matches.
 
     Raises
     ------
     InputError
-        if there is no match, a length is no law, `tables` is not a whole number above 0,
-        `players` has not just one pair of two different players for each match, or more than
-        a thousand matches would have to be played out.
+        if there is no match, a length is not a distribution, `tables` is not a whole number
+        above 0, `players` does not have one pair of different players for each match, or more
+        than a thousand matches would have to be simulated.
 
     >>> coin = Length([1, 2], [0.5, 0.5])
     >>> evening([coin] * 4).p90, evening([coin] * 4).mean, evening([coin] * 4, tables=2).mean
@@ -134,7 +133,7 @@ def evening(
             end = _all_at_once(laws) if tables == len(laws) else _several_tables(laws, tables)
         if end is not None:
             return _exact(end)
-    return _played_out(laws, tables, pairs, rng or np.random.default_rng(0), runs)
+    return _simulated(laws, tables, pairs, rng or np.random.default_rng(0), runs)
 
 
 def _law(length: LengthLaw, name: str) -> Floats:
@@ -142,7 +141,9 @@ def _law(length: LengthLaw, name: str) -> Floats:
     games, probability = np.asarray(length.games), np.asarray(length.probability)
     right = games.ndim == 1 and games.shape == probability.shape and games.size > 0
     if not right or games.dtype.kind not in "iu" or probability.dtype.kind not in "iuf":
-        raise InputError(f"{name} is no law; give games, whole numbers, and a chance for each")
+        raise InputError(
+            f"{name} is not a distribution; give whole numbers of games, and a chance for each"
+        )
     if games.min() < 0 or games.max() > _LONGEST:
         raise InputError(f"{name} has games outside 0 to {_LONGEST:,}; give numbers of games")
     if not (probability >= 0).all() or abs(probability.sum() - 1.0) > 1e-6:
@@ -163,7 +164,7 @@ def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int)
     number: dict[Hashable, int] = {}
     for one, other in players:
         if one == other:
-            raise InputError(f"players has {one!r} against himself; give two players")
+            raise InputError(f"players has {one!r} on both sides; give two players")
     return np.array(
         [[number.setdefault(player, len(number)) for player in pair] for pair in players]
     )
@@ -177,16 +178,16 @@ def _one_table(laws: list[Floats]) -> Floats:
 
 
 def _all_at_once(laws: list[Floats]) -> Floats:
-    """Return the law of the longest of all."""
+    """Return the distribution of the longest of all."""
     longest = max(map(len, laws))
     within = np.prod([np.cumsum(np.pad(law, (0, longest - len(law)))) for law in laws], axis=0)
     return np.diff(within, prepend=0.0)
 
 
 def _several_tables(laws: list[Floats], tables: int) -> Floats | None:
-    """Return the law of the end where no player plays twice; None if that takes too many states.
+    """Return the distribution of the end where no player plays twice; None if too hard.
 
-    A state is when each table gets free, in ascending order; the next match begins at the
+    A state is when each table becomes free, in ascending order; the next match begins at the
     first of these times.
     """
     base = sum(len(law) for law in laws)
@@ -218,7 +219,7 @@ def _exact(end: Floats) -> Evening:
     return Evening(mean, sd, int(p90 or 0), 0, 0.0)
 
 
-def _played_out(
+def _simulated(
     laws: list[Floats], tables: int, pairs: Ints, rng: np.random.Generator, runs: int | None
 ) -> Evening:
     matches = len(laws)
@@ -247,7 +248,7 @@ def _ends(lengths: Ints, tables: int, pairs: Ints) -> Ints:
     for _ in range(matches):
         table = table_free.argmin(axis=1)
         free = table_free[row, table]
-        # Of the matches that can begin first, the first of the list.
+        # Of the matches that can begin first, the first on the list.
         match = np.maximum(ready, free[:, None]).argmin(axis=1)
         done = np.maximum(ready[row, match], free) + lengths[row, match]
         table_free[row, table] = done
