@@ -1,5 +1,6 @@
 """Systems side by side: what is advised, and what files hold."""
 
+import numpy as np
 import pytest
 
 from evenbreak.answers.ladder_comparison import (
@@ -9,6 +10,7 @@ from evenbreak.answers.ladder_comparison import (
 )
 from evenbreak.handicaps import chart
 from evenbreak.handicaps.ladders.comparison import SystemRow
+from evenbreak.league import Reestimated
 
 
 def row(system, name, sd, settling):
@@ -54,6 +56,16 @@ def test_files_say_which_steps_are_beaten(asked):
     frame = asked(LONGER).to_frame()
     assert frame["on_front"].tolist() == [None, None, None, True]
     assert asked(LONGER).to_dict()["systems"][-1]["on_front"] is True
+
+
+def test_refitted_ratings_stand_below_the_systems_with_their_errors():
+    refitted = Reestimated(row("refit", "npl_10", 5.5, 9.2), 0.21, 2.7, 0.0, np.zeros((8, 52)))
+    found = LadderComparison(chart("npl_10"), "equal skill", [OWN, NEW], [(STEP, True)], refitted)
+    answer = ladder_comparison_answer(found)
+    assert any("0.21 points" in text and "2.7" in text for text in answer.sentences)
+    frame = answer.to_frame()
+    assert frame["system"].tolist() == ["npl", NEWCOMERS, "refit", "step 10"]
+    assert frame["sd_se"].dropna().tolist() == [0.21]
 
 
 def test_inflating_systems_are_named(asked):

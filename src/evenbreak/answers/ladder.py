@@ -31,8 +31,6 @@ OPPONENTS = {
 }
 """Who the opponents are, by the word for it."""
 
-_FORM = "Everybody's form varies (standard deviation) by"
-
 _FEW, _ALL = 0.1, 0.995
 """Chances below the first are written as one in so many, above the second as nearly all."""
 
@@ -87,13 +85,17 @@ def _heading(found: LadderFindings) -> str:
     ]
     if ladder.day_sd:
         many = count_of(ladder.matches_a_night, "match", "matches")
-        lines.append(f"{_FORM} {ladder.day_sd:g} points from night to night, {many} a night.")
+        lines.append(f"{_form(ladder.day_sd)} from night to night, {many} a night.")
     if ladder.match_sd:
-        lines.append(f"{_FORM} {ladder.match_sd:g} points from match to match.")
+        lines.append(f"{_form(ladder.match_sd)} from match to match.")
     if ladder.drift:
         way = "rises" if ladder.drift > 0.0 else "falls"
         lines.append(f"The player's skill {way} by {abs(ladder.drift):g} points a match.")
     return "\n".join(lines)
+
+
+def _form(sd: float) -> str:
+    return f"Everybody's form varies by {sd:g} points (standard deviation)"
 
 
 def _how_far_off(found: LadderFindings) -> str:
