@@ -91,7 +91,7 @@ def test_all_that_is_wrong_is_told_with_lines_and_remedies(files):
 def test_a_score_at_odds_with_the_chart(files):
     told = problems(files, f"{HEADER}\nAnn,Cy,5,3\n", chart=chart("npl_10"))
     assert len(told) == 1
-    assert told[0].startswith(":2: 5-3 is no end of the race 6:4")
+    assert told[0].startswith(":2: 5-3 does not finish the race 6:4")
 
 
 def test_races_that_are_not_the_charts_and_further_nights_are_told(files):

@@ -13,7 +13,7 @@ from evenbreak.answers.season_nights import nights_of_files
 from evenbreak.files.results import read_results
 from evenbreak.files.roster import read_roster
 from evenbreak.handicaps import Ladder, chart, system_of
-from evenbreak.league.watch import watch
+from evenbreak.league.sandbag_watch import watch
 
 NPL, TEN = system_of("npl"), chart("npl_10")
 ROSTER = "player,rating\nAnn,80\nBo,80\n"

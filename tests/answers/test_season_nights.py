@@ -27,7 +27,7 @@ def test_nights_move_the_ratings_and_a_forfeit_does_not(tmp_path):
     first, season = files(tmp_path)
     nights = nights_of_files(NPL, first, season, chart=TEN)
     assert [night.rows.tolist() for night in nights] == [[0], [1], [2, 3]]
-    assert nights[-1].moves.after.rating.tolist() == [81, 79]
+    assert nights[-1].changes.after.rating.tolist() == [81, 79]
 
 
 def test_a_stranger_is_a_problem_once_with_the_first_line(tmp_path):

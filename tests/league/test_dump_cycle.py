@@ -6,7 +6,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.handicaps import Ladder, chart
 from evenbreak.league.dump_cycle import best_cycle, dump_cycle
-from evenbreak.league.sandbag import dumped_matrix, earnest_matrix
+from evenbreak.league.sandbag_pay import dumped_matrix, earnest_matrix
 from evenbreak.matches import race_win_probability
 
 

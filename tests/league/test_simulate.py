@@ -15,7 +15,7 @@ from evenbreak.league import (
     run_chunk,
     simulate,
 )
-from evenbreak.league.batches import Parts, parts_of
+from evenbreak.league.batches import Batching, batching_of
 from evenbreak.league.simulate import _Work
 
 SEASON = Season(
@@ -38,7 +38,7 @@ def as_bytes(tally):
 def small_chunks():
     """Part the few replicas of these tests as many are."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(sys.modules[parts_of.__module__], "_CHUNK", 20 * len(SEASON.players))
+        patched.setattr(sys.modules[batching_of.__module__], "_CHUNK", 20 * len(SEASON.players))
         yield
 
 
@@ -62,7 +62,7 @@ def test_a_season_sent_by_itself_is_the_same(alone):
 
 
 def test_chunks_have_the_streams_that_the_seed_spawns(alone):
-    assert parts_of(SEASON, 205) == Parts(replicas=10, batches=2)
+    assert batching_of(SEASON, 205) == Batching(replicas=10, batches=2)
     *full, left = np.random.SeedSequence(3).spawn(11)
     tallies = [run_chunk(SEASON, 10, seed, batches=2) for seed in full]
     tallies.append(run_chunk(SEASON, 5, left))
@@ -81,7 +81,7 @@ def test_how_sums_are_bracketed_changes_nothing(monkeypatch, alone, name, value)
 
 @pytest.mark.parametrize("replicas", [1, 9, 1000, 64_001, 1_000_000])
 def test_parcels_are_every_chunk_once_in_order(replicas):
-    work = _Work(SEASON, replicas, parts_of(SEASON, replicas), 1)
+    work = _Work(SEASON, replicas, batching_of(SEASON, replicas), 1)
     numbers = [number for parcel in work.parcels() for number in parcel]
     assert numbers == list(range(work.chunks()))
 

@@ -12,12 +12,8 @@ from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import RosterFile
 from evenbreak.files.similar_names import similar_names
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.systems.rating_changes import (
-    MatchMove,
-    Moves,
-    apply_results,
-    night_problems,
-)
+from evenbreak.handicaps.systems.night_problems import night_problems
+from evenbreak.handicaps.systems.rating_changes import MatchChange, RatingChanges, apply_results
 from evenbreak.handicaps.systems.system import System
 from evenbreak.ratings.consistency import Problem
 from evenbreak.ratings.results import Results
@@ -29,7 +25,7 @@ if TYPE_CHECKING:
 
 def moves_of_files(
     system: System, last: RosterFile, tonight: ResultsFile, *, chart: Chart | None = None
-) -> Moves:
+) -> RatingChanges:
     """Return how a night's results move the ratings of a list.
 
     Raises
@@ -81,7 +77,7 @@ def _perhaps(names: Iterable[str]) -> str:
     return f"; if {named} is meant, write that or say so in --aliases" if named else ""
 
 
-def moves_frame(moves: Moves) -> pd.DataFrame:
+def moves_frame(moves: RatingChanges) -> pd.DataFrame:
     """Return the list after a night, the strongest first, players without a rating last.
 
     Returns
@@ -120,7 +116,7 @@ def moves_frame(moves: Moves) -> pd.DataFrame:
     return frame
 
 
-def reasons(moves: Moves) -> dict[int, list[str]]:
+def reasons(moves: RatingChanges) -> dict[int, list[str]]:
     """Return for the place of each player who played what each of his matches was."""
     players = moves.before.players
     told: dict[int, list[str]] = {}
@@ -131,7 +127,7 @@ def reasons(moves: Moves) -> dict[int, list[str]]:
     return told
 
 
-def _scores(match: MatchMove) -> tuple[str, str]:
+def _scores(match: MatchChange) -> tuple[str, str]:
     """Return the score and race of a match, as the winner tells them and as the loser does."""
     told = ["", ""]
     for place, turn in enumerate((1, -1)):
@@ -144,7 +140,7 @@ def _scores(match: MatchMove) -> tuple[str, str]:
     return told[0], told[1]
 
 
-def night_warnings(moves: Moves, tonight: ResultsFile, chart: Chart) -> Iterator[str]:
+def night_warnings(moves: RatingChanges, tonight: ResultsFile, chart: Chart) -> Iterator[str]:
     """Yield what a person should look at in a night that was played by a chart, a line each.
 
     That is each match that was played by another race than the chart's, and a file of more

@@ -13,7 +13,7 @@ from evenbreak.errors import InputError
 if TYPE_CHECKING:
     from evenbreak.handicaps.ladders.ladder import Ladder
     from evenbreak.league.dump_cycle import DumpCycle
-    from evenbreak.league.sandbag import DumpRow, Sandbagging
+    from evenbreak.league.sandbag_pay import DumpRow, Sandbagging
 
 CYCLE = 10
 """The matches of the cycles of dumping and playing in earnest that are looked at."""
@@ -82,7 +82,7 @@ def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -
         if one match dumped already takes the rating to the ladder's end.
     """
     from evenbreak.league.dump_cycle import best_cycle
-    from evenbreak.league.sandbag import entering_low, most_dumped, sandbagging
+    from evenbreak.league.sandbag_pay import entering_low, most_dumped, sandbagging
 
     asked = question._asdict()
     most = most_dumped(ladder, question.start)

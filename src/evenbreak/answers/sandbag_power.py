@@ -10,7 +10,7 @@ from evenbreak.answers.sandbag_watch import HONEST_PLAYER, evidence
 from evenbreak.answers.wording import decimals, percent
 
 if TYPE_CHECKING:
-    from evenbreak.league.watch_power import WatchPower
+    from evenbreak.league.sandbag_power import WatchPower
 
 
 def sandbag_power_answer(

@@ -12,8 +12,8 @@ from evenbreak.answers.answer import Answer, Column, Part, Table
 from evenbreak.answers.wording import count_of, decimals, listed, percent, race
 
 if TYPE_CHECKING:
-    from evenbreak.league.nights import Night
-    from evenbreak.league.watch import Watched
+    from evenbreak.league.nights import PlayedNight
+    from evenbreak.league.sandbag_watch import Watched
     from evenbreak.ratings.results import Results
 
 SHOWN = 10
@@ -172,7 +172,7 @@ def _players(rows: Sequence[WatchRow]) -> Iterator[Part]:
 
 def sandbag_player_answer(
     one: Watched,
-    nights: Sequence[Night],
+    nights: Sequence[PlayedNight],
     results: Results,
     *,
     warnings: Sequence[str] = (),
@@ -237,7 +237,7 @@ def _matches(rows: Sequence[tuple[Any, ...]]) -> Table:
     return Table("", columns, view)
 
 
-def match_rows(one: Watched, nights: Sequence[Night]) -> list[tuple[Any, ...]]:
+def match_rows(one: Watched, nights: Sequence[PlayedNight]) -> list[tuple[Any, ...]]:
     """Return a line for each match of a player: what it was, and what it did to the evidence.
 
     Returns
@@ -247,8 +247,8 @@ def match_rows(one: Watched, nights: Sequence[Night]) -> list[tuple[Any, ...]]:
     """
     found, place = [], 0
     for night in nights:
-        players, rating = night.moves.before.players, night.moves.before.rating
-        for match in night.moves.matches:
+        players, rating = night.changes.before.players, night.changes.before.rating
+        for match in night.changes.matches:
             sides = (match.winner, match.loser)
             if one.player not in (players[sides[0]], players[sides[1]]):
                 continue

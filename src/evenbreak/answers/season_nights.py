@@ -10,7 +10,7 @@ import numpy as np
 
 from evenbreak.answers.rating_changes_frame import moves_of_files
 from evenbreak.errors import DataError, InputError
-from evenbreak.league.nights import Night, played_nights
+from evenbreak.league.nights import PlayedNight, played_nights
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from evenbreak.files.results import ResultsFile
     from evenbreak.files.roster import RosterFile
     from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.rating_changes import Moves
+    from evenbreak.handicaps.systems.rating_changes import RatingChanges
     from evenbreak.handicaps.systems.system import System
     from evenbreak.ratings.results import Results
     from evenbreak.ratings.roster import Roster
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 def nights_of_files(
     system: System, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
-) -> list[Night]:
+) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
 
     Parameters
@@ -47,7 +47,7 @@ def nights_of_files(
     """
     problems: dict[str, None] = {}
 
-    def of_night(list_: Roster, rows: NDArray[np.int64]) -> Moves:
+    def of_night(list_: Roster, rows: NDArray[np.int64]) -> RatingChanges:
         # The season goes on without a night that has problems, so that all are listed at once.
         kept = rows
         while True:

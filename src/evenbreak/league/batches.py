@@ -27,14 +27,14 @@ _MATCHES = 1 << 24
 """Matches of a chunk of several batches at most: long seasons are for several workers too."""
 
 
-class Parts(NamedTuple):
+class Batching(NamedTuple):
     """How replicas are parted: `replicas` in a batch, `batches` in a chunk."""
 
     replicas: int
     batches: int
 
 
-def parts_of(season: Season, replicas: int) -> Parts:
+def batching_of(season: Season, replicas: int) -> Batching:
     """Return how to part replicas: a chunk has as many of them as the cache holds.
 
     There are 20 batches or more where there are as many replicas, since standard errors come
@@ -42,11 +42,11 @@ def parts_of(season: Season, replicas: int) -> Parts:
 
     >>> from evenbreak.league import LeaguePlayers, Season
     >>> season = Season(LeaguePlayers.of([50] * 64), "npl")
-    >>> parts_of(season, 100_000), parts_of(season, 2000)
-    (Parts(replicas=1024, batches=1), Parts(replicas=100, batches=10))
+    >>> batching_of(season, 100_000), batching_of(season, 2000)
+    (Batching(replicas=1024, batches=1), Batching(replicas=100, batches=10))
     """
     at_once = 1 if len(season.players) > ALONE else _CHUNK // len(season.players)
     batch = max(1, min(at_once, replicas // _BATCHES))
     matches = batch * season.weeks * len(season.players) // 2
     most = at_once // batch, _CELLS // len(season.lookup.wins), _MATCHES // max(matches, 1)
-    return Parts(batch, max(1, min(most)))
+    return Batching(batch, max(1, min(most)))

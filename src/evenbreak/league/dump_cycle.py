@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.ladder import Ladder
-from evenbreak.league.sandbag import at_the_end, dumped_matrix, earnest_matrix, start_law
+from evenbreak.league.sandbag_pay import at_the_end, dumped_matrix, earnest_matrix, start_law
 
 Floats = NDArray[np.float64]
 

@@ -1,6 +1,6 @@
 """One season match by match: every rack, as a league would write it down.
 
-What `evenbreak.league.play` does for thousands of seasons at a time is done here for one, the
+What `evenbreak.league.many_seasons` does for thousands of seasons is done here for one, the
 obvious way, so that the results can be rated like those of any league, and so that the fast
 way has a witness.
 """

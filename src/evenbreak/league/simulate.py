@@ -22,8 +22,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from evenbreak.checks import whole
-from evenbreak.league.batches import Parts, parts_of
-from evenbreak.league.play import run_chunk
+from evenbreak.league.batches import Batching, batching_of
+from evenbreak.league.many_seasons import run_chunk
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
 from evenbreak.league.workers import in_order
@@ -48,7 +48,7 @@ class _Work(NamedTuple):
 
     season: Season
     replicas: int
-    parts: Parts
+    parts: Batching
     seed: int
 
     def chunks(self) -> int:
@@ -130,7 +130,7 @@ def simulate(
     seed, jobs = whole(seed, "seed"), whole(jobs, "jobs", at_least=1)
     # Made once and sent: computed by each worker, its last bits might be those of another machine.
     _ = season.lookup
-    work = _Work(season, replicas, parts_of(season, replicas), seed)
+    work = _Work(season, replicas, batching_of(season, replicas), seed)
     parcels = work.parcels()
     jobs = min(jobs, len(parcels))
     tell = progress or _tell_nobody

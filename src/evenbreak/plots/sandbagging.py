@@ -11,8 +11,8 @@ from evenbreak.plots.style import LINES, new_axes
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from evenbreak.league.sandbag import Sandbagging
-    from evenbreak.league.watch import Watched
+    from evenbreak.league.sandbag_pay import Sandbagging
+    from evenbreak.league.sandbag_watch import Watched
 
 MOST_NAMED = 6
 """How many players are named in the picture of a league; the others are thin lines."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.rating_changes import Moves
+    from evenbreak.handicaps.systems.rating_changes import RatingChanges
 
 COLUMNS = ("player", "rating_before", "rating", "change", "games")
 """What a terminal shows of the list."""
@@ -46,7 +46,7 @@ def rate_by_system(
     from evenbreak.files.results import read_results
     from evenbreak.files.roster import read_roster
     from evenbreak.handicaps.systems.catalogue import system_of
-    from evenbreak.handicaps.systems.rating_changes import chart_of_night
+    from evenbreak.handicaps.systems.night_problems import chart_of_night
 
     if [path, roster, chart, aliases].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
@@ -95,7 +95,7 @@ def _chart(name: str) -> Chart:
     return found
 
 
-def _heading(moves: Moves, last: str, tonight: str) -> str:
+def _heading(moves: RatingChanges, last: str, tonight: str) -> str:
     """Return by which rule the list was moved, and what was left out."""
     left_out = [
         f"{count:,} {what}"
@@ -113,7 +113,7 @@ def _heading(moves: Moves, last: str, tonight: str) -> str:
     )
 
 
-def _newcomers(moves: Moves) -> str:
+def _newcomers(moves: RatingChanges) -> str:
     """Return how newcomers move, where the list has such and the system a rule for them."""
     from evenbreak.ratings.roster import NOT_STATED
 
@@ -130,7 +130,7 @@ def _newcomers(moves: Moves) -> str:
     return f"Newcomers go {', '.join(stages)}.\n"
 
 
-def _tables(moves: Moves, frame: pd.DataFrame) -> str:
+def _tables(moves: RatingChanges, frame: pd.DataFrame) -> str:
     """Return who played, how they moved and why, a line a match; and then the whole list."""
     from evenbreak.answers.rating_changes_frame import reasons
     from evenbreak.files.problems import printable
@@ -167,7 +167,7 @@ def _plain(frame: pd.DataFrame, *columns: str) -> list[list[Any]]:
     return rows
 
 
-def _as_json(moves: Moves, frame: pd.DataFrame, chart: Chart | None) -> dict[str, Any]:
+def _as_json(moves: RatingChanges, frame: pd.DataFrame, chart: Chart | None) -> dict[str, Any]:
     players = moves.before.players
     columns = list(frame.columns)
     return {

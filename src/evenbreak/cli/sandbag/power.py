@@ -99,7 +99,7 @@ def command(
     as far off as the ladder's are in the long run.
     """
     from evenbreak.answers.sandbag_power import sandbag_power_answer
-    from evenbreak.league.watch_power import watch_power
+    from evenbreak.league.sandbag_power import watch_power
 
     if points is not None and share is None:
         refuse("--points is about the matches that are dumped; give their --share")

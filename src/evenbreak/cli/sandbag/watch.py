@@ -73,7 +73,7 @@ def command(
     from evenbreak.answers.season_nights import events_marked, nights_of_files
     from evenbreak.files.results import read_results
     from evenbreak.files.roster import read_roster
-    from evenbreak.league.watch import watch
+    from evenbreak.league.sandbag_watch import watch
 
     if [results, roster, chart, aliases].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")

@@ -6,7 +6,7 @@ from scipy.stats import binom
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import Ladder
-from evenbreak.league.watch_power import watch_power
+from evenbreak.league.sandbag_power import watch_power
 
 LADDER = Ladder("npl")
 MOST = {alpha: binom.ppf(1.0 - 1e-5, 400, alpha) / 400 for alpha in (0.05, 0.2)}

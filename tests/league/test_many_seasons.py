@@ -24,7 +24,7 @@ from evenbreak.league import (
     run_chunk,
 )
 from evenbreak.league.batches import parts_of
-from evenbreak.league.play import _Chunk
+from evenbreak.league.many_seasons import _Chunk
 from evenbreak.matches import final_scores
 
 SEED = np.random.SeedSequence(20)

@@ -193,7 +193,7 @@ def _law_in_units(error: Distribution, scale: Scale) -> tuple[Floats, int]:
     return np.asarray(np.bincount(values - lowest, weights=chances), dtype=float), lowest
 
 
-class Evidence:
+class SandbagEvidence:
     """The evidence against several players at once, match by match.
 
     Parameters

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from evenbreak.checks import one_of
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.systems.system import System
-from evenbreak.league.evidence import (
+from evenbreak.league.nights import PlayedNight
+from evenbreak.league.sandbag_evidence import (
     DEPTHS,
     FARTHEST,
     GAINS,
@@ -20,12 +21,11 @@ from evenbreak.league.evidence import (
     SHARES,
     SHARES_MARKED,
     WIDEST,
-    Evidence,
     Likelihood,
     Result,
+    SandbagEvidence,
     units,
 )
-from evenbreak.league.nights import Night
 from evenbreak.stats.summary import Distribution
 
 Floats = NDArray[np.float64]
@@ -88,7 +88,7 @@ class Watched:
 
 
 def watch(
-    nights: Iterable[Night],
+    nights: Iterable[PlayedNight],
     system: System,
     error: Distribution,
     *,
@@ -159,9 +159,9 @@ def watch(
     start: dict[int, int] = {}
     names: tuple[str, ...] = ()
     for night in nights:
-        names = night.moves.before.players
-        rating = night.moves.before.rating
-        for match in night.moves.matches:
+        names = night.changes.before.players
+        rating = night.changes.before.rating
+        for match in night.changes.matches:
             row = int(night.rows[match.row])
             may = marked is None or bool(marked[row])
             sides = ((match.winner, match.loser, 1), (match.loser, match.winner, -1))
@@ -226,7 +226,7 @@ def watch_player(
     >>> watch_player(80, [match] * 3, rightly)[0].round(2).tolist()
     [-0.34, -0.63, -0.89]
     """
-    evidence = Evidence(skill_prior(likelihood), shares, len(DEPTHS) + 1)
+    evidence = SandbagEvidence(skill_prior(likelihood), shares, len(DEPTHS) + 1)
     log_e = np.empty((2, len(results)))
     for place, result in enumerate(results):
         shift, (up, down) = rating - result.opponent, drift_room(place)

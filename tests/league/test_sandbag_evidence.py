@@ -6,7 +6,7 @@ from math import comb
 import numpy as np
 import pytest
 
-from evenbreak.league.evidence import (
+from evenbreak.league.sandbag_evidence import (
     DEPTHS,
     FARTHEST,
     SHARES,
@@ -14,7 +14,7 @@ from evenbreak.league.evidence import (
     Likelihood,
     Result,
 )
-from evenbreak.league.watch import watch_player
+from evenbreak.league.sandbag_watch import watch_player
 from evenbreak.ratings.scale import SCALES
 from evenbreak.stats.summary import Distribution
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import CHARTS, Ladder, chart, system_of
-from evenbreak.league.sandbag import (
+from evenbreak.league.sandbag_pay import (
     dumped_matrix,
     earnest_matrix,
     entering_low,

@@ -13,18 +13,18 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.form import deviation_grid, difference_law
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.systems.match_table import match_table
-from evenbreak.league.evidence import (
+from evenbreak.league.sandbag_evidence import (
     DEPTHS,
     FARTHEST,
     HONEST,
     SHARES,
     SHARES_MARKED,
-    Evidence,
     Likelihood,
+    SandbagEvidence,
     units,
 )
-from evenbreak.league.sandbag import refuse_drift, start_law
-from evenbreak.league.watch import at_skills, drift_room, skill_prior
+from evenbreak.league.sandbag_pay import refuse_drift, start_law
+from evenbreak.league.sandbag_watch import at_skills, drift_room, skill_prior
 
 Floats = NDArray[np.float64]
 
@@ -212,7 +212,7 @@ class _Simulated:
         """Return each player's first alarm (their number: none), errors, and wins in earnest."""
         size, many = error.size, dumps.size
         rated = np.array([units(float(one), self.likelihood.scale) for one in error])
-        evidence = Evidence(skill_prior(self.likelihood).repeat(size, axis=0), shares, _WAYS)
+        evidence = SandbagEvidence(skill_prior(self.likelihood).repeat(size, axis=0), shares, _WAYS)
         alarm = np.full(size, many)
         errors = np.empty((size, many), dtype=np.int64)
         earnest = np.zeros(2)
