@@ -19,7 +19,7 @@ def test_the_counts_alone_say_what_is_won(name, dumped, earnest):
     assert cycle.profit == pytest.approx((4.0 - 1.0) * dumped / 2 / (dumped + earnest), abs=1e-6)
 
 
-def test_who_dumps_nothing_gains_nothing():
+def test_dumping_nothing_gains_nothing():
     cycle = dump_cycle(Ladder("npl"), 0, 6)
     assert cycle.rating_error == pytest.approx(0.0, abs=1e-9)
     assert (cycle.p_win, cycle.profit) == pytest.approx((0.5, 0.0))

@@ -23,7 +23,7 @@ from evenbreak.league import (
     Tally,
     run_chunk,
 )
-from evenbreak.league.batches import parts_of
+from evenbreak.league.batches import batching_of
 from evenbreak.league.many_seasons import _Chunk
 from evenbreak.matches import final_scores
 
@@ -181,7 +181,7 @@ def test_a_closed_league_of_equal_players(odd: bool, known: float) -> None:
     assert abs(sd - exact) < 5 * error
 
 
-def test_two_players_who_meet_each_other_only() -> None:
+def test_two_players_who_meet_only_each_other() -> None:
     # Their sum stays, so the difference moves by 2: the law of a chain on a line.
     differences = np.arange(-80, 81, 2)
     m, n = chart("npl_10").races(differences)
@@ -220,7 +220,7 @@ def test_unequal_steps_inflate_by_what_they_are_unequal() -> None:
     assert tally.rating.sum() == tally.matches.sum() / 2
 
 
-def test_both_ways_to_play_tell_the_same() -> None:
+def test_both_ways_to_play_give_the_same() -> None:
     skill = np.array([50, 55, 60, 70, 80, 95])
     tallies = [
         chunks(Season(LeaguePlayers.of(skill), "npl", weeks=20, play=play), 200, 10)
@@ -344,11 +344,11 @@ def test_ratings_that_run_away_are_not_wrapped_round() -> None:
 
 def test_chunks_fit_the_cache_and_there_are_many_batches() -> None:
     season = Season(LeaguePlayers.of([50] * 64), "npl")
-    parts = [tuple(parts_of(season, n)) for n in (1, 31, 64, 2000, 20_000, 10**6)]
+    parts = [tuple(batching_of(season, n)) for n in (1, 31, 64, 2000, 20_000, 10**6)]
     assert parts == [(1, 1024), (1, 1024), (3, 341), (100, 10), (1000, 1), (1024, 1)]
     large = dataclasses.replace(season, players=LeaguePlayers.of([50] * 10**5), schedule=None)
-    assert parts_of(large, 100) == (1, 1)
-    assert parts_of(dataclasses.replace(season, weeks=10_000), 2000) == (100, 1)
+    assert batching_of(large, 100) == (1, 1)
+    assert batching_of(dataclasses.replace(season, weeks=10_000), 2000) == (100, 1)
 
 
 @pytest.mark.parametrize("play", ["matches", "racks"])
@@ -397,7 +397,7 @@ def test_standard_errors_hold_where_replicas_share_their_opponents() -> None:
         assert (stated[:, :] ** 2).mean() > (3 * alone if k == 0 else 0)
 
 
-def test_a_player_has_the_errors_of_his_batches() -> None:
+def test_a_player_has_the_errors_of_the_batches() -> None:
     season = Season(LeaguePlayers.of([50, 60, 70, 80], absence=0.3), "npl", weeks=6)
     seeds = SEED.spawn(40)
     each = [run_chunk(season, 20, seed) for seed in seeds]

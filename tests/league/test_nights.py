@@ -43,6 +43,6 @@ def test_without_dates_each_match_moves_the_next():
     ]
 
 
-def test_what_cannot_be_is_told_by_its_row():
+def test_a_problem_has_its_row():
     with pytest.raises(InputError, match="row 1 of the results"):
         played_nights(NPL, CLUB, results(race_a=[5, 7, 5], race_b=[5, 7, 5]))

@@ -52,7 +52,7 @@ def test_established_is_no_bound_for_the_misrated():
     assert found.flagged[-1] > 0.5
 
 
-def test_who_dumps_more_and_deeper_is_seen_sooner():
+def test_dumping_more_and_deeper_is_flagged_sooner():
     asked = {"matches": 40, "replicas": 100, "marked": 0.5, "seed": 2}
     lightly, heavily = (
         watch_power(LADDER, share=share, points=60, **asked).flagged for share in (0.2, 0.9)

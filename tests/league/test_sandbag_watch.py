@@ -41,7 +41,7 @@ def watched(**asked):
     return {one.player: one for one in watch(played_nights(NPL, club, results), NPL, LAW, **asked)}
 
 
-def test_who_plays_two_games_is_flagged_and_the_others_are_not():
+def test_a_player_with_two_ways_of_playing_is_flagged_and_others_are_not():
     found = watched()
     assert list(found) == ["Ann", "Bo", "Cy"]
     bo = found["Bo"]
@@ -53,7 +53,7 @@ def test_who_plays_two_games_is_flagged_and_the_others_are_not():
     assert found["Cy"].rows.tolist() == list(range(0, 24, 2))
 
 
-def test_known_events_tell_sooner_and_the_wrong_ones_nothing():
+def test_known_events_flag_sooner_and_wrong_ones_never():
     _, results = season()
     league = results.event == "league"
     known, wrong = watched(marked=league)["Bo"], watched(marked=~league)["Bo"]
@@ -68,7 +68,7 @@ def test_against_established_players_the_evidence_is_another():
     assert bo.honest == "established"
 
 
-def test_a_season_without_matches_is_nobody():
+def test_a_season_without_matches_has_no_players():
     assert watch([], NPL, LAW) == []
 
 

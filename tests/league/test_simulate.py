@@ -91,7 +91,7 @@ def test_another_seed_is_another_season(alone):
     assert (other.wins != alone.wins).any()
 
 
-def test_progress_is_told_from_none_to_all():
+def test_progress_goes_from_none_to_all():
     told = []
     simulate(SEASON, replicas=250, seed=1, progress=lambda done, total: told.append((done, total)))
     assert told[0] == (0, 250)

@@ -1,15 +1,15 @@
 """Many replicas of a season at once, a round of matches at a time.
 
-Ratings are an array of small whole numbers, players down and replicas across, so that the
-replicas of a player lie side by side in memory: a round gathers the rows of those who meet,
-looks all their matches up in flat tables by race and skill difference, draws who
-wins with 32 random bits a match, and adds the moves. All is counted on the way. Rounds are
-taken in blocks that stay in the cache.
+Ratings are an array of small whole numbers, players down and replicas across, so the replicas of
+a player lie side by side in memory. A round gathers the rows of the players who meet, looks up
+all their matches in flat tables by race and skill difference, draws each winner with 32 random
+bits, adds the moves, and counts everything on the way. Rounds are played in blocks that stay in
+the cache.
 
-Replicas that lie side by side share the draw of opponents: they are a *batch*. Standard errors
-come from how batches differ, so there must be many, and numpy wants long arrays. So a *chunk*
-plays several batches as if they were one league: the players of the second one stand below
-those of the first.
+Replicas side by side share the draw of opponents: they are a *batch*. Standard errors come from
+the differences between batches, so there must be many of them, while numpy is fast with long
+arrays. So a *chunk* plays several batches as one league, the players of each batch below those of
+the one before.
 """
 
 from __future__ import annotations
@@ -34,16 +34,16 @@ if TYPE_CHECKING:
     from evenbreak.league.players import LeaguePlayers
 
 _BLOCK = 1 << 15
-"""Matches that are played at a time."""
+"""Matches played at a time."""
 
 _HIGHEST = 16_000
-"""Points beyond which differences do not fit 16 bits."""
+"""The highest rating, in points, whose differences fit 16 bits."""
 
 _MANY = 30_000
-"""Matches of a player beyond which the wins of another week might not fit 16 bits."""
+"""With more matches than this a player's wins in another week might not fit 16 bits."""
 
 _LOOK = 8
-"""Weeks after which the highest and the lowest rating are looked up again."""
+"""Weeks between two looks at the highest and the lowest rating."""
 
 _WIN = 1 << 16
 """A win in the upper bits of a player's state."""
@@ -59,16 +59,16 @@ def run_chunk(
     season
         what is played.
     replicas
-        how many times each batch plays it, 1 or more.
+        the replicas in each batch, 1 or more.
     seed
-        whence all draws of the chunk come; the same one gives the same tally.
+        of all draws of the chunk; the same seed gives the same tally.
     batches
-        how many batches there are, 1 or more.
+        the number of batches, 1 or more.
 
     Raises
     ------
     AccuracyError
-        if a rating goes beyond 16,000 points, or a player has more than 30,000 matches.
+        if a rating exceeds 16,000 points, or a player has more than 30,000 matches.
 
     >>> from evenbreak.league import LeaguePlayers
     >>> season = Season(LeaguePlayers.of([92, 80, 71, 64]), "npl", weeks=12)
@@ -86,9 +86,9 @@ def run_chunk(
 class _Chunk:
     """The state of the replicas while they are played.
 
-    Its arrays have a row for each player of the first batch, then of the second one, and so on.
+    The arrays have a row for each player of the first batch, then of the second, and so on.
 
-    `state` has a player's rating in its lower 16 bits and his wins in its upper ones, so that
+    `state` has a player's rating in its lower 16 bits and the wins in its upper ones, so that
     both are gathered and put back together: rating + 2^16 wins.
     """
 
@@ -99,12 +99,12 @@ class _Chunk:
         shape = batches * len(players), replicas
         self.season, self.rng, self.replicas, self.batches = season, rng, replicas, batches
         self.lookup: Lookup = season.lookup
-        # Each batch counts in a table of its own. With the chances once for each of them, the
-        # same place draws a match and counts it.
+        # Each batch counts in a table of its own. With a copy of the chances for each batch, the
+        # same place serves to draw a match and to count it.
         self.wins = self.lookup.wins if batches == 1 else np.tile(self.lookup.wins, batches)
         self.state = np.empty(shape, dtype=np.int32)
         self.state[:] = self._column(players.rating)
-        # One column where all replicas are alike: then there is less to look up.
+        # One column if all replicas are alike, so that there is less to look up.
         self.skill: NDArray[np.floating[Any]] = self._column(players.skill)
         if players.skill_sd.any():
             drawn = rng.standard_normal(shape, dtype=np.float32)
@@ -119,7 +119,7 @@ class _Chunk:
         self.before = None if self.factors is None else self._column(players.played)
         self.drifts, self.strays = bool(players.drift.any()), bool(players.day_sd.any())
         self.stay = bool((players.joins == 1).all() and (players.leaves == 0).all())
-        # Skills in whole points: true ones, and those of the day.
+        # Skills in whole points: the true ones, and those of the day.
         self.points = self.today = _points(self.skill)
         drawn_skills = self.strays or bool(players.skill_sd.any())
         self.beyond = drawn_skills or season.widest_gap > self.lookup.gap
@@ -134,19 +134,19 @@ class _Chunk:
         return stacked[:, None]
 
     def count_week(self, week: int, here: NDArray[np.bool_] | None) -> None:
-        """Count the rating errors after a week, and see to it that the arrays still hold."""
+        """Count the rating errors after a week, and check that the arrays can still hold them."""
         rating = self.state.astype(np.int16)
         if week % _LOOK == 0 or max(self.highest, -self.lowest) > _HIGHEST:
             self.highest, self.lowest = int(rating.max()), int(rating.min())
         if max(self.highest, -self.lowest) > _HIGHEST or self.rounds > _MANY:
             raise AccuracyError(
                 f"weeks is {self.season.weeks}, but by week {week} a rating is beyond {_HIGHEST} "
-                f"points, or a player has had more than {_MANY} matches; play fewer weeks"
+                f"points, or a player has played more than {_MANY} matches; play fewer weeks"
             )
         self.count.week(week, rating, self.points, here)
 
     def here(self, week: int) -> NDArray[np.bool_] | None:
-        """Return which rows are in the league in a week; None: all."""
+        """Return which rows are in the league in a week; None: all of them."""
         return None if self.stay else self._column(self.season.players.here(week))[:, 0]
 
     def play(self, week: int) -> None:
@@ -177,7 +177,7 @@ class _Chunk:
         self.count_week(week, here)
 
     def _rounds(self, week: int, here: NDArray[np.bool_] | None) -> list[Round]:
-        """Return which rows meet, of those who are in the league."""
+        """Return which rows meet in a week, among those in the league."""
         schedule, many = self.season.schedule, len(self.season.players)
         first = many * np.arange(self.batches)[:, None]  # row of each batch
         if isinstance(schedule, RandomPairing):
@@ -192,7 +192,7 @@ class _Chunk:
             return [((who[a] + first).ravel(), (who[b] + first).ravel()) for a, b in drawn]
         if isinstance(schedule, RoundRobin | FixedSchedule):
             rounds = [(a + first, b + first) for a, b in schedule.pairs(week, self.rng, many)]
-        else:  # it may draw as well
+        else:  # a schedule of the user's own, which may draw too
             each = [schedule.pairs(week, self.rng, many) for _ in range(self.batches)]
             rounds = [_below(of_batches, many) for of_batches in zip_longest(*each)]
         if here is None:
@@ -200,7 +200,7 @@ class _Chunk:
         return [(a[both], b[both]) for a, b in rounds for both in [here[a] & here[b]]]
 
     def _count_matches(self, a: NDArray[np.intp], b: NDArray[np.intp]) -> None:
-        """Count what a round adds to the matches of all replicas."""
+        """Count the matches of a round in all replicas."""
         if 2 * len(a) == len(self.matches):  # nobody occurs twice, so everybody plays
             self.matches += 1
         else:
@@ -243,7 +243,7 @@ class _Chunk:
             change += np.int32(down)
             one += change
             two += np.int32(_WIN + up + down)
-            two -= change  # what the one does not get of the two changes, the other gets
+            two -= change  # the two changes always have this sum
         else:
             for state, change in zip(
                 (one, two), self._changes(a, b, apart, won, score), strict=True
@@ -256,7 +256,7 @@ class _Chunk:
             self.matches[b] += played
 
     def _rows(self, a: NDArray[np.intp], b: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Return how far the skills of the day are apart, from 0 on."""
+        """Return the difference of the skills of the day, as a row of the tables."""
         row = self.today.take(a, axis=0).astype(np.intp)
         row -= self.today.take(b, axis=0)
         if self.beyond:
@@ -265,7 +265,7 @@ class _Chunk:
         return row
 
     def _first_rows(self, a: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Return where the tables of the players' batches begin."""
+        """Return the first row of the table of each player's batch."""
         batch = a // len(self.season.players)
         return (batch * (2 * self.lookup.gap + 1))[:, None]
 
@@ -280,7 +280,7 @@ class _Chunk:
     def _changes(
         self, a: NDArray[np.intp], b: NDArray[np.intp], apart: Any, won: Any, score: Any
     ) -> Iterator[NDArray[np.int32]]:
-        """Yield what is added to the states of the two: moves and wins."""
+        """Yield what is added to the states of the two players: moves and wins."""
         for rows, move, wins in zip(
             (a, b), self._moves(apart, won, score), (won, ~won), strict=True
         ):
@@ -291,7 +291,7 @@ class _Chunk:
     def _draw(
         self, row: NDArray[Any], cell: NDArray[Any], apart: NDArray[np.int16]
     ) -> tuple[NDArray[np.bool_], NDArray[Any] | None]:
-        """Return where player 1 wins and, where that is drawn, which final score it is."""
+        """Return where player 1 wins and the final score, if that is drawn."""
         look = self.lookup
         if self.season.play == "matches" and look.by_winner is not None:
             return draw_winners(self.wins, cell, self.rng), None
@@ -316,13 +316,13 @@ class _Chunk:
             tables = look.by_winner
             place = 2 * place + won
         else:
-            assert score is not None  # noqa: S101 (such matches are drawn with their score)
+            assert score is not None  # noqa: S101 (these matches are drawn with their score)
             tables = look.moves
             place = place * look.outcomes + score
         return tables[0].take(place), tables[1].take(place)
 
     def _factor(self, factors: NDArray[np.int16], rows: NDArray[np.intp]) -> NDArray[np.int16]:
-        """Return by what factor these players move: newcomers move more."""
+        """Return the factor by which these players move; newcomers move more."""
         assert self.before is not None  # noqa: S101
         last = len(factors) - 1
         before = np.minimum(self.before[rows], last)
@@ -345,14 +345,14 @@ def _points(skill: NDArray[Any]) -> NDArray[np.int16]:
 
 
 def _below(of_batches: Sequence[Round | None], many: int) -> Round:
-    """Return a round of each batch as one, the players of each below those of the one before."""
+    """Return a round of every batch as one round, each batch below the one before."""
     there = [(k * many, pairs) for k, pairs in enumerate(of_batches) if pairs is not None]
     a, b = (np.concatenate([first + pairs[side] for first, pairs in there]) for side in (0, 1))
     return a, b
 
 
 def _absence(players: LeaguePlayers) -> NDArray[np.uint32] | None:
-    """Return P(absent) in 2^32nds, or None: nobody ever is."""
+    """Return P(absent) in 2^32nds, or None if nobody ever is."""
     if not players.absence.any():
         return None
     scaled = np.minimum(np.rint(np.ldexp(players.absence, 32)), 2.0**32 - 1.0)
@@ -360,7 +360,7 @@ def _absence(players: LeaguePlayers) -> NDArray[np.uint32] | None:
 
 
 def _factors(season: Season) -> NDArray[np.int16] | None:
-    """Return by what factor a player moves after 0, 1, 2, ... matches, or None: nobody is new."""
+    """Return a player's factor after 0, 1, 2, ... matches, or None if nobody is new."""
     steps = season.system.newcomer_steps
     last = sum(matches for matches, _ in steps)
     if not (season.players.played < last).any():
@@ -369,7 +369,7 @@ def _factors(season: Season) -> NDArray[np.int16] | None:
 
 
 def _put(to: NDArray[Any], rows: NDArray[np.intp], what: NDArray[Any]) -> None:
-    """Set rows of which none occurs twice."""
+    """Set rows, none of which occurs twice."""
     if to.shape[1] == 1:  # a column alone is twice as fast as a line
         to[:, 0][rows] = what[:, 0]
     else:

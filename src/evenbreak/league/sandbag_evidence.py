@@ -1,196 +1,62 @@
-"""What results weigh for sandbagging: a likelihood ratio that may be looked at after every match.
+"""The evidence that a player sandbags: a likelihood ratio that may be looked at after every match.
 
-Sandbagging: in a share s of his matches, nobody knows which, the player plays d points below a
-constant skill, or loses on purpose with the score of an honest defeat; s, d and the skill are
-mixed over. Opponents' skills differ from their ratings by independent errors of a known law, and
-on the day all are better or worse than their skills by a normal deviation of a known size.
-With L_t(x) the chance of the t-th result at skill x, and w a law of the skill,
+A sandbagger dumps a share s of their matches, nobody knows which: they play those d points below a
+constant skill, or lose them on purpose with the score of an honest defeat. The evidence averages
+over s, d and the skill. With L_t(x) the chance of the t-th result at skill x, and w a distribution
+of the skill,
 
     e_t = mean over s, d of [sum over x of w(x) prod (1 - s) L_t(x) + s L_t(x - d)] / honest
 
-where what is honest is one of two:
+where `honest` is one of two:
 
-- any: some constant skill, or one that changes steadily, whichever explains the results best,
-  max over the honest of prod L_t(x_t). Whatever his skill, e_t is then at most a likelihood
-  ratio against the truth;
-- established: a constant skill, off his rating at the start by the law of rating errors,
-  sum over x of v(x) prod L_t(x): a likelihood ratio against such a player, on average over
-  that error.
+- any: the constant or steadily changing skill that explains the results best, max over honest
+  skills of prod L_t(x_t). Whatever the player's skill, e_t is then at most a likelihood ratio
+  against the truth;
+- established: a constant skill that differs from the rating at the start by an error with the
+  distribution of rating errors, sum over x of v(x) prod L_t(x): a likelihood ratio against such a
+  player, on average over that error.
 
-The mean of a likelihood ratio against the truth is 1 after any number of matches, so that
+The mean of a likelihood ratio against the truth is 1 after any number of matches, so
 P(e_t ever reaches 1 / alpha | honest) <= alpha (Ville 1939).
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import AccuracyError
-from evenbreak.handicaps.ladders.form import difference_law
-from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.scale import SCALES, Scale
-from evenbreak.stats.summary import Distribution
 
 Floats = NDArray[np.float64]
+
 _HELD = ("drifting", "steady", "other")
 
 SHARES = (0.1, 0.25, 0.5)
-"""Shares of a sandbagger's matches that he does not play in earnest."""
+"""The shares of matches that a sandbagger may dump."""
+
 SHARES_MARKED = (0.3, 0.6, 0.9)
-"""The same of the matches that are marked as those that do not count for much."""
+"""The same, among the matches marked as those that may be dumped."""
+
 DEPTHS = (30, 60, 120)
-"""By how many points he then plays below his skill."""
+"""How many points below their skill a sandbagger may play the dumped matches."""
+
 GAINS = (-0.25, 0.0, 0.25, 0.5)
-"""Points a match by which an honest player's skill may change all the time."""
+"""Points a match by which an honest player's skill may keep changing."""
+
 AHEAD = (0, 15, 30)
-"""By how many points a sandbagger's skill may be above his rating at the start."""
+"""How many points a sandbagger's skill may be above the rating at the start."""
+
 HONEST = ("any", "established")
-"""Which players count as honest: of any skill, or rated as rightly as the ladder rates."""
+"""Who counts as honest: players of any skill, or with ratings as accurate as the ladder's."""
+
 WIDEST = 60
 """The largest rating error at the start, in points, of a sandbagger or an established player."""
+
 FARTHEST = WIDEST + max(DEPTHS)
-"""The same of an honest player of any skill: as far as a sandbagger sinks, or a hopeless beginner
-would look like one who dumps most of his matches."""
-
-
-_UNITS = SCALES["npl"]
-
-
-def units(points: float, scale: Scale) -> int:
-    """Return points of a scale in the whole points in which skills are told here.
-
-    30 of them double the odds of a game, as in the National Pool League, whose points they are;
-    on other scales ratings are rounded to them.
-
-    >>> from evenbreak.ratings.scale import SCALES
-    >>> units(72.0, SCALES["npl"]), units(610.0, SCALES["fargo"])
-    (72, 183)
-    """
-    # Halves upwards, as `evenbreak matchups` rounds.
-    return math.floor(points * _UNITS.points_per_doubling / scale.points_per_doubling + 0.5)
-
-
-class Result(NamedTuple):
-    """A match as the player who is watched sees it.
-
-    Parameters
-    ----------
-    opponent
-        the opponent's rating, in whole points of which 30 double the odds.
-    games
-        games won and lost; None where only the winner is known.
-    race
-        games that he and the opponent needed; None where that is not known.
-    won
-        whether he won the match.
-    marked
-        whether the match is one of those that may have been dumped.
-    """
-
-    opponent: int
-    games: tuple[int, int] | None
-    race: tuple[int, int] | None
-    won: bool
-    marked: bool = True
-
-
-class Likelihood:
-    """The chance of a result, by how far the player's skill is above the opponent's rating.
-
-    Parameters
-    ----------
-    scale
-        what a difference of skill means for a game.
-    error
-        the law of a player's rating less his skill, in points of the scale.
-    day_sd
-        how far each player's form of the day is from his skill: one standard deviation, in points
-        of the scale, drawn for each match.
-
-    >>> from evenbreak.ratings.scale import SCALES
-    >>> even = Likelihood(SCALES["npl"], Distribution((0,), (1.0,)))
-    >>> honest, feigned = even.of((5, 3), (5, 4), won=True, first=0, last=0)
-    >>> float(honest[0]) == 0.5**8, float(feigned[0])
-    (True, 0.0)
-    """
-
-    def __init__(self, scale: Scale, error: Distribution, day_sd: float = 0.0) -> None:
-        self.scale = scale
-        self.error, lowest = _law_in_units(error, scale)
-        size = _UNITS.points_per_doubling / scale.points_per_doubling
-        form = difference_law(day_sd * size)
-        self.lowest, self.least = lowest, lowest - len(form) // 2
-        self.weights = np.convolve(self.error, form)
-
-    def of(
-        self,
-        games: tuple[int, int] | None,
-        race: tuple[int, int] | None,
-        *,
-        won: bool,
-        first: int,
-        last: int,
-    ) -> tuple[Floats, Floats]:
-        """Return the chance of a result, and that of it if he loses on purpose unnoticed.
-
-        Of scores the number of ways in which they come about is left out: it is the same
-        whatever the skills. Unnoticed: with the score of an honest defeat.
-
-        Parameters
-        ----------
-        games, race, won
-            as of `Result`.
-        first, last
-            the differences, skill less the opponent's rating, in points.
-
-        Returns
-        -------
-        two arrays of shape (last - first + 1,)
-        """
-        points = np.arange(first + self.least, last + self.least + self.weights.size)
-        p, q = _UNITS.win_probability(points), _UNITS.win_probability(-points)
-        beaten = np.ones_like(p) if race is None else race_win_probability(q, *race[::-1])
-        chance = self._chance(p, q, games, race, won=won)
-        # A defeat of which nobody knows how likely it was weighs no more than honest play, and
-        # one too unlikely for a float nothing: so e is never too large.
-        feigned = np.zeros_like(p)
-        if not won:
-            np.divide(chance, beaten, out=feigned, where=beaten > 0.0)
-        return self._mixed(chance), self._mixed(feigned)
-
-    def _chance(
-        self,
-        p: Floats,
-        q: Floats,
-        games: tuple[int, int] | None,
-        race: tuple[int, int] | None,
-        *,
-        won: bool,
-    ) -> Floats:
-        if games is not None:
-            return np.asarray(p ** games[0] * q ** games[1])
-        if race is None:
-            return np.ones_like(p)
-        return np.asarray(
-            race_win_probability(p, *race) if won else race_win_probability(q, *race[::-1])
-        )
-
-    def _mixed(self, chance: Floats) -> Floats:
-        """Return the mean over the opponent's error, for each difference."""
-        return np.correlate(chance, self.weights, "valid")
-
-
-def _law_in_units(error: Distribution, scale: Scale) -> tuple[Floats, int]:
-    """Return a law of points in the points told here, and the least of them."""
-    values = np.array([units(float(value), scale) for value in error.values])
-    chances = np.array([float(chance) for chance in error.probability])
-    lowest = int(values.min())
-    return np.asarray(np.bincount(values - lowest, weights=chances), dtype=float), lowest
+"""The same for an honest player of any skill: as far as a sandbagger sinks, or a hopeless
+beginner would look like somebody who dumps most of their matches."""
 
 
 class SandbagEvidence:
@@ -199,19 +65,19 @@ class SandbagEvidence:
     Parameters
     ----------
     prior
-        the law of a rightly watched player's skill at the start, shape (players, skills):
-        the skills are whole points from -WIDEST to WIDEST about his rating.
+        the distribution of each player's skill at the start, shape (players, skills): skills are
+        whole points from -WIDEST to WIDEST around the rating.
     shares
-        shares of the matches that are not played in earnest, those to be mixed over.
+        the shares of dumped matches to average over.
     kinds
-        in how many ways he may play them.
+        the number of ways in which dumped matches may be played.
 
     Notes
     -----
     The arrays `drifting` (players, gains, skills from -FARTHEST to FARTHEST), `steady` (players,
-    skills) and `other` (players, shares, kinds, skills) are what the results say of honest players
-    of any skill, of established ones and of sandbaggers. Each is scaled, with the logarithm of its
-    scale kept apart, so that nothing leaves the range of a float.
+    skills) and `other` (players, shares, kinds, skills) hold the likelihoods of honest players of
+    any skill, of established players, and of sandbaggers. Each is scaled, with the logarithm of
+    its scale kept separately, so that nothing leaves the range of a float.
     """
 
     def __init__(self, prior: Floats, shares: Sequence[float], kinds: int) -> None:
@@ -225,16 +91,16 @@ class SandbagEvidence:
         self._log = {name: np.zeros(players) for name in _HELD}
 
     def add(self, drifting: Floats, kinds: Floats, *, marked: bool = True) -> None:
-        """Take a match of each player in.
+        """Add a match of each player.
 
         Parameters
         ----------
         drifting
             the chance of the result, shape (players, gains, 2 * FARTHEST + 1).
         kinds
-            the chance of it in each way of dumping, shape (players, kinds, skills).
+            its chance in each way of dumping, shape (players, kinds, skills).
         marked
-            whether it may have been dumped.
+            whether the match may have been dumped.
 
         Raises
         ------
@@ -261,7 +127,7 @@ class SandbagEvidence:
             self._log[name] += np.log(top)
 
     def log_e(self, honest: str) -> Floats:
-        """Return the logarithm of e against the honest of a kind of `HONEST`, shape (players,)."""
+        """Return log e against honest players of a kind of `HONEST`, shape (players,)."""
         other = np.log(self.other.sum(axis=(1, 2, 3))) + self._log["other"]
         if honest == "any":
             return np.asarray(
@@ -271,7 +137,7 @@ class SandbagEvidence:
 
 
 def _ahead(prior: Floats, points: int) -> Floats:
-    """Return the prior moved up, what leaves the range held at its end."""
+    """Return the prior moved up; what would leave the range stays at its end."""
     if not points:
         return prior
     moved = np.zeros_like(prior)

@@ -1,17 +1,16 @@
 """What losing on purpose pays, exactly, on the ladder of rating errors.
 
-A player of error e wins his next match with the chance W(e), and the ladder's kernel K says
-where his rating goes. From a law v of his error, D matches lost on purpose lead to the law
-B^D v, where B takes each error down by the points that the most costly defeat moves it, and
+A player with error e wins the next match with the chance W(e), and the ladder's kernel K moves
+the rating. From a distribution v of the error, D matches lost on purpose lead to B^D v, where B
+takes each error down by the points that the most costly defeat moves it, and
 
     P(win match i in earnest | D dumped) = W . K^(i - 1) B^D v
 
-against W . K^(D + i - 1) v of a player who plays all D + i matches in earnest.
+compared with W . K^(D + i - 1) v for a player who plays all D + i matches in earnest.
 
-Where a match won is a point up and a match lost a point down, wins are conserved: over a long
-time the D points come back as D / 2 matches won beyond those of the honest player, as many as
-were given away. Dumping then pays only so far as the matches in earnest are worth more than
-those that are dumped.
+If a match won is a point up and a match lost a point down, wins are conserved: in the long run
+the D points come back as D / 2 matches won beyond those of an honest player, as many as were
+given away. Dumping then pays only if the matches in earnest are worth more than those dumped.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.checks import whole
+from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.error_chain import move_matrix
 from evenbreak.handicaps.ladders.ladder import Ladder
@@ -34,35 +33,37 @@ from evenbreak.stats.summary import Distribution
 Floats = NDArray[np.float64]
 
 _HELD = 1e-6
-"""A chance to be held at the ladder's lower end from which on the end would decide."""
+"""With a larger chance than this of being held at the ladder's lower end, the end decides."""
+
 _NOTHING = 1e-9
-"""Extra wins that are but roundings."""
+"""Fewer extra wins than this are only rounding."""
+
 _MOST = 1000
-"""Matches dumped, or played in earnest, that are looked at."""
+"""The most matches dumped, or played in earnest."""
 
 
 class DumpRow(NamedTuple):
-    """What it comes to to lose so many matches on purpose, against a player who never does.
+    """What losing some number of matches on purpose brings, compared with an honest player.
 
     Parameters
     ----------
     dumped
         matches lost on purpose before the first in earnest.
     rating
-        by how many points the rating is lower than the honest player's, on average.
+        how many points lower the rating is than the honest player's, on average.
     given_away
         matches that the honest player wins of those dumped, on average.
     p_first
-        P(he wins the first match in earnest).
+        P(the first match in earnest is won).
     extra_wins
         matches in earnest won beyond the honest player's, on average.
     for_the_last
         extra wins that the last dumped match added.
     break_even
-        how many times what is at stake in a dumped match must be at stake in earnest for the
-        dumping to pay; infinite where it brings no extra win.
+        how many times the stake of a dumped match must be at stake in earnest for dumping to
+        pay; infinite if it brings no extra win.
     p_in_a_row
-        P(he wins so many matches in a row with the rating with which he came).
+        P(the next matches are won, as many in a row as asked, at the rating after dumping).
     profit
         in the units of the stakes, beyond the honest player's.
     """
@@ -80,17 +81,17 @@ class DumpRow(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Sandbagging:
-    """What matches lost on purpose buy, by their number.
+    """What matches lost on purpose bring, by their number.
 
     Parameters
     ----------
     rows
         a `DumpRow` for 0, 1, 2, ... dumped matches.
     p_win
-        P(he wins a match in earnest), shape (dumped, matches in earnest).
+        P(a match in earnest is won), shape (dumped, matches in earnest).
     p_honest
-        P(a player who never dumps wins his matches), the dumped ones first, shape
-        (most dumped + matches in earnest,).
+        P(an honest player wins each match), the dumped ones first, shape (most dumped + matches
+        in earnest,).
     """
 
     rows: tuple[DumpRow, ...]
@@ -99,12 +100,12 @@ class Sandbagging:
 
     @property
     def best(self) -> DumpRow:
-        """The row of the largest profit; of equal ones the one with the fewest dumped."""
+        """The row with the largest profit; of equal ones the one with the fewest dumped."""
         return max(self.rows, key=lambda row: (row.profit, -row.dumped))
 
     @property
     def cheapest(self) -> DumpRow:
-        """The row that pays from the smallest stakes in earnest; of equal ones the first."""
+        """The row that pays at the smallest stakes in earnest; of equal ones the first."""
         return min(self.rows, key=lambda row: row.break_even)
 
 
@@ -119,10 +120,10 @@ def sandbagging(
     in_a_row: int = 3,
     prize: float = 0.0,
 ) -> Sandbagging:
-    """Return what it pays to lose matches on purpose and then to play in earnest.
+    """Return what it pays to lose matches on purpose and then play in earnest.
 
     Each probability is conditional on the ladder's model of the opponents, on a skill that
-    does not change, and on nobody stepping in.
+    does not change, and on nobody intervening.
 
     Parameters
     ----------
@@ -130,17 +131,18 @@ def sandbagging(
         the ladder; a match lost on purpose moves the rating by the most costly defeat in the
         race against an opponent who is rated at the player's skill.
     dumped
-        0, 1, ... so many matches are dumped.
+        the most matches dumped; there is a row for each number from 0.
     earnest
-        matches played in earnest afterwards, all of them counted.
+        matches played in earnest afterwards, all of which count.
     start
-        the rating error before, in points: a whole number, or its law, such as `ladder.law()`.
+        the rating error before, in points: a whole number, or a distribution such as
+        `ladder.law()`.
     stake, dumped_stake
-        what a match won is worth more than one lost: in earnest, and among those dumped.
+        what a match won is worth more than one lost: in earnest, and where it is dumped.
     in_a_row, prize
-        a tournament that is won by so many matches in a row, all by the ratings with which
-        the players came, and what it pays. It comes first of what is played in earnest and
-        moves no ratings. Each match is played in a form of its own.
+        how many matches in a row win a tournament, and what it pays. It is played first of the
+        matches in earnest, all of it at the ratings before it, and moves no ratings. Form varies
+        from match to match.
 
     Raises
     ------
@@ -165,8 +167,7 @@ def sandbagging(
         if value > _MOST:
             raise InputError(f"{name} is {value}; give at most {_MOST}")
     for name, money in (("stake", stake), ("dumped_stake", dumped_stake), ("prize", prize)):
-        if not 0.0 <= money < math.inf:
-            raise InputError(f"{name} is {money!r}; give a number from 0 on")
+        number(money, name, low=0.0)
     law = start_law(ladder, start)
     errors, wins = np.asarray(ladder.errors, dtype=float), np.asarray(ladder.wins)
     step, down = earnest_matrix(ladder), dumped_matrix(ladder)
@@ -209,24 +210,23 @@ def sandbagging(
 def entering_low(
     ladder: Ladder, by: int = 30, matches: int = 50, *, newcomer: bool = False
 ) -> Floats:
-    """Return the matches won beyond his due by a player who enters with too low a rating.
+    """Return the extra wins of a player who enters the league under-rated.
 
     Parameters
     ----------
     ladder
         the ladder.
     by
-        by how many points the rating is too low.
+        how many points too low the rating is.
     matches
-        how many matches he plays, all in earnest.
+        how many matches are played, all in earnest.
     newcomer
-        whether his first matches move by the system's newcomer schedule.
+        whether the first matches move by the system's newcomer schedule.
 
     Returns
     -------
     array of shape (matches,)
-        extra wins after each of the matches, on average, against a player rated rightly who
-        plays as many.
+        mean extra wins after each match, compared with a correctly rated player.
 
     Raises
     ------
@@ -253,14 +253,14 @@ def entering_low(
 
 
 def most_dumped(ladder: Ladder, start: int | Distribution = 0) -> int:
-    """Return how many matches can be dumped before the end of the ladder holds the rating.
+    """Return how many matches can be dumped before the ladder's end holds the rating.
 
     >>> from evenbreak.handicaps import Ladder
     >>> most_dumped(Ladder("npl", widest=120)), most_dumped(Ladder("step 3", widest=120), -30)
     (119, 29)
     """
     law, down, last = start_law(ladder, start), dumped_matrix(ladder), at_the_end(ladder)
-    # By one point or more a match the end is reached in so many; by none it never is.
+    # With a point or more a match the end is reached in so many; without moves it never is.
     for many in range(ladder.errors.size):
         law = down @ law
         if law @ last > _HELD:
@@ -300,7 +300,7 @@ def earnest_matrix(ladder: Ladder, factor: int = 1) -> Floats:
     """Return P(next error | error) of a match played in earnest, shape (errors, errors).
 
     Column-stochastic: v' = M v. A move beyond an end of the ladder is not made; a newcomer's
-    moves are multiplied by a factor.
+    moves are multiplied by the factor.
 
     Raises
     ------
@@ -329,26 +329,26 @@ def dumped_matrix(ladder: Ladder) -> Floats:
 
 
 def dumped_moves(ladder: Ladder) -> NDArray[np.int64]:
-    """Return by how much the most costly defeat moves each error."""
+    """Return how far the most costly defeat moves each error."""
     table = match_table(ladder.system, ladder.chart, widest=int(ladder.errors[-1]))
     lost = ~table.won & (table.games[..., 1] >= 0)
     return np.asarray(np.where(lost, table.moves[..., 0], np.iinfo(np.int64).max).min(axis=1))
 
 
 def at_the_end(ladder: Ladder) -> NDArray[np.bool_]:
-    """Return which errors are the lowest, or are kept from falling by the ladder's end."""
+    """Return which errors are the lowest, or cannot fall because of the ladder's end."""
     here = np.arange(ladder.errors.size)
     return np.asarray((here == 0) | (here + dumped_moves(ladder) < 0))
 
 
 def refuse_drift(ladder: Ladder) -> None:
-    """Refuse a ladder on which the player's skill drifts."""
+    """Raise an error if the player's skill drifts on this ladder."""
     if ladder.drift:
         raise InputError(f"the ladder's player drifts by {ladder.drift!r}; give one of drift 0")
 
 
 def _laws(matrix: Floats, law: Floats, many: int) -> Floats:
-    """Return the laws before each of so many matches, shape (matches, errors)."""
+    """Return the distribution before each of `many` matches, shape (matches, errors)."""
     laws = np.empty((many, law.size))
     for place in range(many):
         laws[place] = law

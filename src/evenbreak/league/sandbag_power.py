@@ -1,4 +1,4 @@
-"""How soon the watch sees a sandbagger, and how often it blames the honest: by simulation."""
+"""How soon the watch flags a sandbagger, and how often an honest player: by simulation."""
 
 from __future__ import annotations
 
@@ -8,20 +8,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.checks import number_probability, one_of, whole
-from evenbreak.errors import InputError
+from evenbreak.checks import number, number_probability, one_of, whole
 from evenbreak.handicaps.ladders.form import deviation_grid, difference_law
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.systems.match_table import match_table
+from evenbreak.league.result_likelihood import Likelihood, units
 from evenbreak.league.sandbag_evidence import (
     DEPTHS,
     FARTHEST,
     HONEST,
     SHARES,
     SHARES_MARKED,
-    Likelihood,
     SandbagEvidence,
-    units,
 )
 from evenbreak.league.sandbag_pay import refuse_drift, start_law
 from evenbreak.league.sandbag_watch import at_skills, drift_room, skill_prior
@@ -29,12 +27,13 @@ from evenbreak.league.sandbag_watch import at_skills, drift_room, skill_prior
 Floats = NDArray[np.float64]
 
 _CHUNK = 250
-"""Players who are simulated side by side: what bounds the memory."""
+"""Players simulated side by side, which limits the memory."""
 
 _WAYS = len(DEPTHS) + 1
-"""In how many ways a sandbagger may dump: so many points below his skill, or unnoticed."""
+"""The ways in which a sandbagger may dump: each depth below the skill, or a feigned defeat."""
+
 _ZERO = 2000
-"""Where the difference 0 stands in a table of likelihoods."""
+"""The place of the difference 0 in a table of likelihoods."""
 
 
 class WatchPower(NamedTuple):
@@ -45,19 +44,18 @@ class WatchPower(NamedTuple):
     share
         P(a match that may be dumped is dumped).
     points
-        by how much below his skill he then plays; None: he loses on purpose, with the score
-        of an honest defeat.
+        how far below their skill the player plays it; None: they lose on purpose, with the
+        score of an honest defeat.
     replicas
         players simulated.
     flagged
-        the part of them who were flagged within 1, 2, ... matches, shape (matches,).
+        the share of them who were flagged within 1, 2, ... matches, shape (matches,).
     se
-        its standard error by the simulation, one standard deviation, shape (matches,).
+        its standard error, shape (matches,).
     rating_error
         mean rating less skill before each match, in points, shape (matches,).
     p_win
-        the part of the matches played in earnest that were won, over all matches; None where
-        he plays none in earnest.
+        the share of the matches in earnest that were won; None if none was played in earnest.
     """
 
     share: float
@@ -82,33 +80,33 @@ def watch_power(
     replicas: int = 1000,
     seed: int = 1,
 ) -> WatchPower:
-    """Return how often players who sandbag so much are flagged within so many matches.
+    """Return how often players who sandbag in one way are flagged, match by match.
 
-    Each opponent is rated at the player's skill, and rated wrongly by an independent error of
-    the ladder's law.
+    Each opponent is rated at the player's skill, with an independent error drawn from the
+    ladder's distribution.
 
     Parameters
     ----------
     ladder
-        by which ratings move; its chart gives the races. The form of all players varies from
-        match to match by its `day_sd` and `match_sd`, and the watch knows by how much.
+        how ratings move; its chart sets the races. The form of all players varies from match to
+        match by its `day_sd` and `match_sd`, and the watch knows by how much.
     share
-        P(he dumps a match that he may dump); 0 for honest players, whose part flagged is at
-        most alpha.
+        P(a match that may be dumped is dumped); 0 for honest players, of whom at most the share
+        alpha is flagged.
     points
-        by how much below his skill he plays it; None: he loses it on purpose, with the score of
-        an honest defeat.
+        how far below their skill players play it; None: they lose it on purpose, with the score
+        of an honest defeat.
     matches
-        how many each plays.
+        how many matches each plays.
     alpha
         the watch flags at 1 / alpha.
     honest
-        against which honest players, as of `watch`.
+        who counts as honest, as for `watch`.
     marked
-        the part of the matches known as those that may be dumped, evenly spread; None: any may
-        be, and nobody knows which.
+        the share of the matches known to be those that may be dumped, evenly spread; None: any
+        match may be dumped, and nobody knows which.
     start
-        the rating error at first, in points; None: drawn from the ladder's law.
+        the rating error at the start, in points; None: drawn from the ladder's distribution.
     replicas
         players simulated.
     seed
@@ -126,8 +124,7 @@ def watch_power(
     """
     dumps = number_probability(share, "share")
     many, players = whole(matches, "matches", at_least=1), whole(replicas, "replicas", at_least=2)
-    if not 0.0 < alpha < 1.0:
-        raise InputError(f"alpha is {alpha!r}; give a number above 0 and below 1")
+    number(alpha, "alpha", above=0.0, below=1.0)
     one_of(honest, "honest", HONEST)
     refuse_drift(ladder)
     part = None if marked is None else number_probability(marked, "marked")
@@ -166,7 +163,7 @@ def _start(ladder: Ladder, start: int | None) -> Floats:
 
 
 def _advantages(ladder: Ladder, form: float) -> tuple[NDArray[np.int64], Floats]:
-    """Return the points of an opponent's error with the forms of both, and their chances."""
+    """Return the player's advantages by the opponent's error and both forms, with chances."""
     law = ladder.law()
     points = np.array(law.values, dtype=np.int64)
     chances = np.array([float(chance) for chance in law.probability])
@@ -188,8 +185,8 @@ class _Simulated:
         scale, form = ladder.system.scale, math.hypot(ladder.day_sd, ladder.match_sd)
         self.likelihood = Likelihood(scale, ladder.law(), form)
         self.errors, self.chance = _advantages(ladder, form)
-        # An advantage of j points: an opponent's error, at a rating that is the player's skill,
-        # and how much better the player's form is.
+        # The opponent is rated at the player's skill, so the player's advantage is the opponent's
+        # error plus the difference of the two forms.
         honest = self.table.chances(scale.win_probability(self.errors))
         if points is None:
             lost = np.where(self.table.won[..., None], 0.0, honest)
@@ -209,7 +206,7 @@ class _Simulated:
         honest: str,
         threshold: float,
     ) -> tuple[NDArray[np.int64], NDArray[np.int64], Floats]:
-        """Return each player's first alarm (their number: none), errors, and wins in earnest."""
+        """Return each player's first alarm (`many` if none), errors, and wins in earnest."""
         size, many = error.size, dumps.size
         rated = np.array([units(float(one), self.likelihood.scale) for one in error])
         evidence = SandbagEvidence(skill_prior(self.likelihood).repeat(size, axis=0), shares, _WAYS)
@@ -237,7 +234,7 @@ class _Simulated:
     def _chances(
         self, x: NDArray[np.int64], end: NDArray[np.int64], rated: NDArray[np.int64], place: int
     ) -> tuple[Floats, Floats]:
-        """Return what the ends of a match say, by skill less the rating at the start."""
+        """Return the likelihoods of the final scores, by skill less the rating at the start."""
         rise, fall = drift_room(place)
         low = FARTHEST + fall
         length = low + FARTHEST + rise + 1

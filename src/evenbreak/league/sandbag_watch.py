@@ -9,10 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.checks import one_of
-from evenbreak.errors import AccuracyError, InputError
+from evenbreak.checks import number, one_of
+from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.nights import PlayedNight
+from evenbreak.league.result_likelihood import Likelihood, Result, units
 from evenbreak.league.sandbag_evidence import (
     DEPTHS,
     FARTHEST,
@@ -21,10 +22,7 @@ from evenbreak.league.sandbag_evidence import (
     SHARES,
     SHARES_MARKED,
     WIDEST,
-    Likelihood,
-    Result,
     SandbagEvidence,
-    units,
 )
 from evenbreak.stats.summary import Distribution
 
@@ -33,23 +31,23 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Watched:
-    """What one player's results weigh for sandbagging.
+    """The evidence against one player.
 
     Parameters
     ----------
     player
         the name.
     rows
-        places of his matches in the results, in the order in which they were played.
+        rows of the player's matches in the results, in the order in which they were played.
     won
-        whether he won each.
+        whether the player won each.
     any, established
-        the logarithm of e after each match, against honest players of any skill, and against
-        established ones.
+        the logarithm of the evidence e after each match, against honest players of any skill,
+        and against established ones.
     honest
-        against which of the two the alarm is raised.
+        which of the two raises the alarm.
     alpha
-        the chance that an honest player is ever flagged, at most.
+        the largest chance that an honest player is ever flagged.
     """
 
     player: str
@@ -62,7 +60,7 @@ class Watched:
 
     @property
     def log_e(self) -> Floats:
-        """The logarithm of e by which the alarm is raised, after each match."""
+        """The logarithm of the e that raises the alarm, after each match."""
         return self.any if self.honest == "any" else self.established
 
     @property
@@ -78,12 +76,12 @@ class Watched:
 
     @property
     def largest_e(self) -> float:
-        """The largest e after any match: his alarm was raised if it is 1 / alpha or more."""
+        """The largest e after any match; the alarm was raised if it is at least 1 / alpha."""
         return _e(float(self.log_e.max()))
 
     @property
     def p_value(self) -> float:
-        """The smallest alpha at which he would have been flagged: 1 / the largest e."""
+        """The smallest alpha at which the player would have been flagged: 1 / the largest e."""
         return min(1.0, 1.0 / self.largest_e)
 
 
@@ -97,7 +95,7 @@ def watch(
     marked: NDArray[np.bool_] | None = None,
     day_sd: float = 0.0,
 ) -> list[Watched]:
-    """Return what the results of a season weigh against each player, by name.
+    """Return the evidence against each player of a season, by name.
 
     Parameters
     ----------
@@ -106,20 +104,20 @@ def watch(
     system
         the league's system.
     error
-        the law of a rating's error (rating less skill), such as `Ladder(...).law()`.
+        the distribution of rating errors (rating less skill), such as `Ladder(...).law()`.
     alpha
-        for each honest player the chance that he is ever flagged, at most.
+        the largest chance that an honest player is ever flagged.
     honest
         'any': the bound holds for every constant skill within 180 points of the rating at the
-        start, and for those that change all the time by -1/4, 1/4 or 1/2 point a match (where 30
-        double the odds). 'established': it holds on average over the errors that
-        the ladder gives a rating at the start, and sandbaggers are seen sooner; but honest
-        players who are rated far wrongly or improve are flagged too.
+        start, and for skills that change steadily by -1/4, 1/4 or 1/2 point a match (where 30
+        double the odds). 'established': it holds on average over the ladder's rating errors at
+        the start, and sandbaggers are flagged sooner; but honest players who improve, or whose
+        rating is far off, are flagged too.
     marked
-        for each match whether it is one that may have been dumped; None: any may.
+        for each match whether it may have been dumped; None: any may.
     day_sd
-        how far the form of the day is from the skill, of all players: one standard deviation, in
-        points. Honest players whose form varies more than is said here are flagged too often.
+        standard deviation of every player's form, in points. Honest players whose form varies
+        more are flagged too often.
 
     Raises
     ------
@@ -130,10 +128,10 @@ def watch(
 
     Notes
     -----
-    The bound holds for each player by himself, and on average over the errors of his opponents'
-    ratings, which are taken to be independent from match to match, of the law `error`; as is the
-    form of the day. Among N honest players at most N · alpha are flagged on average; at alpha / N
-    the chance that any is stays below alpha.
+    The bound holds for each player separately, on average over form and over the errors of the
+    opponents' ratings, which are assumed to be independent from match to match with the
+    distribution `error`. Among N honest players at most N · alpha are flagged on average; at
+    alpha / N the chance that any of them is flagged stays below alpha.
 
     >>> from evenbreak.handicaps import Ladder, chart, system_of
     >>> from evenbreak.league import played_nights
@@ -147,12 +145,9 @@ def watch(
     Ann [True, False, True, False] None
     Bo [False, True, False, True] None
     """
-    if not 0.0 < alpha < 1.0:
-        raise InputError(f"alpha is {alpha!r}; give a number above 0 and below 1")
+    number(alpha, "alpha", above=0.0, below=1.0)
     one_of(honest, "honest", HONEST)
-    most = 4.0 * system.scale.points_per_doubling
-    if not 0.0 <= day_sd <= most:
-        raise InputError(f"day_sd is {day_sd!r}; give a number of points from 0 to {most:.0f}")
+    number(day_sd, "day_sd", low=0.0, high=4.0 * system.scale.points_per_doubling)
     shares = SHARES if marked is None else SHARES_MARKED
     results: dict[int, list[Result]] = {}
     rows: dict[int, list[int]] = {}
@@ -206,19 +201,19 @@ def watch_player(
     Parameters
     ----------
     rating
-        his rating at the start, in whole points of which 30 double the odds.
+        the rating at the start, in whole points of which 30 double the odds.
     results
-        his matches, in the order in which they were played.
+        the matches, in the order in which they were played.
     likelihood
-        of the scale, and of the errors of ratings.
+        of the scale and the rating errors.
     shares
-        the shares of his marked matches that a sandbagger dumps, to be mixed over.
+        the shares of marked matches that a sandbagger may dump, to average over.
 
     Returns
     -------
     two arrays of shape (results,)
-        against honest players of any skill; and against established ones, whose ratings at
-        the start err as `likelihood` says.
+        against honest players of any skill; and against established ones, whose rating errors at
+        the start are those of `likelihood`.
 
     >>> from evenbreak.ratings.scale import SCALES
     >>> rightly = Likelihood(SCALES["npl"], Distribution((0,), (1.0,)))
@@ -244,7 +239,7 @@ def watch_player(
 
 
 def skill_prior(likelihood: Likelihood) -> Floats:
-    """Return the law of skill less rating, shape (1, skills)."""
+    """Return the distribution of skill less rating, shape (1, skills)."""
     prior = np.zeros((1, 2 * WIDEST + 1))
     for place, weight in enumerate(likelihood.error):
         skill = -(place + likelihood.lowest)
@@ -253,18 +248,18 @@ def skill_prior(likelihood: Likelihood) -> Floats:
 
 
 def drift_room(place: int) -> tuple[int, int]:
-    """Return by how much the honest skills can have risen and fallen until a match."""
+    """Return how far honest skills can have risen and fallen before a match."""
     gained = [round(gain * place) for gain in GAINS]
     return max(*gained, 0), -min(*gained, 0)
 
 
 def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floats]:
-    """Return a result's chance at each skill: honest of each gain, and for each way of dumping.
+    """Return a result's chance at each skill: for each honest gain, and for each way of dumping.
 
     Parameters
     ----------
     chance, feigned
-        at the differences from -FARTHEST less the room to fall on, the last axis.
+        by difference along the last axis, from -FARTHEST less the room to fall.
     place
         how many matches came before.
 
@@ -283,5 +278,5 @@ def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floa
 
 
 def _e(log_e: float) -> float:
-    """Return e, held where a float ends."""
+    """Return e, limited to what a float can hold."""
     return math.exp(min(log_e, 700.0))
