@@ -84,9 +84,7 @@ class LeaguePlayers:
         if self.names is not None:
             names = tuple(self.names)
             if len(names) != many or len(set(names)) < many:
-                raise InputError(
-                    f"names is {names!r}; give {many} different names"
-                )
+                raise InputError(f"names is {names!r}; give {many} different names")
             object.__setattr__(self, "names", names)
 
     @classmethod
