@@ -191,6 +191,11 @@ def section(name: str) -> str:
     return dict(zip(parts[1::2], parts[2::2], strict=True))[name]
 
 
+def described(text: str) -> set[str]:
+    """Return the options in the tables of a text."""
+    return set(re.findall(r"^\| `(--[a-z0-9-]+)", text, flags=re.MULTILINE))
+
+
 def command(name: str) -> click.Command:
     found = program.get_command(click.Context(program), name)
     assert found is not None
@@ -214,8 +219,10 @@ def test_every_option_is_described_and_no_other(name: str) -> None:
         for text in (*option.opts, *option.secondary_opts)
         if text.startswith("--")
     }
-    described = set(re.findall(r"^\| `(--[a-z0-9-]+)", section(name), flags=re.MULTILINE))
-    assert described == options - {"--help"}
+    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
+    common = described(text[: text.index("\n## ")])
+    assert common == {"--text", "--csv", "--json", "--html", "--verbose"}
+    assert options - {"--help"} - common <= described(section(name)) <= options
 
 
 def test_every_command_is_described_and_no_other() -> None:

@@ -10,9 +10,9 @@ from evenbreak.errors import DataError, InputError
 from evenbreak.files.roster import read_roster
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.fair import fair_races
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from evenbreak.handicaps.charts.level_chart import level_chart
-from evenbreak.handicaps.charts.uncertain import win_given_ratings
-from evenbreak.matches.races import race_law
+from evenbreak.matches.races import race_odds
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import SCALES, scale_of
 
@@ -41,7 +41,7 @@ def test_without_errors_chances_are_those_of_the_race():
         assert math.isnan(row.difference_error)
         # The chart is asked with whole points: 71.4 counts as 71.
         assert (row.chart_race_a, row.chart_race_b) == ((6, 4) if a == 0 else (4, 5))
-        law = race_law(row.chart_race_a, row.chart_race_b, p)
+        law = race_odds(row.chart_race_a, row.chart_race_b, p)
         assert row.chart_p_win_a == pytest.approx(law.p_win_1, rel=1e-12)
         assert row.chart_unfairness == pytest.approx(abs(law.p_win_1 - 0.5), abs=1e-12)
         assert row.chart_mean_games == pytest.approx(law.mean, rel=1e-12)
@@ -58,7 +58,7 @@ def test_errors_add_up_and_are_averaged_over():
     for row in frame.itertuples():
         averaged = win_given_ratings(row.difference, row.difference_error, row.race_a, row.race_b)
         assert row.p_win_a == pytest.approx(averaged, abs=1e-12)
-        plug_in = race_law(row.race_a, row.race_b, NPL.win_probability(row.difference)).p_win_1
+        plug_in = race_odds(row.race_a, row.race_b, NPL.win_probability(row.difference)).p_win_1
         assert row.p_win_a_plug_in == pytest.approx(plug_in, rel=1e-12)
         assert 0.5 < row.p_game_a < row.p_game_a_plug_in
 

@@ -146,6 +146,13 @@ class Quantity:
     detail: bool = False
 
 
+def statistic(
+    name: str, value: Any, words: str | None, show: Show = str, note: str = ""
+) -> Quantity:
+    """Return a quantity that only those see who ask for details."""
+    return Quantity(name, value, words, show, note, detail=True)
+
+
 @dataclass(frozen=True)
 class Quantities:
     """Quantities, a line each.

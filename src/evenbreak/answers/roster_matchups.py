@@ -15,13 +15,13 @@ from evenbreak.errors import InputError
 from evenbreak.files.problems import Problems, quoted
 from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.level_chart import LevelChart
-from evenbreak.handicaps.charts.uncertain import (
+from evenbreak.handicaps.charts.given_ratings import (
     MOST_DOUBLINGS,
-    fairest_races,
+    fair_races_given_ratings,
     length_given_ratings,
     win_given_ratings,
 )
+from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.matches.evening import Length
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
@@ -213,7 +213,9 @@ def roster_matchups(
         by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
         columns |= _columns("chart_", by_chart, minutes_per_game)
     if offered is not None:
-        found = fairest_races(gap, error, games=offered.games, race_to=offered.race_to, scale=scale)
+        found = fair_races_given_ratings(
+            gap, error, games=offered.games, race_to=offered.race_to, scale=scale
+        )
         best = Races.of(gap, error, *found, scale)
         columns |= _columns("", best, minutes_per_game)
     everyone = {

@@ -2,7 +2,6 @@ from .aliases import AliasesFile as AliasesFile
 from .aliases import read_aliases as read_aliases
 from .arcs import ArcsFile as ArcsFile
 from .arcs import read_arcs as read_arcs
-from .chart import chart_frame as chart_frame
 from .chart import find_chart as find_chart
 from .chart import read_chart as read_chart
 from .csv_writer import to_csv as to_csv

@@ -80,17 +80,13 @@ class Problems:
         """
         self._found += [(int(lines[row]), message(int(row))) for row in rows]
 
-    def raise_any(self) -> None:
-        """Raise what was found, if anything was.
+    def listed(self) -> tuple[str, ...]:
+        """Return the problems, a line each, those of the file as a whole first."""
+        # Stable: problems of one line stay in the order in which they were found.
+        ordered = sorted(self._found, key=lambda problem: problem[0])
+        return tuple(f"{self.source}{f':{line}' if line else ''}: {text}" for line, text in ordered)
 
-        Raises
-        ------
-        DataError
-            with one line a problem, those of the file as a whole first.
-        """
+    def raise_any(self) -> None:
+        """Raise a DataError with all that was found, if anything was."""
         if self._found:
-            # Stable: problems of one line stay in the order in which they were found.
-            ordered = sorted(self._found, key=lambda problem: problem[0])
-            raise DataError(
-                f"{self.source}{f':{line}' if line else ''}: {text}" for line, text in ordered
-            )
+            raise DataError(self.listed())

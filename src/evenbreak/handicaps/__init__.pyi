@@ -11,13 +11,16 @@ from .charts.design import nearest_chart as nearest_chart
 from .charts.fair import FairRace as FairRace
 from .charts.fair import fair_races as fair_races
 from .charts.fixed_length import fixed_length_chart as fixed_length_chart
+from .charts.given_ratings import fair_races_given_ratings as fair_races_given_ratings
+from .charts.given_ratings import length_given_ratings as length_given_ratings
+from .charts.given_ratings import win_given_ratings as win_given_ratings
 from .charts.level_audit import LevelAudit as LevelAudit
 from .charts.level_audit import LevelCell as LevelCell
 from .charts.level_audit import audit_levels as audit_levels
 from .charts.level_chart import LEVEL_CHARTS as LEVEL_CHARTS
 from .charts.level_chart import LevelChart as LevelChart
 from .charts.level_chart import level_chart as level_chart
-from .charts.match_rules import Play as Play
+from .charts.match_rules import MatchRules as MatchRules
 from .charts.measure import ChartMeasure as ChartMeasure
 from .charts.measure import last_difference as last_difference
 from .charts.measure import measure_chart as measure_chart
@@ -26,9 +29,6 @@ from .charts.pareto import pareto as pareto
 from .charts.race_limits import RaceLimits as RaceLimits
 from .charts.rows import ChartDraft as ChartDraft
 from .charts.rows import ChartRow as ChartRow
-from .charts.uncertain import fairest_races as fairest_races
-from .charts.uncertain import length_given_ratings as length_given_ratings
-from .charts.uncertain import win_given_ratings as win_given_ratings
 from .ladders.closed_league import ClosedPair as ClosedPair
 from .ladders.closed_league import in_step_law as in_step_law
 from .ladders.comparison import StepPoint as StepPoint

@@ -1,4 +1,4 @@
-"""Pictures of practice scores: one list over time, or two side by side."""
+"""Plots of practice scores: one list over time, or two side by side."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ if TYPE_CHECKING:
 
 BAND = "0.85"
 STEP = 0.08
-"""How far apart equal scores are drawn, where the lists are 1 apart."""
+"""The distance between equal scores, where the lists are 1 apart."""
 
 WIDEST = 0.3
-"""How far from the middle of its list a score is drawn at most."""
+"""The largest distance of a score from the middle of its list."""
 
 
 def plot_scores(
     file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None
 ) -> Figure:
-    """Return a figure of the scores of a file, their mean and the interval of the true one.
+    """Return a figure of the scores of a file, their mean and the interval of the true mean.
 
     Parameters
     ----------
     file
-        the scores; drawn over their dates, or in the order of the file without them.
+        the scores, drawn over their dates, or in the order of the file if it has no dates.
     interval
         of the true mean; None draws no band.
     new
@@ -57,7 +57,7 @@ def plot_scores(
         axes.locator_params(axis="x", integer=True)
     else:
         when = file.dates
-        # As long after the last score as scores are apart, or a day.
+        # After the last score by the usual distance between scores, or a day.
         apart = (when.max() - when.min()) // max(1, len(when) - 1)
         later = when.max() + max(apart, np.timedelta64(1, "D"))
         figure.autofmt_xdate()
@@ -88,7 +88,7 @@ def plot_two_lists(
     names: tuple[str, str],
     intervals: tuple[MeanInterval | None, MeanInterval | None],
 ) -> Figure:
-    r"""Return a figure of two lists of scores side by side, each with the interval of its mean.
+    r"""Return a figure of two lists of scores side by side, each with its mean and interval.
 
     >>> import numpy as np
     >>> figure = plot_two_lists(
@@ -114,7 +114,7 @@ def plot_two_lists(
 def _strip(
     axes: Axes, place: int, scores: NDArray[np.float64], interval: MeanInterval | None
 ) -> None:
-    """Draw one list: equal scores beside one another, and to the right the mean."""
+    """Draw one list, with equal scores beside one another and the mean to their right."""
     line = LINES[place]
     values = scores.tolist()
     counts, seen = Counter(values), Counter[float]()

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
-from evenbreak.handicaps.charts.uncertain import win_given_ratings
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from places import DATA
 
 CLUB = "player,rating\nAnn,92\nBo,71\nCy,80\nDi,60\n"

@@ -206,7 +206,7 @@ def test_without_a_chart_the_one_that_the_scores_tell_is_taken_and_named(rate):
     [
         (["open.csv"], 3, "--chart NAME serves for all"),
         (["night.csv", "--chart", "npl_8"], 3, "5-3 does not finish the race 4:3"),
-        (["night.csv", "--chart", "npl_9"], 3, "no chart is called so"),
+        (["night.csv", "--chart", "npl_9"], 3, "no chart has this name"),
         (["night.csv", "--chart", "apa_8ball"], 2, "give one of rating differences"),
         (["none.csv", "--chart", "npl_10"], 3, "there is no such file"),
         (["night.csv", "--roster", "none.csv"], 3, "there is no such file"),

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn
 
 import click
 
 LONGEST = 1000
 """The most games that a race, a lead or a score can have here."""
 
+MOST_BALLS = 100_000
+"""The most balls that an option can name."""
+
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 """A finite number, as text."""
-
-Value = TypeVar("Value")
 
 
 class Whole(click.IntRange):

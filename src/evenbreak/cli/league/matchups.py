@@ -168,7 +168,7 @@ def _with_starters(roster: Roster, scale: Scale, starter: float | None, sd: floa
     """Return the roster with new players filled in."""
     import numpy as np
 
-    from evenbreak.handicaps.charts.uncertain import MOST_DOUBLINGS
+    from evenbreak.handicaps.charts.given_ratings import MOST_DOUBLINGS
     from evenbreak.ratings.scale import SCALES
 
     unrated = np.isnan(roster.rating)

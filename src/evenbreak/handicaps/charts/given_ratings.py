@@ -1,29 +1,29 @@
-"""Races between players whose ratings may be off.
+"""Chances, lengths and fair races when ratings have errors.
 
-The difference of two ratings is known only up to an error: it has the law N(d, e²), with the
-estimate d and the standard error e. A chance W(p(δ); m, n) is then averaged over the
-differences δ that are possible,
+The difference of two ratings is known only up to an error: it is distributed as N(d, e²), with
+the estimate d and the standard error e. A chance W(p(δ); m, n) is then averaged over the
+possible differences δ,
 
     E W = ∫ W(p(d + e z); m, n) φ(z) dz,
 
-by the rule of Gauss and Hermite. That pulls chances towards an even one: W at the estimate
-itself, the plug-in value, is too sure of the favourite.
+by Gauss-Hermite quadrature. That pulls chances towards 1/2: W at the estimate itself, the
+plug-in value, is overconfident in the favourite.
 """
 
 from __future__ import annotations
 
 import math
 from functools import cache
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import roots_hermitenorm
 
-from evenbreak.checks import probability, whole
-from evenbreak.errors import InputError
+from evenbreak.checks import floats, plain, probability, together, whole
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
+from evenbreak.handicaps.charts.fair import longest_matches
 from evenbreak.matches.length import MatchLength, match_length
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale, scale_of
@@ -31,14 +31,19 @@ from evenbreak.ratings.scale import Scale, scale_of
 Floats = NDArray[np.float64]
 
 MOST_DOUBLINGS = 10.0
-"""The largest error that is taken for one, in doublings of the odds."""
+"""The largest standard error allowed, in doublings of the odds."""
 
 _MOST_NODES = 20_000
-_FEWEST_GAMES = 6  # shorter races need the nodes of these
+_FEWEST_GAMES = 6  # shorter races need as many nodes as these
 _TIE = 1e-9
 _AT_A_TIME = 1 << 20  # values held in memory at once
 
 
+@overload
+def win_given_ratings(
+    difference: float, standard_error: float, m: float, n: float, *, scale: Any = "npl"
+) -> float: ...
+@overload
 def win_given_ratings(
     difference: ArrayLike,
     standard_error: ArrayLike,
@@ -46,8 +51,11 @@ def win_given_ratings(
     n: ArrayLike,
     *,
     scale: Any = "npl",
+) -> Floats: ...
+def win_given_ratings(
+    difference: Any, standard_error: Any, m: Any, n: Any, *, scale: Any = "npl"
 ) -> Any:
-    """Return P(player 1 wins the race m:n | the ratings and how far they may be off).
+    """Return P(player 1 wins the race m:n | the ratings and their standard error).
 
     Parameters
     ----------
@@ -55,16 +63,16 @@ def win_given_ratings(
         rating of player 1 minus rating of player 2, in points.
     standard_error
         the standard error of that difference, in points; 0 gives the plug-in value W(p; m, n).
-        Of two errors that have nothing to do with each other it is the root of the sum of
-        their squares.
+        For two independent ratings it is the root of the sum of their squared errors.
     m, n
-        the games that player 1 and player 2 need. The four are broadcast together.
+        the games that player 1 and player 2 need. All four are broadcast together.
     scale
         what the points mean: a name, points that double the odds, or a `Scale`.
 
     Returns
     -------
     float or numpy.ndarray
+        a float for numbers, otherwise an array.
 
     Raises
     ------
@@ -75,43 +83,45 @@ def win_given_ratings(
     Notes
     -----
     The number of nodes grows with the error and with the length of the race, so that the
-    rule itself is off by less than 1e-9, save for races of hundreds of games between players
-    of whom next to nothing is known.
+    quadrature is off by less than 1e-9, except in races of hundreds of games between players
+    about whom next to nothing is known.
 
     >>> round(win_given_ratings(60, 0, 7, 3), 4), round(win_given_ratings(60, 40, 7, 3), 4)
     (0.7382, 0.6485)
     """
     scale = scale_of(scale)
     gap, error = _checked(difference, standard_error, scale)
-    try:
-        gap, error, m, n = np.broadcast_arrays(gap, error, m, n)
-    except ValueError:
-        shapes = ", ".join(str(np.shape(part)) for part in (gap, error, m, n))
-        raise InputError(
-            f"difference, standard_error, m and n have shapes {shapes}; "
-            "give shapes that broadcast together"
-        ) from None
+    together(difference=gap, standard_error=error, m=m, n=n)
+    gap, error, m, n = np.broadcast_arrays(gap, error, m, n)
     longest = int(np.max(m + n, initial=2))
     nodes, weights = _rule(float(error.max(initial=0.0)), longest, scale)
     chance = np.zeros(gap.shape)
     for node, weight in zip(nodes, weights, strict=True):
         chance += weight * race_win_probability(scale.win_probability(gap + node * error), m, n)
-    return chance if chance.ndim else float(chance)
+    return plain(chance)
 
 
+@overload
+def length_given_ratings(
+    difference: float, standard_error: float, m: int, n: int, *, scale: Any = "npl"
+) -> MatchLength[float, float]: ...
+@overload
 def length_given_ratings(
     difference: ArrayLike, standard_error: ArrayLike, m: int, n: int, *, scale: Any = "npl"
-) -> MatchLength:
-    """Return how long the race m:n lasts, given the ratings and how far they may be off.
+) -> MatchLength[Floats, Floats]: ...
+def length_given_ratings(
+    difference: ArrayLike, standard_error: ArrayLike, m: int, n: int, *, scale: Any = "npl"
+) -> MatchLength[Any, Any]:
+    """Return how long the race m:n lasts, given the ratings and their standard error.
 
-    Parameters are those of `win_given_ratings`, with one race for all differences; the chance
-    of each length is averaged over the differences that are possible, and mean, standard
-    deviation and quantiles are those of the average law.
+    The parameters are those of `win_given_ratings`, with a single race for all differences. The
+    chance of each length is averaged over the possible differences; mean, standard deviation
+    and quantiles are those of the averaged distribution.
 
     Raises
     ------
     InputError
-        as `win_given_ratings` does.
+        as for `win_given_ratings`.
 
     >>> length = length_given_ratings([0, 60], 40, 7, 3)
     >>> length.mean.round(2), length.quantile(0.9)
@@ -125,7 +135,7 @@ def length_given_ratings(
     total: Floats = np.zeros((*gap.shape, len(games)))
     for node, weight in zip(nodes, weights, strict=True):
         length = match_length(Race(m, n, Rack(scale.win_probability(gap + node * error))))
-        # The shortest lengths are left out where their chance is nothing.
+        # The shortest lengths are missing where their chance is 0.
         total[..., length.games - games[0]] += weight * length.probability
     mean: Any = total @ games
     sd: Any = np.sqrt(((games - mean[..., np.newaxis]) ** 2 * total).sum(axis=-1))
@@ -135,7 +145,7 @@ def length_given_ratings(
     return MatchLength(games, total, mean, sd, never, never, bounded=True)
 
 
-def fairest_races(
+def fair_races_given_ratings(
     difference: ArrayLike,
     standard_error: ArrayLike,
     *,
@@ -144,36 +154,30 @@ def fairest_races(
     scale: Any = "npl",
     target: float = 0.5,
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return (m, n), two arrays: the race that is nearest to a fair one for each difference.
+    """Return (m, n), two arrays: the race nearest to the target for each difference.
 
-    Its chance is averaged over the differences that are possible. Of races within 1e-9 of
-    each other the shortest is taken, then the one with the smaller m, as in `fair_races`.
+    Chances are averaged over the possible differences. Among races equal within 1e-9 the
+    shortest is taken, then the one with the smaller m, as in `fair_races`.
 
     Parameters
     ----------
     difference, standard_error, scale
         as for `win_given_ratings`; broadcast together.
-    games
-        (lo, hi): the races m:n with lo <= m + n - 1 <= hi, the longest they can last.
-    race_to
-        instead: what the stronger player needs (player 1, if the two are equal); the weaker
-        needs as many at most.
-    target
-        P(player 1 wins the race) that is aimed at.
+    games, race_to, target
+        as for `fair_races`.
 
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have, or not just one of `games` and
-        `race_to` is given.
+        if a parameter is out of range, or not exactly one of `games` and `race_to` is given.
 
-    >>> fairest_races([91, -91, 91], [0, 0, 80], race_to=7, scale="fargo")
+    >>> fair_races_given_ratings([91, -91, 91], [0, 0, 80], race_to=7, scale="fargo")
     (array([7, 4, 7]), array([4, 7, 4]))
     """
     scale = scale_of(scale)
     target = float(probability(target, "target"))
     gap, error = np.broadcast_arrays(*_checked(difference, standard_error, scale))
-    low, high = _limits(games, race_to)
+    low, high = longest_matches(games, race_to)
     nodes, weights = _rule(float(error.max(initial=0.0)), high + 1, scale)
     m, longest = np.empty(gap.size, dtype=np.int64), np.empty(gap.size, dtype=np.int64)
     step = max(1, _AT_A_TIME // (len(nodes) * (high + 2)))
@@ -181,43 +185,23 @@ def fairest_races(
         part = slice(first, first + step)
         ahead = gap.reshape(-1)[part]
         p = scale.win_probability(ahead + nodes[:, np.newaxis] * error.reshape(-1)[part])
-        fixed = None if race_to is None else (whole(race_to, "race_to"), ahead >= 0.0)
+        fixed = None if race_to is None else (low, ahead >= 0.0)
         m[part], longest[part] = _nearest(p, weights, low, high, fixed, target)
     return m.reshape(gap.shape), (longest + 1 - m).reshape(gap.shape)
 
 
 def _checked(difference: ArrayLike, standard_error: ArrayLike, scale: Scale) -> tuple[Floats, Any]:
-    gap, error = np.asarray(difference, dtype=float), np.asarray(standard_error, dtype=float)
-    if not np.isfinite(gap).all():
-        raise InputError("difference holds a value that is not finite; give points")
     most = MOST_DOUBLINGS * scale.points_per_doubling
-    wrong = ~((error >= 0.0) & (error <= most))
-    if wrong.any():
-        raise InputError(
-            f"standard_error of a difference is {error[wrong].flat[0]:g}; give 0 to {most:g} "
-            f"points ({MOST_DOUBLINGS:g} doublings of the odds)"
-        )
-    return gap, error
-
-
-def _limits(games: tuple[int, int] | None, race_to: int | None) -> tuple[int, int]:
-    """Return the least and the most games that the longest course of a race may have."""
-    if (games is None) == (race_to is None):
-        raise InputError(f"games is {games!r} and race_to is {race_to!r}; give just one of the two")
-    if games is None:
-        needs = whole(race_to, "race_to", at_least=1)
-        return needs, 2 * needs - 1
-    low, high = (whole(limit, "games", at_least=1) for limit in games)
-    if low > high:
-        raise InputError(f"games is {games!r}; give the smaller number first")
-    return low, high
+    wanted = f"0 to {most:g} points ({MOST_DOUBLINGS:g} doublings of the odds)"
+    error = floats(standard_error, "standard_error", low=0.0, high=most, wanted=wanted)
+    return floats(difference, "difference"), error
 
 
 def _rule(largest_error: float, longest: int, scale: Scale) -> tuple[Floats, Floats]:
     """Return nodes and weights that average W over N(0, 1) to 1e-9.
 
-    What counts is how wide the error is beside the rise of W, which takes some
-    2 / sqrt(m + n) in log-odds; found by trial against quadrature.
+    The number of nodes depends on the error compared with the width of W's rise, about
+    2 / sqrt(m + n) in log-odds; it was found by trial against adaptive quadrature.
     """
     if largest_error == 0.0:
         return np.zeros(1), np.ones(1)
@@ -229,7 +213,7 @@ def _rule(largest_error: float, longest: int, scale: Scale) -> tuple[Floats, Flo
 def _hermite(number: int) -> tuple[Floats, Floats]:
     nodes, weights = roots_hermitenorm(number)
     weights = weights / weights.sum()
-    # The outermost weigh nothing: they are left out, and with them most of a large rule.
+    # The outermost nodes have no weight: dropping them drops most of a large rule.
     kept = weights > 1e-18
     return nodes[kept], weights[kept]
 
@@ -257,7 +241,7 @@ def _nearest(
             continue
         away = np.abs(np.einsum("k,mkj->mj", weights, inner) - target)
         if fixed is None:
-            # The first of those that are tied.
+            # The first of those that tie.
             place = (away <= away.min(axis=0) + _TIE).argmax(axis=0)
         else:
             needs, ahead = fixed

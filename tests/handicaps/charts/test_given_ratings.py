@@ -9,12 +9,12 @@ from scipy.special import betainc
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.fair import fair_races
-from evenbreak.handicaps.charts.uncertain import (
-    fairest_races,
+from evenbreak.handicaps.charts.given_ratings import (
+    fair_races_given_ratings,
     length_given_ratings,
     win_given_ratings,
 )
-from evenbreak.matches.races import race_law
+from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import SCALES
 
 
@@ -38,7 +38,7 @@ def test_win_is_the_integral(race, error):
 
 def test_without_error_it_is_the_plug_in_value():
     p = SCALES["fargo"].win_probability(91.0)
-    plug_in = race_law(7, 4, p).p_win_1
+    plug_in = race_odds(7, 4, p).p_win_1
     assert win_given_ratings(91.0, 0.0, 7, 4, scale="fargo") == pytest.approx(plug_in, rel=1e-13)
 
 
@@ -69,14 +69,14 @@ def test_length_is_the_integral():
     length = length_given_ratings(35.0, 42.0, 7, 3)
     for games, chance in zip(length.games.tolist(), length.probability, strict=True):
         place = games - 3
-        exact = averaged(lambda p, k=place: race_law(7, 3, p).probability[k], 35.0, 42.0)
+        exact = averaged(lambda p, k=place: race_odds(7, 3, p).probability[k], 35.0, 42.0)
         assert chance == pytest.approx(exact, abs=1e-9)
-    mean = averaged(lambda p: race_law(7, 3, p).mean, 35.0, 42.0)
+    mean = averaged(lambda p: race_odds(7, 3, p).mean, 35.0, 42.0)
     assert length.mean == pytest.approx(mean, abs=1e-8)
 
 
-def test_length_without_error_is_the_race_law():
-    law = race_law(6, 4, SCALES["npl"].win_probability(25.0))
+def test_length_without_error_is_that_of_the_race():
+    law = race_odds(6, 4, SCALES["npl"].win_probability(25.0))
     length = length_given_ratings(25.0, 0.0, 6, 4)
     assert length.probability == pytest.approx(law.probability, rel=1e-12)
     assert (length.mean, length.sd) == pytest.approx((law.mean, law.sd), rel=1e-12)
@@ -97,7 +97,7 @@ def test_lengths_whose_chance_is_nothing_at_some_difference():
 @pytest.mark.parametrize("limits", [{"games": (7, 13)}, {"games": (1, 4)}, {"race_to": 6}])
 def test_without_error_the_races_are_those_of_fair_races(limits):
     differences = np.arange(-90, 91, 5)
-    m, n = fairest_races(differences, 0.0, **limits)
+    m, n = fair_races_given_ratings(differences, 0.0, **limits)
     for k, difference in enumerate(differences.tolist()):
         best = fair_races(SCALES["npl"].win_probability(difference), top=1, **limits)[0]
         assert (m[k], n[k]) == (best.race_1, best.race_2)
@@ -105,7 +105,7 @@ def test_without_error_the_races_are_those_of_fair_races(limits):
 
 def test_with_error_the_race_is_the_nearest_of_all():
     for difference, error in ((20.0, 30.0), (55.0, 42.0), (-33.0, 15.0)):
-        m, n = fairest_races(difference, error, games=(5, 11))
+        m, n = fair_races_given_ratings(difference, error, games=(5, 11))
         every = {
             (i, longest + 1 - i): abs(
                 win_given_ratings(difference, error, i, longest + 1 - i) - 0.5
@@ -119,25 +119,25 @@ def test_with_error_the_race_is_the_nearest_of_all():
 def test_many_pairs_go_in_parts():
     rng = np.random.default_rng(5)
     differences, errors = rng.uniform(-80, 80, 20_000), rng.uniform(0, 40, 20_000)
-    m, n = fairest_races(differences, errors, games=(7, 13))
+    m, n = fair_races_given_ratings(differences, errors, games=(7, 13))
     for k in (0, 9_999, 19_999):
-        alone = fairest_races(differences[k], errors[k], games=(7, 13))
+        alone = fair_races_given_ratings(differences[k], errors[k], games=(7, 13))
         assert (m[k], n[k]) == alone
 
 
 @pytest.mark.parametrize(
     ("call", "remedy"),
     [
-        (lambda: win_given_ratings(math.inf, 1.0, 5, 5), "not finite"),
-        (lambda: win_given_ratings(0.0, -1.0, 5, 5), "give 0 to 300 points"),
-        (lambda: win_given_ratings(0.0, 301.0, 5, 5), "10 doublings"),
-        (lambda: win_given_ratings([0.0, 1.0], 1.0, [1, 2, 3], 5), "broadcast together"),
-        (lambda: win_given_ratings(0.0, 1.0, 1.5, 5), "whole numbers"),
+        (lambda: win_given_ratings(math.inf, 1.0, 5, 5), "difference is inf"),
+        (lambda: win_given_ratings(0.0, -1.0, 5, 5), "is -1"),
+        (lambda: win_given_ratings(0.0, 301.0, 5, 5), "is 301"),
+        (lambda: win_given_ratings([0.0, 1.0], 1.0, [1, 2, 3], 5), "m has shape"),
+        (lambda: win_given_ratings(0.0, 1.0, 1.5, 5), "whole number"),
         (lambda: length_given_ratings(0.0, 1.0, 0, 5), "1 or more"),
-        (lambda: fairest_races(0.0, 1.0), "just one of the two"),
-        (lambda: fairest_races(0.0, 1.0, games=(9, 7)), "smaller number first"),
-        (lambda: fairest_races(0.0, 1.0, race_to=0), "1 or more"),
-        (lambda: fairest_races(0.0, 1.0, race_to=5, target=2.0), "from 0 to 1"),
+        (lambda: fair_races_given_ratings(0.0, 1.0), "games is None and race_to is None"),
+        (lambda: fair_races_given_ratings(0.0, 1.0, games=(9, 7)), "smaller number first"),
+        (lambda: fair_races_given_ratings(0.0, 1.0, race_to=0), "1 or more"),
+        (lambda: fair_races_given_ratings(0.0, 1.0, race_to=5, target=2.0), "from 0 to 1"),
     ],
 )
 def test_refused(call, remedy):
