@@ -97,7 +97,7 @@ def test_skill_is_drawn_varies_by_the_day_and_drifts() -> None:
     assert margins[1] > margins[0] + 1.0
 
 
-def test_who_is_not_there_does_not_play() -> None:
+def test_absent_players_do_not_play() -> None:
     season = season_of(
         np.full(6, 80),
         schedule=RoundRobin(6),

@@ -39,6 +39,8 @@ class Column:
         whether only those read it who ask for details.
     exact
         whether CSV has its numbers with all their digits, in place of six decimals.
+    cell
+        a value as CSV has it, such as 'yes' for True; by default the value itself.
     """
 
     name: str | tuple[str, ...]
@@ -47,6 +49,7 @@ class Column:
     left: bool = False
     detail: bool = False
     exact: bool = False
+    cell: Show | None = None
 
     @property
     def names(self) -> tuple[str, ...]:

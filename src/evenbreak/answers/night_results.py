@@ -9,7 +9,8 @@ from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import RosterFile
 from evenbreak.files.similar_names import similar_names
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.systems.rating_changes import Moves, apply_results, night_problems
+from evenbreak.handicaps.systems.night_problems import night_problems
+from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results
 from evenbreak.handicaps.systems.system import System
 from evenbreak.ratings.consistency import Problem
 from evenbreak.ratings.results import Results
@@ -17,7 +18,7 @@ from evenbreak.ratings.results import Results
 
 def moves_of_files(
     system: System, last: RosterFile, tonight: ResultsFile, *, chart: Chart | None = None
-) -> Moves:
+) -> RatingChanges:
     """Return how a night's results change the ratings of a list.
 
     Raises

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from evenbreak.files.results import ResultsFile
     from evenbreak.files.roster import RosterFile
     from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.rating_changes import MatchMove, Moves
+    from evenbreak.handicaps.systems.rating_changes import MatchChange, RatingChanges
 
 MOST_NAMES = 6
 """How many players who gained, and who lost, the first sentence names."""
 
 
 def rating_changes_answer(
-    moves: Moves,
+    moves: RatingChanges,
     last: RosterFile,
     tonight: ResultsFile,
     *,
@@ -72,7 +72,7 @@ def rating_changes_answer(
     )
 
 
-def _heading(moves: Moves, last: str, tonight: str) -> str:
+def _heading(moves: RatingChanges, last: str, tonight: str) -> str:
     """Return by which rule the list was changed, and what was left out."""
     out = [count_of(moves.forfeits, "forfeit")] if moves.forfeits else []
     out += [f"{moves.empty:,} at 0-0"] if moves.empty else []
@@ -84,7 +84,7 @@ def _heading(moves: Moves, last: str, tonight: str) -> str:
     )
 
 
-def _newcomers(moves: Moves) -> str:
+def _newcomers(moves: RatingChanges) -> str:
     """Return how newcomers move, where the list has some and the system a rule for them."""
     steps, before = moves.system.newcomer_steps, moves.before.matches
     first = sum(matches for matches, _ in steps)
@@ -99,7 +99,7 @@ def _newcomers(moves: Moves) -> str:
     return f"; newcomers move {', '.join(stages)}"
 
 
-def _in_words(moves: Moves) -> str:
+def _in_words(moves: RatingChanges) -> str:
     """Return who gained and who lost points, the largest changes first."""
     change = moves.after.rating - moves.before.rating
     order = sorted(range(len(change)), key=lambda k: (-abs(change[k]), moves.before.players[k]))
@@ -118,7 +118,7 @@ def _in_words(moves: Moves) -> str:
     return " ".join(sentences) or "Nobody's rating changed."
 
 
-def _order(moves: Moves) -> list[int]:
+def _order(moves: RatingChanges) -> list[int]:
     """Return the places of the players, the strongest first, those without a rating last."""
     after = moves.after
 
@@ -130,7 +130,7 @@ def _order(moves: Moves) -> list[int]:
     return sorted(range(len(after)), key=key)
 
 
-def _list_for_files(moves: Moves, order: Sequence[int]) -> Table:
+def _list_for_files(moves: RatingChanges, order: Sequence[int]) -> Table:
     """Return the list after a night as files hold it, a roster with more columns."""
     before, after = moves.before, moves.after
     why = _reasons(moves)
@@ -162,7 +162,7 @@ def _numbers(values: NDArray[np.float64]) -> list[float | int | None]:
     return [None if math.isnan(one) else int(one) if whole else one for one in values.tolist()]
 
 
-def _reasons_table(moves: Moves, order: Sequence[int]) -> Table:
+def _reasons_table(moves: RatingChanges, order: Sequence[int]) -> Table:
     """Return who played, how their ratings changed and why, a line a match."""
     why = _reasons(moves)
     rows: list[tuple[Any, ...]] = []
@@ -181,7 +181,7 @@ def _reasons_table(moves: Moves, order: Sequence[int]) -> Table:
     return Table("", columns, rows)
 
 
-def _list_table(moves: Moves, order: Sequence[int]) -> Table:
+def _list_table(moves: RatingChanges, order: Sequence[int]) -> Table:
     games = _stated(moves.after.games)
     rows = [
         (rank, moves.after.players[place], float(moves.after.rating[place]), games[place])
@@ -206,7 +206,7 @@ def _change(points: float) -> str:
     return f"{points:+g}" if points else "0"
 
 
-def _reasons(moves: Moves) -> dict[int, list[str]]:
+def _reasons(moves: RatingChanges) -> dict[int, list[str]]:
     """Return for the place of each player who played what each of their matches was."""
     players = moves.before.players
     reasons: dict[int, list[str]] = {}
@@ -217,7 +217,7 @@ def _reasons(moves: Moves) -> dict[int, list[str]]:
     return reasons
 
 
-def _score(match: MatchMove, turn: int) -> str:
+def _score(match: MatchChange, turn: int) -> str:
     """Return the score and race of a match, the winner's first (1) or the loser's (-1)."""
     text = ""
     if match.games is not None:
@@ -229,7 +229,7 @@ def _score(match: MatchMove, turn: int) -> str:
     return text
 
 
-def _matches(moves: Moves) -> list[dict[str, Any]]:
+def _matches(moves: RatingChanges) -> list[dict[str, Any]]:
     players = moves.before.players
     return [
         {
@@ -244,7 +244,9 @@ def _matches(moves: Moves) -> list[dict[str, Any]]:
     ]
 
 
-def _night_warnings(moves: Moves, tonight: ResultsFile, chart: Chart | None) -> Iterator[str]:
+def _night_warnings(
+    moves: RatingChanges, tonight: ResultsFile, chart: Chart | None
+) -> Iterator[str]:
     """Yield what to check in a night played by a chart: other races, and several dates."""
     if chart is None:
         return

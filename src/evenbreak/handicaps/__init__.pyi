@@ -64,11 +64,11 @@ from .systems.match_table import MatchTable as MatchTable
 from .systems.match_table import match_table as match_table
 from .systems.newcomers import NEWCOMER_STEPS as NEWCOMER_STEPS
 from .systems.newcomers import step_after as step_after
-from .systems.rating_changes import MatchMove as MatchMove
-from .systems.rating_changes import Moves as Moves
+from .systems.night_problems import chart_of_night as chart_of_night
+from .systems.night_problems import night_problems as night_problems
+from .systems.rating_changes import MatchChange as MatchChange
+from .systems.rating_changes import RatingChanges as RatingChanges
 from .systems.rating_changes import apply_results as apply_results
-from .systems.rating_changes import chart_of_night as chart_of_night
-from .systems.rating_changes import night_problems as night_problems
 from .systems.step import step_system as step_system
 from .systems.system import PlayedMatch as PlayedMatch
 from .systems.system import System as System

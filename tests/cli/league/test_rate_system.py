@@ -150,7 +150,7 @@ def test_a_system_that_moves_by_the_race_asks_for_it(rate, tmp_path):
     assert result.exit_code == 3
     assert (
         "night.csv:2: the race is not stated, and the system margin 2 moves ratings by it; give "
-        "the chart by which they played (npl_8, npl_10, npl_12 or npl_20), or the columns race_a "
+        "the chart that was used (npl_8, npl_10, npl_12 or npl_20), or the columns race_a "
         "and race_b"
     ) in result.stderr
 
@@ -158,7 +158,7 @@ def test_a_system_that_moves_by_the_race_asks_for_it(rate, tmp_path):
 def test_the_chart_of_a_fixed_length_system_is_taken_by_itself(rate):
     result = rate("night.csv", "--system", "fixed 9")
     assert result.exit_code == 3  # 5-3 and 6-2 are the ends of no races of nine games at once
-    assert "give the chart by which they played, or the columns race_a and race_b" in result.stderr
+    assert "give the chart that was used, or the columns race_a and race_b" in result.stderr
 
 
 @pytest.mark.parametrize(
@@ -195,7 +195,7 @@ def test_without_a_chart_the_only_one_that_fits_is_used_and_named(rate):
     ("words", "code", "remedy"),
     [
         (["open.csv"], 3, "--chart NAME serves for all"),
-        (["night.csv", "--chart", "npl_8"], 3, "5-3 is no end of the race 4:3"),
+        (["night.csv", "--chart", "npl_8"], 3, "5-3 does not finish the race 4:3"),
         (["night.csv", "--chart", "npl_9"], 3, "no chart has this name"),
         (["night.csv", "--chart", "apa_8ball"], 2, "give one of rating differences"),
         (["none.csv", "--chart", "npl_10"], 3, "there is no such file"),

@@ -6,36 +6,29 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.answer import Quantities
-from evenbreak.answers.wording import yes_or_no
 from evenbreak.files.csv_writer import csv_lines
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
+    from evenbreak.answers.answer import Answer, Show
 
 
 def to_csv(answer: Answer) -> Iterator[str]:
     """Yield an answer's lines of CSV, each with its line end, so that none has to wait."""
     numbers = answer.for_files
     if isinstance(numbers, Quantities):
-        rows = ([one.name, _plain(one.value)] for one in numbers.of)
-        yield from csv_lines(["quantity", "value"], rows)
+        yield from csv_lines(["quantity", "value"], ([one.name, one.value] for one in numbers.of))
     elif numbers is not None:
-        exact = [column.exact for column in numbers.columns for _ in column.names]
-        yield from csv_lines(numbers.names, _in_full(numbers.records(), exact))
+        cells = [repr if c.exact else c.cell for c in numbers.columns for _ in c.names]
+        yield from csv_lines(numbers.names, _as_cells(numbers.records(), cells))
 
 
-def _plain(value: Any) -> Any:
-    """Return a quantity as a file holds it: a truth is a word."""
-    return yes_or_no(value) if isinstance(value, bool) else value
-
-
-def _in_full(rows: Iterator[list[Any]], exact: list[bool]) -> Iterator[list[Any]]:
-    """Yield rows, the numbers of some columns as text with all their digits."""
-    if not any(exact):
+def _as_cells(rows: Iterator[list[Any]], cells: list[Show | None]) -> Iterator[list[Any]]:
+    """Yield rows with the values of some columns as the text that CSV has for them."""
+    if not any(cells):
         yield from rows
         return
     for row in rows:
         yield [
-            repr(value) if full and value is not None else value
-            for value, full in zip(row, exact, strict=True)
+            value if cell is None or value is None else cell(value)
+            for value, cell in zip(row, cells, strict=True)
         ]

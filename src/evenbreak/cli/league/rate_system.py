@@ -37,7 +37,7 @@ def rate_by_system(
     from evenbreak.files.results import read_results
     from evenbreak.files.roster import read_roster
     from evenbreak.handicaps.systems.catalogue import system_of
-    from evenbreak.handicaps.systems.rating_changes import chart_of_night
+    from evenbreak.handicaps.systems.night_problems import chart_of_night
 
     if [path, roster, chart, aliases].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
