@@ -37,7 +37,7 @@ def test_the_least_fair_race_with_the_end_of_its_band_that_is_worse():
     rows = [ChartRow(0, 2, 5, 5), ChartRow(3, 8, 6, 4), ChartRow(9, 25, 6, 4)]
     early = audit(ChartDraft("early", (*rows, ChartRow(26, None, 7, 4))), scale="npl")
     assert "6:4 at a difference of 3" in words(chart_audit_answer(early))
-    assert "29 %" in words(chart_audit_answer(early))
+    assert "29%" in words(chart_audit_answer(early))
     assert "7:3 at a difference of 46" in words(chart_audit_answer(audit(chart("npl_10"))))
 
 

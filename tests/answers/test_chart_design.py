@@ -88,7 +88,7 @@ def test_games_are_those_of_the_rules():
         ({"limits": RaceLimits((5, 7), games_p90=6)}, ["within 6"]),
         ({"rows": 1}, ["1 row"]),
         ({"mean_games": 4.5}, ["4.5 games"]),
-        ({"target": 0.55, "tilt": 0.25}, ["55 %", "tilt 0.25"]),
+        ({"target": 0.55, "tilt": 0.25}, ["55%", "tilt 0.25"]),
     ],
 )
 def test_the_heading_says_what_was_asked(changes, words):

@@ -84,10 +84,10 @@ def test_an_unsure_advice_names_the_second_level(analysis):
         )
         return answer_of(analysis, levels=levels).sentences[0]
 
-    assert "90 %" in advice(0.9)
+    assert "90%" in advice(0.9)
     assert "level 3" not in advice(0.9)
-    assert "60 %" in advice(0.6)
-    assert "level 3 it is 40 %" in advice(0.6)
+    assert "60%" in advice(0.6)
+    assert "level 3 it is 40%" in advice(0.6)
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,7 @@ def test_the_least_even_race_is_the_furthest_from_a_half():
     worst = frame.iloc[frame["chart_unfairness"].argmax()]
     assert worst.player_a in text
     assert worst.player_b in text
-    assert f"{50 + 100 * worst.chart_unfairness:.0f} %" in text
+    assert f"{50 + 100 * worst.chart_unfairness:.0f}%" in text
 
 
 def test_races_say_where_they_come_from():

@@ -31,9 +31,9 @@ def test_a_line_between_two_scores_is_passed_by_the_next_one():
 
 
 def test_the_answer_to_the_question_comes_first():
-    assert "1.7 %" in first(LAW, at_least=100)
+    assert "1.7%" in first(LAW, at_least=100)
     assert "59 innings" in first(LAW, at_least=100)
-    assert "42 %" in first(LAW, over=20)
+    assert "42%" in first(LAW, over=20)
 
 
 @pytest.mark.parametrize(("line", "side"), [(20, "a bad bet"), (10, "a good bet")])

@@ -32,7 +32,7 @@ def test_an_operator_reads_how_accurate_how_fair_and_who_gains():
     )
     answer = asked(Season(players, "npl", weeks=12))
     accurate, fair, gains, luck = answer.sentences
-    assert "75.0 %" in accurate  # the three who are rated rightly at the start
+    assert "75.0%" in accurate  # the three who are rated rightly at the start
     assert f"{100 * answer.to_dict()['p_stronger_wins']:.1f}" in fair
     assert "fifth" in fair
     assert "Otto, rated 60 with a true skill of 90" in gains

@@ -60,7 +60,7 @@ def test_json_holds_everything(demo_answer, demo):
 def test_scores_that_vary_more_are_explained_and_others_are_not(demo_answer, demo, chosen):
     more = 100 * (demo.dispersion.seen / demo.dispersion.by_chance - 1)
     (text,) = [one for one in demo_answer.sentences if one.startswith("Match scores")]
-    assert f"{more:.0f} %" in text
+    assert f"{more:.0f}%" in text
     assert "winner breaks" in text
     file = ResultsFile(chosen.forecasts.results, "r.csv", (), (), "")
     sentences = validate_answer(file, chosen, NPL).sentences

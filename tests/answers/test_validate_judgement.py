@@ -18,7 +18,7 @@ from evenbreak.ratings.calibration import Estimate
 @pytest.mark.parametrize(
     ("low", "high", "off"),
     [
-        (1.02, 1.5, 0),  # below 1 % takes an interval wider by a third
+        (1.02, 1.5, 0),  # below 1% takes an interval wider by a third
         (1.2, 1.5, 1),
         (0.5, 0.8, -1),
         (0.5, 0.95, 0),

@@ -15,7 +15,7 @@ def said(results, **options):
 
 def test_leagues_of_the_model_are_sound(play_season):
     verdicts = [said(play_season(seed), prior_sd=0.5) for seed in range(10)]
-    # Four tests at 1 % each: three alarms in ten have a chance below 1 %.
+    # Four tests at 1% each: three alarms in ten have a chance below 1%.
     assert sum(text.startswith("You can trust these ratings:") for text in verdicts) >= 8
 
 

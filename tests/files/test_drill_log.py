@@ -94,7 +94,7 @@ def test_all_problems_are_told_at_once(drill_file):
     ("text", "words"),
     [
         ("level,success\n", "has no attempts below its header"),
-        ("1,yes\n2,no\n", "names no column"),
+        ("1,yes\n2,no\n", "are not names of columns"),
         ("level\n1\n", "there is no column 'success' among 'level'"),
         ("", "is empty"),
     ],

@@ -32,7 +32,7 @@ def test_errors_stand_beside_the_natural_and_the_normal_ones():
     bell = drawn["normal distribution, same sd"]
     assert bell[:, 1].max() == pytest.approx(1.0 / (LAW.sd * np.sqrt(2.0 * np.pi)))
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert "within 1 point: 80 %" in labels
+    assert "within 1 point: 80%" in labels
 
 
 def test_natural_errors_are_drawn_once():

@@ -54,7 +54,7 @@ def test_two_dates_do_not_make_a_first_column_matter(play_season):
         rng = np.random.default_rng([11, seed])
         found = side_advantage(walk_forward(play_season(rng, matches=80), prior_sd=0.5))
         off += not found.low < 0.0 < found.high
-    assert off <= 6  # 5 % of 40 are 2
+    assert off <= 6  # 5% of 40 are 2
 
 
 def test_who_breaks_first_wins_more_when_the_break_is_worth_much(play_season):

@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.sheets.race_blocks import batching_of, race_blocks, race_cards
+from evenbreak.sheets.race_blocks import parts_of, race_blocks, race_cards
 from evenbreak.sheets.rating_bars import Bars, player_lines
 from leagues import league, sheet_of, two_groups
 
@@ -12,7 +12,7 @@ def lines_of(sheet):
 
 @pytest.mark.parametrize(("many", "most", "sizes"), [(5, 9, [5]), (25, 24, [13, 12]), (1, 1, [1])])
 def test_parts_are_as_equal_as_can_be(many, most, sizes):
-    assert [len(part) for part in batching_of(list(range(many)), most)] == sizes
+    assert [len(part) for part in parts_of(list(range(many)), most)] == sizes
 
 
 @pytest.mark.parametrize("sheet", [sheet_of(league(5)), sheet_of(two_groups())])

@@ -140,11 +140,11 @@ def test_unknown_method():
 def test_was_fifty_three_luck():
     luck = was_it_luck(WEEKS, 53, confidence=0.8)
     assert luck.normal.units == pytest.approx(1.9033238057235446, rel=1e-13)
-    # Inside the central 95 %, outside the central 90 %, as the text says.
+    # Inside the central 95%, outside the central 90%, as the text says.
     assert 0.05 < luck.normal.as_far < 0.10
     upper = mean_interval(WEEKS, 0.8, method="normal").high
     assert luck.cautious.units == pytest.approx((53 - upper) / np.std(WEEKS), rel=1e-13)
-    # 13 % by chance, not 87 %.
+    # 13% by chance, not 87%.
     assert luck.cautious.as_far == pytest.approx(0.13, abs=0.005)
     assert luck.as_high_by_rank == 1 / 11
     assert luck.as_low_by_rank == 1.0

@@ -58,7 +58,7 @@ def before_and_after_answer(before: ScoresFile, after: ScoresFile, found: Compar
     if found.low is not None and found.high is not None:
         sentences.append(
             f"The true difference is between {found.low:+.2f} and {found.high:+.2f}, with "
-            f"{100 * found.confidence:g} % confidence. In {100 * found.effect.p_after_higher:.0f} "
+            f"{100 * found.confidence:g}% confidence. In {100 * found.effect.p_after_higher:.0f} "
             "of 100 pairs of a score before and one after, the later one is higher."
         )
     return Answer(

@@ -30,7 +30,7 @@ def break_cue_answer(forearm: float, ball: float, weight: Unit, stick: float | N
     >>> from evenbreak.physics.units import OUNCE
     >>> answer = break_cue_answer(36.0 * OUNCE, 6.0 * OUNCE, IMPERIAL.mass, 19.0 * OUNCE)
     >>> print(answer.sentences[0])
-    The best cue to break with weighs 15.4 ounces. One of 19 ounces breaks 0.7 % slower for the
+    The best cue to break with weighs 15.4 ounces. One of 19 ounces breaks 0.7% slower for the
     same effort.
     """
     arm = forearm / ball
@@ -58,7 +58,7 @@ def _slower(speed: float) -> str:
     """Return how a break compares, from its speed over that with the best cue.
 
     >>> _slower(0.9877), _slower(0.999996)
-    ('1.2 % slower', 'as fast')
+    ('1.2% slower', 'as fast')
     """
     percent = decimals(1)(100.0 * (1.0 - speed))
-    return f"{percent} % slower" if float(percent) else "as fast"
+    return f"{percent}% slower" if float(percent) else "as fast"

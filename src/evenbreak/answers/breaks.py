@@ -36,7 +36,7 @@ def breaks_answer(
 
     >>> from evenbreak.games import Rack
     >>> print(breaks_answer(Rack(0.9, 0.5), lose=2).sentences[0])
-    A does best with winner breaks, winning 83 % of the racks, and B with loser breaks, ...
+    A does best with winner breaks, winning 83% of the racks, and B with loser breaks, ...
     At these stakes A gains with winner and alternate breaks and loses with loser breaks.
     In 100 racks with winner breaks A comes out 50 points ahead on average, give or take 17.
     """

@@ -38,8 +38,8 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
 
     >>> from evenbreak.handicaps import audit, chart
     >>> print(chart_audit_answer(audit(chart("npl_10"))).sentences[0])
-    Up to a difference of 57 points, the stronger player wins between 44 % and 58 % of the matches.
-    The least fair race is 7:3 at a difference of 46, where the stronger player wins 58 % of the
+    Up to a difference of 57 points, the stronger player wins between 44% and 58% of the matches.
+    The least fair race is 7:3 at a difference of 46, where the stronger player wins 58% of the
     time.
     """
     points = report.scale.points_per_doubling
@@ -163,8 +163,8 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
 
     >>> from evenbreak.handicaps import audit_levels, level_chart
     >>> print(level_audit_answer(audit_levels(level_chart("apa_8ball"))).sentences[0])
-    Between average players of two levels, the higher level wins between 42 % and 58 % of the
-    matches. The least fair race is 5:2 between levels 7 and 4, which level 7 wins 42 % of the time.
+    Between average players of two levels, the higher level wins between 42% and 58% of the
+    matches. The least fair race is 5:2 between levels 7 and 4, which level 7 wins 42% of the time.
     """
     points = report.scale.points_per_doubling
     between = [cell for cell in report.cells if cell.level > cell.opponent_level]

@@ -111,7 +111,7 @@ def chart_design_answer(task: DesignTask, design: Design) -> Answer:
 
     >>> task = DesignTask(MatchRules("npl"), RaceLimits((7, 9), 5, 2), up_to=59)
     >>> print(chart_design_answer(task, task.design()).sentences[0])
-    At differences up to 59, the stronger player's chance is within 7.2 percentage points of 50 %,
+    At differences up to 59, the stronger player's chance is within 7.2 percentage points of 50%,
     and 2.9 away on average. A match takes 6.6 games on average; 9 of 10 take at most 9.
     """
     made, up_to = design

@@ -29,7 +29,7 @@ def drill_answer(statistics: DrillStatistics, description: str) -> Answer:
     >>> from evenbreak.games import Drill
     >>> from evenbreak.practice import drill_statistics
     >>> drill = drill_statistics(Drill.progressive(0.8))
-    >>> print(drill_answer(drill, "80 % of shots").sentences[0])
+    >>> print(drill_answer(drill, "80% of shots").sentences[0])
     Practise level 4: five more successes in 100 there raise your average level by 0.11, more than
     at any other level. As it is, you settle at an average level of 4.35.
     """

@@ -101,7 +101,7 @@ def _table(analysis: LogAnalysis) -> Table:
         "levels",
         columns,
         analysis.levels,
-        "Each level with the 95 % interval of your success rate; its share of the attempts so far "
+        "Each level with the 95% interval of your success rate; its share of the attempts so far "
         "and in the long run; its lift, by how much five more successes in 100 there raise your "
         "average level; and how likely it is the best one to practise:",
     )
@@ -176,11 +176,11 @@ def _percent(p: float) -> str:
     """Return a probability in words that leave some doubt.
 
     >>> [_percent(p) for p in (0.714, 0.9995, 0.001)]
-    ['71 %', 'more than 99 %', 'less than 1 %']
+    ['71%', 'more than 99%', 'less than 1%']
     """
     if p > 0.99:
-        return "more than 99 %"
-    return "less than 1 %" if p < 0.01 else f"{100 * p:.0f} %"
+        return "more than 99%"
+    return "less than 1%" if p < 0.01 else f"{100 * p:.0f}%"
 
 
 def _findings(analysis: LogAnalysis) -> Iterator[str]:

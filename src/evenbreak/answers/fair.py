@@ -21,7 +21,7 @@ def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float
     >>> from evenbreak.handicaps import fair_races
     >>> races = fair_races(Rack(0.6), race_to=7, top=2)
     >>> print(fair_answer(TwoPlayers(Rack(0.6)), races).sentences[0])
-    The fairest race is 7:5. A wins it 53 % of the time, and it lasts 9.3 games on average.
+    The fairest race is 7:5. A wins it 53% of the time, and it lasts 9.3 games on average.
     """
     a, b = players.names
     rows = [

@@ -33,7 +33,7 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
     pandas.DataFrame
         player_a, player_b; p_game_a = P(a wins a game | the ratings are right); race_a,
         race_b, the games that each needs; p_win_a = P(a wins that race); mean_games and
-        games_p90, its mean length and the games within which 90 % of such races end;
+        games_p90, its mean length and the games within which 90% of such races end;
         note. Where no chain of opponents links the two, their ratings cannot be
         compared: there are no numbers then, and the note says so.
     """

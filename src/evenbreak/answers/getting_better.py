@@ -35,7 +35,7 @@ def getting_better_answer(file: ScoresFile, *, confidence: float = 0.95) -> Answ
     """
     own, line = interval_of(file, confidence), _trend(file, confidence)
     normal = own and mean_interval(file.scores, confidence, method="normal")
-    share = f"{100 * confidence:g} %"
+    share = f"{100 * confidence:g}%"
     mean = float(file.scores.mean())
     quantities = [
         Quantity("n", len(file.scores)),
@@ -114,7 +114,7 @@ def _average(mean: float, own: MeanInterval | None, line: Trend | None) -> str:
         return f"Your average is {mean:.2f}; without a spread there is no saying how sure that is."
     text = (
         f"Your average is {mean:.2f}. In the long run it is between {own.low:.2f} and "
-        f"{own.high:.2f}, with {100 * own.confidence:g} % confidence"
+        f"{own.high:.2f}, with {100 * own.confidence:g}% confidence"
     )
     if line is not None and line.p_value < DRIFTS:
         text += ", if your level were steady, which it does not seem to be"

@@ -55,7 +55,7 @@ by more than 5 points, 1 in 70 by more than 10.
     said = [_how_far_off(found), _how_unfair(found.favourite), _how_soon(found)]
     if abs(found.inflation) >= 0.005:
         said.append(_inflation(found.inflation))
-    shares = [(f"{100 * share:g} %", found.off.quantile(share)) for share in SHARES]
+    shares = [(f"{100 * share:g}%", found.off.quantile(share)) for share in SHARES]
     columns = [
         Column("share", "of the ratings"),
         Column("off_by", "are off by at most", "{} points".format),
@@ -117,8 +117,8 @@ def _how_unfair(favourite: Distribution) -> str:
     often = favourite.at_least(CLEAR_FAVOURITE)
     return (
         "These errors make favourites in matches that should be even: on average the favourite "
-        f"wins {100.0 * favourite.mean:.1f} % of them, and {of_100(often)} have a clear favourite, "
-        f"with a chance of {100 * CLEAR_FAVOURITE:g} % or more."
+        f"wins {100.0 * favourite.mean:.1f}% of them, and {of_100(often)} have a clear favourite, "
+        f"with a chance of {100 * CLEAR_FAVOURITE:g}% or more."
     )
 
 

@@ -131,7 +131,7 @@ _EXPLANATION = (
     "of a doubling, the points that double the odds of a game. settles in: matches until a rating "
     "that starts one doubling too low is within a sixth of one, on average and for 9 of 10 "
     "players. favoured: how often the player whom the errors favour wins, and how many matches in "
-    "100 give them a chance of 60 % or more. games: the mean length of a match."
+    "100 give them a chance of 60% or more. games: the mean length of a match."
 )
 
 _COLUMNS = [
@@ -164,7 +164,7 @@ def _view(rows: Sequence[SystemRow], title: str = "") -> Table:
         Column("settling_mean", "settles\nin", decimals(1)),
         Column("settling_p90", "9 of 10\nin"),
         Column("favourite", "favoured\nwins %", per_cent(1)),
-        Column("clear_favourite", "60 %\nor up", per_cent(0)),
+        Column("clear_favourite", "60%\nor up", per_cent(0)),
         Column("games", "games", decimals(1)),
     ]
     return Table("", columns, [row[: len(columns)] for row in rows], title)

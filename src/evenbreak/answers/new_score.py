@@ -38,7 +38,7 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
     sd = mean_interval(file.scores, confidence).sd
     high = score >= luck.mean
     as_high, as_low = ("this high", None) if high else (None, "this low")
-    more, share = f"among {luck.n + 1} scores, by rank alone", f"{100 * confidence:g} %"
+    more, share = f"among {luck.n + 1} scores, by rank alone", f"{100 * confidence:g}%"
     quantities = [
         Quantity("score", score),
         Quantity("n", luck.n),

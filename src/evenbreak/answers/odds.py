@@ -23,7 +23,7 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     >>> from evenbreak.games import Race
     >>> answer = odds_answer(TwoPlayers(Rack(0.6)), Race(7, 5, Rack(0.6)))
     >>> print(answer.sentences[0])
-    A wins the match 53 % of the time.
+    A wins the match 53% of the time.
     It lasts 9.3 games on average, and 9 of 10 such matches end within 11.
     """
     odds = match_odds(match)

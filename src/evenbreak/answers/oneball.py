@@ -45,7 +45,7 @@ def oneball_answer(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite")
 
     >>> from evenbreak.practice import ShotChoice
     >>> print(oneball_answer([ShotChoice("1", 0.4, 0.8), ShotChoice("2", 0.3, 0.3)]).sentences[0])
-    Take shot 2: you win 59 % of the time, against 45 % with shot 1.
+    Take shot 2: you win 59% of the time, against 45% with shot 1.
     Shot 2 stays the best as long as it leaves the opponent a chance below 0.5143.
     """
     ranked = compare_shots(shots, look_ahead=look_ahead)

@@ -51,7 +51,7 @@ def rate_answer(
     >>> night = Results.from_names(["Ann"], ["Bo"], [7], [4])
     >>> answer = rate_answer(ResultsFile(night, "r.csv", (), (), ""), fit(night), pairs=[(0, 1)])
     >>> print(answer.sentences[0])
-    Ann is rated 17.3 points above Bo, give or take 22.6, and wins a game between them 60 % of the
+    Ann is rated 17.3 points above Bo, give or take 22.6, and wins a game between them 60% of the
     time.
     """
     if pairs:

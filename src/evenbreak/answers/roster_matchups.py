@@ -89,7 +89,7 @@ class Races:
     """The race of each pair, who wins it and how long it lasts.
 
     `p_win` is P(A wins | the ratings and their errors), `plug_in` P(A wins | the ratings are
-    right); `mean` and `p90` are the mean length and the games within which 90 % of such races
+    right); `mean` and `p90` are the mean length and the games within which 90% of such races
     end; `lengths` has the distribution of each race's length.
     """
 

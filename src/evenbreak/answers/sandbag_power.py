@@ -52,7 +52,7 @@ def sandbag_power_answer(
             for n in within
         ],
     )
-    known = "" if marked is None else f" of the {100 * marked:g} % of the matches that are marked"
+    known = "" if marked is None else f" of the {100 * marked:g}% of the matches that are marked"
     return Answer(
         f"How soon the watch flags a sandbagger: chart {chart}\n{found[0].replicas:,} simulated "
         f"players of each kind, who dump a share{known}; flagged at an evidence of "
@@ -91,7 +91,7 @@ def _in_words(found: Sequence[WatchPower], matches: int) -> str:
 
 def _kind(one: WatchPower) -> str:
     how = "lose them" if one.points is None else f"play them {one.points} points below their skill"
-    return f"dump {100 * one.share:g} % of their matches and {how}"
+    return f"dump {100 * one.share:g}% of their matches and {how}"
 
 
 def _kinds(found: Sequence[WatchPower], within: Sequence[int]) -> Table:
@@ -108,7 +108,7 @@ def _kinds(found: Sequence[WatchPower], within: Sequence[int]) -> Table:
     ]
     rows = [
         (
-            f"{100 * one.share:g} %" if one.share else "honest",
+            f"{100 * one.share:g}%" if one.share else "honest",
             None if not one.share else "to lose" if one.points is None else f"{one.points} below",
             *(float(one.flagged[n - 1]) for n in within),
             float(one.se.max()),

@@ -188,7 +188,7 @@ def _luck(data: Mapping[str, Any]) -> str:
         return "How much of the table is luck? One season cannot show it; simulate more."
     share = luck**2 / (between**2 + luck**2) if between or luck else 1.0
     return (
-        f"How much of the table is luck? About {100 * share:.0f} % of the differences in one "
+        f"How much of the table is luck? About {100 * share:.0f}% of the differences in one "
         "season's table; the rest is who the players are and how often they play. A player's wins "
         f"vary by about {luck:.1f} from season to season, and the players' averages by about "
         f"{between:.1f}."
@@ -270,10 +270,10 @@ def _percent(p: float, error: float = math.nan) -> str:
     """Return a probability in per cent, with its standard error if there is one.
 
     >>> _percent(0.5329, 0.00153), _percent(0.0655), _percent(0.5, 0.0)
-    ('53.3 ± 0.2 %', '6.6 %', '50.0 %')
+    ('53.3 ± 0.2%', '6.6%', '50.0%')
     """
     known = not math.isnan(error) and error
-    return f"{100 * p:.1f} ± {_error(100 * error)} %" if known else f"{100 * p:.1f} %"
+    return f"{100 * p:.1f} ± {_error(100 * error)}%" if known else f"{100 * p:.1f}%"
 
 
 def _error(error: float) -> str:

@@ -85,7 +85,7 @@ def _games(found: Validation) -> Table:
         Column("predicted", "chance given", percent),
         Column("games", "games"),
         Column("seen", "won", percent),
-        Column("range", "95 % range", _percents),
+        Column("range", "95% range", _percents),
     ]
     rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
     title = (
@@ -96,7 +96,7 @@ def _games(found: Validation) -> Table:
 
 
 def _percents(ends: tuple[float, float]) -> str:
-    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f} %"
+    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f}%"
 
 
 def _handicaps(found: Validation) -> str:
@@ -110,9 +110,9 @@ def _handicaps(found: Validation) -> str:
     )
     off = clearly_off(share_of(every), 0.5)
     if off > 0:
-        return f"The handicaps give too little. {figures}; fair is 50 %."
+        return f"The handicaps give too little. {figures}; fair is 50%."
     if off < 0:
-        return f"The handicaps give too much. {figures}; fair is 50 %."
+        return f"The handicaps give too much. {figures}; fair is 50%."
     way = clearly_off(share_of(every), every.expected)
     if way:
         under = "under" if way > 0 else "over"
@@ -137,7 +137,7 @@ def _spread(found: Validation) -> str:
         others.append("handicaps that know more about the players than these ratings")
     also = listed(others, "or")
     return (
-        f"Match scores vary {more:.0f} % more than expected, so favourites win fewer long races "
+        f"Match scores vary {more:.0f}% more than expected, so favourites win fewer long races "
         "than predicted. Players have good and bad days, or the ratings lag behind."
         + (f" {also[0].upper()}{also[1:]} would have the same effect." if also else "")
     )

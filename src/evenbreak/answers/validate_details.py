@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from evenbreak.ratings.validate import Validation
 
 _EXPLAINED = (
-    "How good the predictions were, with 95 % intervals. Log-loss is the mean of -ln of the chance "
+    "How good the predictions were, with 95% intervals. Log-loss is the mean of -ln of the chance "
     "given to what happened, the Brier score the mean squared error: lower is better, and a coin "
     "has 0.6931 and 0.25. The slope says whether chances mean what they say: 1 is right, below 1 "
     "they are too extreme, above 1 too cautious. Plug-in takes the ratings at face value, "
@@ -118,7 +118,7 @@ _TEST_COLUMNS = (
     Column("matches", "matches"),
     Column("seen", "seen"),
     Column("expected", "expected"),
-    Column("range", "95 % interval", _range),
+    Column("range", "95% interval", _range),
     Column("p_value", "p", lambda p: f"{p:.2g}" if p >= 1e-4 else "< 0.0001"),
 )
 
@@ -146,7 +146,7 @@ def _matches(found: Validation) -> Table:
         Column("predicted", "chance given", decimals(3)),
         Column("matches", "matches"),
         Column("seen", "won", decimals(3)),
-        Column("range", "95 % interval", _range),
+        Column("range", "95% interval", _range),
     ]
     rows = [(row.predicted, row.matches, row.seen, (row.low, row.high)) for row in found.matches]
     return Table("", columns, rows, "Matches that the favourite won:")
@@ -159,7 +159,7 @@ def _by_spot(found: Validation) -> Table:
         Column("matches", "matches"),
         Column("won", "won"),
         Column("share", "share", decimals(3)),
-        Column("range", "95 % interval", _range),
+        Column("range", "95% interval", _range),
         Column("expected", "predicted", decimals(3)),
     ]
     rows = [

@@ -26,7 +26,7 @@ def clearly_off(estimate: Estimate, right: float) -> int:
     >>> clearly_off(Estimate(0.5, 0.4, 0.6), 1.0), clearly_off(Estimate(0.9, 0.8, 1.0), 1.0)
     (-1, 0)
     """
-    # The interval is of 95 %, that is 1.96 standard errors each way; 2.58 leave out 1 %.
+    # The interval is of 95%, that is 1.96 standard errors each way; 2.58 leave out 1%.
     far = (estimate.high - estimate.low) / 2.0 * 2.576 / 1.960
     middle = (estimate.high + estimate.low) / 2.0
     return int(middle - far > right) - int(middle + far < right)

@@ -21,15 +21,15 @@ def percent(p: float) -> str:
     """Return a probability in a sentence, in per cent; never 0 or 100 where it is neither.
 
     >>> percent(0.653), percent(0.0042), percent(0.99999), percent(1.0), percent(3e-9)
-    ('65 %', '0.4 %', 'more than 99.9 %', '100 %', 'less than 0.1 %')
+    ('65%', '0.4%', 'more than 99.9%', '100%', 'less than 0.1%')
     """
     if p in (0.0, 1.0):
-        return f"{100 * p:.0f} %"
+        return f"{100 * p:.0f}%"
     if p < 0.001:
-        return "less than 0.1 %"
+        return "less than 0.1%"
     if p > 0.999:
-        return "more than 99.9 %"
-    return f"{100 * p:.1f} %" if p < 0.0995 or p >= 0.995 else f"{100 * p:.0f} %"
+        return "more than 99.9%"
+    return f"{100 * p:.1f}%" if p < 0.0995 or p >= 0.995 else f"{100 * p:.0f}%"
 
 
 def decimals(places: int) -> Show:

@@ -19,7 +19,7 @@ def calibration_figure(found: Validation) -> Figure:
     """Draw how often favourites won against the chance that they had been given.
 
     Points on the diagonal are right; below it the chances were too extreme. The bars are
-    95 % intervals.
+    95% intervals.
 
     >>> from evenbreak.ratings import Results, validate
     >>> season = Results.from_names(["Ann"] * 3, ["Bo"] * 3, [7, 7, 3], [2, 4, 7],

@@ -77,7 +77,7 @@ def log_figure(analysis: LogAnalysis) -> Figure:
         color="black",
         ms=9,
         zorder=1,
-        label="its 95 % interval",
+        label="its 95% interval",
     )
     _finish(axes, levels.tolist())
     return figure

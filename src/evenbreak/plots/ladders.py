@@ -127,7 +127,7 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
         edgecolor="0.7",
         linewidth=0.5,
         zorder=0,
-        label=f"within {within} point{'s' * (within != 1)}: {100 * inside:.0f} %",
+        label=f"within {within} point{'s' * (within != 1)}: {100 * inside:.0f}%",
     )
     style = LINES[0]
     axes.plot(errors, chance, "o", ms=3.5, color=style.color, label=f"this ladder, sd {law.sd:.2f}")

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> Figure:
     """Draw the unfairness of charts over their mean length.
 
-    Dots are charts that no other beats; those with a limit on the 90 % length are filled and
+    Dots are charts that no other beats; those with a limit on the 90% length are filled and
     labelled with that length. Diamonds are charts that another one beats, with their names.
 
     Parameters
@@ -85,7 +85,7 @@ def _by_mean(one: ParetoChart) -> bool:
 
 
 def _name(one: ParetoChart) -> str:
-    """Return the label of a chart: its name, its 90 % length, or nothing."""
+    """Return the label of a chart: its name, its 90% length, or nothing."""
     if _by_p90(one):
         return str(one.measure.games_p90)
     return one.chart.name if _beaten(one) else ""

@@ -63,7 +63,7 @@ def plot_scores(
         figure.autofmt_xdate()
     mean = float(file.scores.mean())
     if interval is not None:
-        share = f"{100 * interval.confidence:g} % interval of the true mean"
+        share = f"{100 * interval.confidence:g}% interval of the true mean"
         axes.axhspan(interval.low, interval.high, color=BAND, linewidth=0, label=share, zorder=0)
     axes.plot(when, file.scores, "o", color=LINES[0].color, label="scores")
     axes.axhline(
@@ -98,7 +98,7 @@ def plot_two_lists(
     ['before\n2 scores', 'after\n1 score']
     """
     shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
-    with_interval = f" with its {shares.pop()} % interval" if shares else ""
+    with_interval = f" with its {shares.pop()}% interval" if shares else ""
     figure, axes = new_axes("", "score", title=f"Practice scores, and their mean{with_interval}")
     for place, (scores, interval) in enumerate(zip((before, after), intervals, strict=True)):
         _strip(axes, place, scores, interval)

@@ -43,7 +43,7 @@ def errors_figure(weeks: pd.DataFrame) -> Figure:
             weeks[f"error_p{high}"].to_numpy(float, na_value=np.nan),
             color=shade,
             linewidth=0,
-            label=f"{part} % of the players",
+            label=f"{part}% of the players",
         )
     axes.axhline(0.0, color="0.5", linewidth=0.8)
     mean, sd = weeks["error_mean"].to_numpy(), weeks["error_sd"].to_numpy()

@@ -37,7 +37,7 @@ class LevelReport(NamedTuple):
         the level, the number of attempts, and how many of them succeeded.
     p, p_low, p_high
         P(success | an attempt at this level): the fraction observed (None without attempts)
-        and its 95 % interval (Wilson).
+        and its 95% interval (Wilson).
     p_model
         the chance at this level by the fitted model p^(level - 1); None without a model.
     visited
@@ -51,7 +51,7 @@ class LevelReport(NamedTuple):
     lift, lift_low, lift_high
         by how much the long-run mean level rises if the chance at this level is 0.05 higher
         (or 1, if it is above 0.95 already): the median over chances that fit the log, and
-        the 95 % interval.
+        the 95% interval.
     p_best
         the probability that this level has the greatest lift, above 0, of all levels with a
         miss. Levels without a miss or without attempts are not candidates for practice.
@@ -88,7 +88,7 @@ class LogAnalysis:
         the distribution of the level in the long run, with the chances observed, starting at
         level 1.
     mean_low, mean_high
-        the 95 % interval of the long-run mean level.
+        the 95% interval of the long-run mean level.
     difference
         test of visited against implied: half the sum of the absolute differences, which is
         the fraction of attempts that would have to be at another level.

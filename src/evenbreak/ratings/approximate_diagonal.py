@@ -73,7 +73,7 @@ class _Levelled:
 
 
 def _by_cavities(league: _Levelled) -> Floats | None:
-    """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.2 %."""
+    """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.2%."""
     r, pull = league.r, league.pull
     rr, size = r * r, len(r)
     w = LinearOperator((size, size), lambda v: pull @ v - r * (r @ v) + rr * v, dtype=np.float64)

@@ -31,7 +31,7 @@ _Z = float(ndtri(0.5 + CONFIDENCE / 2))
 
 
 class Estimate(NamedTuple):
-    """A figure with its 95 % interval.
+    """A figure with its 95% interval.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class CalibrationBin(NamedTuple):
     seen
         the share of them that the favourite won.
     low, high
-        its 95 % interval (Wilson's, for the number of independent games they are worth).
+        its 95% interval (Wilson's, for the number of independent games they are worth).
     """
 
     p_from: float
@@ -165,7 +165,7 @@ def logistic_coefficient(
 
 
 def with_error(value: float, error: float) -> Estimate:
-    """Return a figure with the 95 % interval from its standard error."""
+    """Return a figure with the 95% interval from its standard error."""
     return Estimate(value, value - _Z * error, value + _Z * error)
 
 
@@ -229,7 +229,7 @@ def no_favourites(p: Floats, games: Floats) -> int:
 
 
 def wilson(share: float, n: float) -> tuple[float, float]:
-    """Return Wilson's 95 % interval for a chance, given the share of n trials that succeeded.
+    """Return Wilson's 95% interval for a chance, given the share of n trials that succeeded.
 
     >>> [round(end, 3) for end in wilson(0.5, 10)]
     [0.237, 0.763]

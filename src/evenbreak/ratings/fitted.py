@@ -103,7 +103,7 @@ class Ratings:
         Laplace's approximation: the square root of the diagonal of the inverse Hessian,
         given the model and the prior. Where a component is anchored at named players it is
         that of the difference from their mean. Exact to rounding for up to 2,000 players,
-        and for more who play in divisions; for more who all play each other within 0.1 %,
+        and for more who play in divisions; for more who all play each other within 0.1%,
         as a rule within 1e-5.
         """
         variance = self._variance.copy()

@@ -20,7 +20,7 @@ class HandicapFairness(NamedTuple):
     matches, won
         races played to the end, and those that this player won.
     share, low, high
-        won / matches with its 95 % interval (Wilson's); with a fair chart it is 1/2.
+        won / matches with its 95% interval (Wilson's); with a fair chart it is 1/2.
     expected
         the mean chance that the ratings before each date gave this player.
     """

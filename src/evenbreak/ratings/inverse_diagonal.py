@@ -41,7 +41,7 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
     numpy.ndarray
         n values, with a relative error near rounding. For a matrix of 2,000 rows or more
         that fills in they come from the cavity approximation (see `approximate_diagonal`)
-        where that is within 0.2 % at worst, 1e-5 as a rule; failing that from single
+        where that is within 0.2% at worst, 1e-5 as a rule; failing that from single
         precision where the condition number is below 1000: within a few 1e-6 as a rule,
         and 1e-4 at worst.
 

@@ -213,7 +213,7 @@ class GamesWon(CountLaw):
 
         Notes
         -----
-        Source: problem P5.10. For 95 % the text starts its range at 51, the whole part of
+        Source: problem P5.10. For 95% the text starts its range at 51, the whole part of
         51.67; the nearest score is 52.
 
         >>> GamesWon(120, 0.52).normal_range(0.5)

@@ -186,8 +186,8 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
     Notes
     -----
     P5.19: 53 after ten scores is 1.90 units out by the normal distribution, and 1.51 above the
-    upper end of the 80 % interval (3.8 / 2.52, both rounded; 1.4981 unrounded).
-    `P(|z| < 1.51)` is .87, so chance gives a score this far out 13 % of the time; the text has
+    upper end of the 80% interval (3.8 / 2.52, both rounded; 1.4981 unrounded).
+    `P(|z| < 1.51)` is .87, so chance gives a score this far out 13% of the time; the text has
     these two numbers the other way round. A single list of scores can only say how rare such a
     score is: `compare` answers whether the scores have changed.
 

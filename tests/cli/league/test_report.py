@@ -188,7 +188,7 @@ def test_aliases_mend_names_and_the_page_keeps_their_folder_to_itself(run, tmp_p
     words = ("report", "-", "--out", str(out), "--aliases", str(aliases), "--html")
     result = run(*words, stdin=season)
     assert result.exit_code == 0
-    assert f"{aliases} : 'Annie' as 'Ann'" in result.stderr
+    assert f"{aliases}: 'Annie' as 'Ann'" in result.stderr
     assert {row["player"] for row in rows(out, "ratings.csv")} == {"Ann", "Bo", "Cy"}
     page = content(out)["sheet.html"].decode()
     assert "aliases.csv: &#39;Annie&#39; as &#39;Ann&#39;" in page

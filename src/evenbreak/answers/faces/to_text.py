@@ -18,7 +18,6 @@ leaves them as many columns as the first; else after as many as the second."""
 
 _GAP = 2
 
-_HARD_SPACE = "\u00a0"
 """Where no line is broken."""
 
 
@@ -40,21 +39,18 @@ def to_text(answer: Answer, *, width: int = WIDTH, verbose: bool = False) -> str
 
 
 def paragraph(text: str, width: int = WIDTH) -> str:
-    r"""Return text with its lines broken between words, but not between a number and its %.
+    r"""Return text with its lines broken between words, in items too.
 
     >>> print(paragraph("Left out:\n- 11 forfeited matches: no games were played.", 32))
     Left out:
     - 11 forfeited matches: no games
       were played.
-    >>> print(paragraph("The stronger player wins 58 % of the time.", 28))
-    The stronger player wins
-    58 % of the time.
     """
     import textwrap
 
     lines = (
         textwrap.fill(
-            printable(line).replace(" %", _HARD_SPACE + "%"),
+            printable(line),
             width,
             subsequent_indent="  " if line.startswith("- ") else "",
             break_long_words=False,
@@ -62,7 +58,7 @@ def paragraph(text: str, width: int = WIDTH) -> str:
         )
         for line in text.split("\n")
     )
-    return "\n".join(lines).replace(_HARD_SPACE, " ")
+    return "\n".join(lines)
 
 
 def _shown(part: Part, width: int, verbose: bool) -> str:

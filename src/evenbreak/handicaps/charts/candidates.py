@@ -102,7 +102,7 @@ class Candidates:
         Parameters
         ----------
         games_p90
-            a limit on the 90 % length, in addition to that of the limits.
+            a limit on the 90% length, in addition to that of the limits.
 
         The others are those of `design`.
         """

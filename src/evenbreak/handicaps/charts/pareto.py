@@ -35,7 +35,7 @@ class ParetoChart:
         how fair and how long it is.
     beaten_by
         the name of the fairest chart of the list that is fairer and no longer, by the mean
-        and by the 90 % length, or as fair and shorter; None if there is none.
+        and by the 90% length, or as fair and shorter; None if there is none.
     """
 
     chart: Chart
@@ -77,7 +77,7 @@ def pareto(
     -------
     list of ParetoChart
         by their mean length, the longest first: the fairest chart of all; the fairest for
-        each limit on the 90 % length; for limits on the mean length, half a game apart; and
+        each limit on the 90% length; for limits on the mean length, half a game apart; and
         the charts beside. A designed chart that another one beats is left out.
 
     Raises
@@ -145,7 +145,7 @@ class _Measured(NamedTuple):
     measure: ChartMeasure
 
     def bad(self, criterion: str) -> tuple[float, float, int]:
-        """Return what should be small: unfairness, mean and 90 % length."""
+        """Return what should be small: unfairness, mean and 90% length."""
         found = self.measure
         unfair = found.mean_unfairness if criterion == "mean" else found.worst_unfairness
         return unfair, found.mean_games, found.games_p90

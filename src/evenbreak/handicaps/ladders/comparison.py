@@ -44,7 +44,7 @@ class SystemRow(NamedTuple):
     favourite
         the mean chance to win of the player whom the errors favour; 0.5 is fair.
     clear_favourite
-        the share of matches in which the favourite has a chance of 60 % or more.
+        the share of matches in which the favourite has a chance of 60% or more.
     games
         the mean number of games in a match.
     inflation
