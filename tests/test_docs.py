@@ -142,7 +142,8 @@ def on_a_terminal(command: str) -> str:
             shown += piece
     os.close(ours)
     assert process.returncode == 0, shown.decode()
-    return shown.decode().replace("\r\n", "\n")
+    # A line that shows progress is written over.
+    return re.sub(r"[^\n]*\r", "", shown.decode().replace("\r\n", "\n"))
 
 
 @pytest.mark.usefixtures("desk")
@@ -191,6 +192,11 @@ def section(name: str) -> str:
     return dict(zip(parts[1::2], parts[2::2], strict=True))[name]
 
 
+def described(text: str) -> set[str]:
+    """Return the options in the tables of a text."""
+    return set(re.findall(r"^\| `(--[a-z0-9-]+)", text, flags=re.MULTILINE))
+
+
 def command(name: str) -> click.Command:
     found = program.get_command(click.Context(program), name)
     assert found is not None
@@ -214,8 +220,10 @@ def test_every_option_is_described_and_no_other(name: str) -> None:
         for text in (*option.opts, *option.secondary_opts)
         if text.startswith("--")
     }
-    described = set(re.findall(r"^\| `(--[a-z0-9-]+)", section(name), flags=re.MULTILINE))
-    assert described == options - {"--help"}
+    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
+    common = described(text[: text.index("\n## ")])
+    assert common == {"--text", "--csv", "--json", "--html", "--verbose"}
+    assert options - {"--help"} - common <= described(section(name)) <= options
 
 
 def test_every_command_is_described_and_no_other() -> None:

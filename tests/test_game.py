@@ -87,7 +87,7 @@ def test_a_game_that_is_over_has_one_terminal_state() -> None:
 def test_the_most_states() -> None:
     race = Race(3, 3, Rack(0.5))
     assert len(graph_of(race, max_states=15)) == 15
-    with pytest.raises(GameError, match="more than 14 states; is its graph finite"):
+    with pytest.raises(GameError, match="more than 14 states"):
         graph_of(race, max_states=14)
 
 

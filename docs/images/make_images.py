@@ -9,18 +9,17 @@ from pathlib import Path
 import networkx as nx
 from matplotlib.figure import Figure
 
-from evenbreak.answers.fair_pairs import RaceLimits, matchups_frame, most_active
-from evenbreak.answers.frames import ratings_frame
+from evenbreak.answers import OfferedRaces, Sheet, most_active
 from evenbreak.files.results import read_results
 from evenbreak.games import Ahead, OneBall, Race, Rack
 from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling
-from evenbreak.physics import Table, aimed_shot, pockets, strike_for_speed
+from evenbreak.physics import PoolTable, aimed_shot, pockets, strike_for_speed
 from evenbreak.physics.units import INCH
 from evenbreak.plots.diagram import draw, image_bytes
 from evenbreak.plots.ladders import SettlingCurve, ladder_figure
 from evenbreak.plots.traced_shot import shot_on_table
 from evenbreak.ratings import fit
-from evenbreak.sheets.pdf_sheet import sheet_pages
+from evenbreak.sheets import sheet_pages
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE.parents[1] / "data" / "demo_league.csv"
@@ -39,15 +38,14 @@ def sheet() -> Figure:
     """Draw the page that `evenbreak report` writes for the demo league."""
     file = read_results(RESULTS)
     ratings = fit(file.results)
-    limits = RaceLimits(race_to=7)
-    paired = matchups_frame(ratings, most_active(ratings, 10), limits)
-    (page,) = sheet_pages(file, ratings, limits, ratings_frame(ratings), paired)
+    sheet = Sheet.of(file, ratings, OfferedRaces(race_to=7), most_active(ratings, 10))
+    (page,) = sheet_pages(sheet)
     return page
 
 
 def cut_shot() -> Figure:
-    """Draw a cut with draw into the far corner, throw allowed for."""
-    corner = pockets(Table())[2]
+    """Draw a draw shot into the far corner, allowing for throw."""
+    corner = pockets(PoolTable())[2]
     hit = strike_for_speed(80.0 * INCH, -0.4)
     places = ((30.0, 15.0), (50.0, 15.0), (corner.x / INCH, corner.y / INCH))
     return shot_on_table(aimed_shot(hit, *((x * INCH, y * INCH) for x, y in places)))

@@ -68,7 +68,7 @@ from .matches.win import win_probability as win_probability
 from .practice.breaks import compare_break_formats as compare_break_formats
 from .practice.drills import drill_statistics as drill_statistics
 from .practice.log_analysis import analyse_log as analyse_log
-from .practice.shots import Shot as Shot
+from .practice.shots import ShotChoice as ShotChoice
 from .practice.shots import compare_shots as compare_shots
 from .ratings.fit import fit as fit
 from .ratings.prior import best_prior as best_prior

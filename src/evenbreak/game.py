@@ -65,9 +65,9 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
         the game. If it has arrays of its own, these are used; otherwise its moves are
         walked breadth-first. Moves of probability zero are left out.
     start
-        the state to start from; the game's own if None.
+        the state to start from; None: the game's own start.
     max_states
-        give up beyond this many states: the game may be endless.
+        give up beyond this many states; the game may be endless.
 
     Returns
     -------
@@ -151,8 +151,7 @@ def _no_chance(state: Any, target: Any, chance: Any) -> GameError:
 
 def _too_many(max_states: int) -> GameError:
     return GameError(
-        f"the game has more than {max_states} states; is its graph finite? "
-        "raise max_states if it is"
+        f"the game has more than {max_states} states; raise max_states if its graph is finite"
     )
 
 
@@ -166,9 +165,9 @@ def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     Parameters
     ----------
     game
-        the game to walk.
+        the game.
     max_states
-        give up beyond this many states: the game may be endless.
+        give up beyond this many states; the game may be endless.
 
     Raises
     ------

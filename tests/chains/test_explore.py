@@ -39,9 +39,9 @@ def test_what_is_no_source_is_refused(source: object) -> None:
 
 def test_a_game_with_arrays_of_chances_is_refused() -> None:
     rack = Rack(np.array([0.25, 0.5]))
-    with pytest.raises(EvenbreakError, match="a graph takes one number"):
+    with pytest.raises(EvenbreakError, match="p1 is an array"):
         chain_of(Race(2, 2, rack))
-    with pytest.raises(EvenbreakError, match="a graph takes one number"):
+    with pytest.raises(EvenbreakError, match="p1 is an array"):
         chain_of(Series(rack, breaks=winner_breaks))
 
     class Mine:

@@ -1,3 +1,4 @@
+import dataclasses
 import math
 
 import numpy as np
@@ -6,14 +7,15 @@ import pytest
 from evenbreak.errors import DataError
 from evenbreak.files.cells import numbers, whole_numbers
 from evenbreak.files.problems import Problems
-from evenbreak.files.text_table import Table, Texts
+from evenbreak.files.text_table import Texts, TextTable
 
 
 def table_of(*cells):
     distinct = list(dict.fromkeys(cells))
     codes = np.array([distinct.index(cell) for cell in cells], dtype=np.int64)
     lines = np.arange(2, len(cells) + 2)
-    return Table("t.csv", lines, {"x": Texts(distinct, codes)}, Problems("t.csv"), (), b"")
+    columns = {"x": Texts(distinct, codes)}
+    return TextTable("t.csv", lines, columns, frozenset(columns), Problems("t.csv"), (), b"")
 
 
 def told(table):
@@ -87,7 +89,8 @@ def test_empty_cells_may_be_allowed():
 
 
 def test_a_column_that_is_missing_is_no_further_problem():
-    table = table_of("1", "2")
+    table = table_of("", "")
+    table = dataclasses.replace(table, columns={"y": table.columns["x"]}, found=frozenset())
     assert whole_numbers(table, "y").values.tolist() == [0, 0]
     assert np.isnan(numbers(table, "y", remedy="write one").values).all()
     assert told(table) == []

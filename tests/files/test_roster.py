@@ -3,9 +3,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.answers.rate_frames import rate_frame
+from evenbreak.answers.faces.to_csv import to_csv
+from evenbreak.answers.rate import rate_answer
 from evenbreak.errors import DataError
-from evenbreak.files.csv_writer import to_csv
+from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import OPTIONAL, REQUIRED, read_roster
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.roster import NOT_STATED
@@ -49,15 +50,16 @@ def test_a_quasi_error_is_taken_where_it_stands(read):
     ).roster
     assert roster.standard_error.tolist() == [6.0, 8.0, 5.0]
     text = "player,rating,quasi_error\nAnn,92,-1\n"
-    (told,) = problems_of(read, text)
-    assert told.startswith(":2: quasi_error -1 is not from 0")
+    (problem,) = problems_of(read, text)
+    assert problem.startswith(":2: quasi_error -1 is not from 0")
 
 
 def test_a_list_of_ratings_is_a_roster_with_the_errors_of_differences(tmp_path):
     season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
     ratings = fit(season)
     path = tmp_path / "ratings.csv"
-    path.write_bytes(to_csv(rate_frame(ratings)))
+    answer = rate_answer(ResultsFile(season, "season.csv", (), (), ""), ratings)
+    path.write_text("".join(to_csv(answer)), encoding="utf-8")
     roster = read_roster(path).roster
     at = [ratings.players.index(name) for name in roster.players]
     np.testing.assert_allclose(roster.standard_error, ratings.quasi_error[at], atol=1e-6)
@@ -72,12 +74,9 @@ def test_two_columns_suffice(read):
 
 def test_two_players_with_one_name_are_refused_with_their_lines(read):
     text = "player,rating\nAnn Lee,92\nBo,71\n Ann  Lee ,85\nBo,70\n"
-    assert problems_of(read, text) == [
-        ":4: player 'Ann Lee' stands in line 2 already; delete one of the two, or tell two "
-        "players of one name apart, such as by a number",
-        ":5: player 'Bo' stands in line 3 already; delete one of the two, or tell two players "
-        "of one name apart, such as by a number",
-    ]
+    one, other = problems_of(read, text)
+    assert one.startswith(":4: player 'Ann Lee' is already in line 2")
+    assert other.startswith(":5: player 'Bo' is already in line 3")
 
 
 def test_all_problems_at_once(read):
@@ -85,9 +84,9 @@ def test_all_problems_at_once(read):
         "player,rating,standard_error,games\n"
         ",80,,\nAnn,six hundred,-1,1\nBo,1e9,x,-2\nCy,,,12\nDi,80,2000000,0\n"
     )
-    told = problems_of(read, text)
-    assert [line.split(":")[1] for line in told] == ["2", "3", "3", "4", "4", "4", "5", "6"]
-    assert told[-2] == ":5: rating is empty after 12 games; write it, or 0 games if new"
+    problems = problems_of(read, text)
+    assert [line.split(":")[1] for line in problems] == ["2", "3", "3", "4", "4", "4", "5", "6"]
+    assert problems[-2] == ":5: rating is empty after 12 games; write it, or 0 games if new"
 
 
 @pytest.mark.parametrize(
@@ -113,8 +112,8 @@ def test_similar_names_are_a_warning(read):
     ],
 )
 def test_nothing_to_read(read, text, problem):
-    (told,) = problems_of(read, text)
-    assert problem in told
+    (found,) = problems_of(read, text)
+    assert problem in found
 
 
 CELLS = st.sampled_from(["Ann", "Bo", "80", "", "9.5", "-3", "0", '"', "x", "1e400", "NaN"])

@@ -148,7 +148,7 @@ def test_many_rows_keep_their_order_and_lines(read):
     rows = "".join(f"p{k % 100},{k}\n" + "\n" * (k % 5 == 0) for k in range(5_000))
     table = read("name,score\n" + rows)
     assert table.cells("score") == [str(k) for k in range(5_000)]
-    assert table.texts("name").distinct == [f"p{k}" for k in range(100)]
+    assert table.columns["name"].distinct == [f"p{k}" for k in range(100)]
     assert table.lines.tolist() == [2 + k + (k + 4) // 5 for k in range(5_000)]
 
 
@@ -159,7 +159,7 @@ def test_any_bytes_give_a_table_or_a_data_error(tmp_path_factory, content):
     try:
         table = read_table(path, REQUIRED, OPTIONAL)
         table.problems.raise_any()
-        whole, told = set(REQUIRED) <= set(table.columns), ()
+        whole, told = set(REQUIRED) <= table.found, ()
     except DataError as error:
         whole, told = False, error.problems
     assert whole != (len(told) > 0)

@@ -97,7 +97,7 @@ def test_skill_is_drawn_varies_by_the_day_and_drifts() -> None:
     assert margins[1] > margins[0] + 1.0
 
 
-def test_who_is_not_there_does_not_play() -> None:
+def test_absent_players_do_not_play() -> None:
     season = season_of(
         np.full(6, 80),
         schedule=RoundRobin(6),
@@ -129,7 +129,7 @@ def test_names_and_dates_can_be_given() -> None:
 
 
 def covered(results: Results, skill: np.ndarray[Any, Any]) -> tuple[int, int]:
-    """Return how many differences of separate pairs their 95 % interval covers, of how many."""
+    """Return how many differences of separate pairs their 95% interval covers, of how many."""
     found = fit(results)
     order = [found.players.index(f"player {k + 1}") for k in range(len(skill))]
     inside = 0
@@ -145,7 +145,7 @@ def test_the_loop_closes() -> None:
     """Ratings estimated from simulated seasons cover the true ones at the stated rate.
 
     Everybody begins at 80 and is drawn from the prior of `fit`, so that its intervals should
-    cover 95 %: 40 seasons of 8 separate pairs, 4.5 standard errors of a binomial.
+    cover 95%: 40 seasons of 8 separate pairs, 4.5 standard errors of a binomial.
     """
     season = season_of(np.full(16, 80), skill_sd=30, weeks=15)
     counted = []

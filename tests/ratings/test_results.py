@@ -58,9 +58,7 @@ def test_no_rows_are_results_too():
 
 
 def test_columns_of_other_lengths_are_refused():
-    with pytest.raises(
-        InputError, match=r"forfeit has the shape \(1,\); give one value for each of 4"
-    ):
+    with pytest.raises(InputError, match=r"forfeit has shape \(1,\); give one value for each of 4"):
         season(forfeit=[True])
 
 

@@ -47,7 +47,7 @@ def test_position():
         ((["Ann", "Ann"], [1, 2]), "each name once"),
         ((["Ann"], [1, 2]), "one value for each of 1 players"),
         ((["Ann"], [np.inf]), "NaN for a new player"),
-        ((["Ann"], ["x"]), "a number for each player"),
+        ((["Ann"], ["x"]), "rating is"),
         ((["Ann"], [1.0], None, [np.nan]), "give whole numbers"),
         ((["Ann"], [1.0], None, np.array([1.5])), "give whole numbers"),
         ((["Ann"], [1.0], [-1.0]), "give 0 or more"),

@@ -129,7 +129,7 @@ def test_four_tables_have_each_cell_once():
 
 
 @pytest.mark.parametrize("slips", [errata, physics_errata])
-def test_slips_are_told_whole_in_one_line_each(slips):
+def test_slips_are_complete_in_one_line_each(slips):
     for slip in slips():
         assert slip.where, slip
         assert slip.printed, slip

@@ -39,6 +39,8 @@ class Column:
         whether only those read it who ask for details.
     exact
         whether CSV has its numbers with all their digits, in place of six decimals.
+    cell
+        a value as CSV has it, such as 'yes' for True; by default the value itself.
     """
 
     name: str | tuple[str, ...]
@@ -47,6 +49,7 @@ class Column:
     left: bool = False
     detail: bool = False
     exact: bool = False
+    cell: Show | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -141,6 +144,13 @@ class Quantity:
     show: Show = str
     note: str = ""
     detail: bool = False
+
+
+def statistic(
+    name: str, value: Any, words: str | None, show: Show = str, note: str = ""
+) -> Quantity:
+    """Return a quantity that only those see who ask for details."""
+    return Quantity(name, value, words, show, note, detail=True)
 
 
 @dataclass(frozen=True)

@@ -67,7 +67,7 @@ class Elimination:
                     f"these {len(leak)} states span more decades than floats do, and are too "
                     "many to eliminate in decimal numbers; split the chain or scale its arcs"
                 )
-            pivot = sum(out.values(), leak[k])
+            pivot = self.pivot(k, sum(out.values(), leak[k]))
             self.steps.append((k, pivot, out, back))
             for i in out:
                 del into[i][k]
@@ -75,12 +75,16 @@ class Elimination:
                 row = arcs[j]
                 del row[k]
                 share = chance / pivot
-                leak[j] += share * leak[k]
+                leak[j] = leak[j] + share * leak[k]
                 for i, onward in out.items():
                     if i != j:
                         row[i] = into[i][j] = row.get(i, 0) + share * onward
             for j in out.keys() | back.keys():
                 heapq.heappush(heap, (len(arcs[j]) * len(into[j]), j))
+
+    def pivot(self, k: int, outflow: Any) -> Any:  # noqa: ARG002
+        """Return what to divide by for state k, given what leaves it."""
+        return outflow
 
     @property
     def pivots(self) -> list[Any]:
@@ -106,10 +110,15 @@ class Elimination:
         """Return y = (I - T)^-T r: the expected sum of r over the visits from each state."""
         y = list(r)
         for k, pivot, _, back in self.steps:
-            if y[k]:
+            if not _is_nothing(y[k]):
                 share = y[k] / pivot
                 for j, chance in back.items():
-                    y[j] += share * chance
+                    y[j] = y[j] + share * chance
         for k, pivot, out, _ in reversed(self.steps):
             y[k] = sum((chance * y[i] for i, chance in out.items()), y[k]) / pivot
         return y
+
+
+def _is_nothing(value: Any) -> bool:
+    """Return whether a number is 0; an array never counts as nothing."""
+    return not hasattr(value, "shape") and not value

@@ -13,10 +13,10 @@ from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 SECTIONS = {
     "Run a match": {
-        "odds": Entry("match.odds", "The chances and the length of one match."),
-        "live": Entry("match.live", "The odds of a match under way, rack by rack."),
+        "odds": Entry("match.odds", "The odds and the length of one match."),
+        "live": Entry("match.live", "The odds of a match under way, game by game."),
         "fair": Entry("match.fair", "The fairest race for two players."),
-        "compare": Entry("match.compare", "Match formats side by side: who gains from each."),
+        "compare": Entry("match.compare", "Match formats side by side: which is better for whom."),
         "breaks": Entry("match.breaks", "What each break format is worth, and fair stakes."),
         "straight": Entry("match.straight", "Straight pool: who wins, and which spot is fair."),
     },
@@ -38,11 +38,11 @@ SECTIONS = {
         "runs": Entry("practice.runs", "How long runs get, and the score of several innings."),
         "oneball": Entry("match.oneball", "The one-ball game: who wins, and which shot to play."),
     },
-    "The table side": {
+    "The physics of the table": {
         "physics": Entry("physics", "Ball, cloth and cue: throw, aim, spin, speed."),
     },
     "The engine": {
-        "chain": Entry("match.chain", "The long-run limit of a Markov chain, from its arcs."),
+        "chain": Entry("match.chain", "Any Markov chain: where it ends, from a file of arcs."),
         "reproduce": Entry("reproduce", "Every table, figure and number of the source text."),
     },
 }

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.cells import numbers
 from evenbreak.files.problems import quoted
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 
 COLUMNS = {
     "source": ("from", "state", "source state"),
@@ -79,15 +79,15 @@ def _outside(p: float) -> str:
     return f"probability {float(p)!r} is not from 0 to 1; write one that is"
 
 
-def _refuse_empty(table: Table, column: str) -> None:
-    distinct, codes = table.texts(column)
+def _refuse_empty(table: TextTable, column: str) -> None:
+    distinct, codes = table.columns[column]
     empty = np.flatnonzero(np.array([not text for text in distinct], dtype=bool)[codes])
     table.problems.add_rows(table.lines, empty, lambda _: f"{column} is empty; name a state")
 
 
-def _states(table: Table) -> tuple[list[str], NDArray[np.int64], NDArray[np.int64]]:
+def _states(table: TextTable) -> tuple[list[str], NDArray[np.int64], NDArray[np.int64]]:
     """Return the states as the file first names them, and the position of each arc's two."""
-    source, target = table.texts("source"), table.texts("target")
+    source, target = table.columns["source"], table.columns["target"]
     number = {text: code for code, text in enumerate(source.distinct)}
     other = np.array(
         [number.setdefault(text, len(number)) for text in target.distinct], dtype=np.int64
@@ -102,7 +102,7 @@ def _states(table: Table) -> tuple[list[str], NDArray[np.int64], NDArray[np.int6
 
 
 def _refuse_twice(
-    table: Table, states: list[str], sources: NDArray[np.int64], targets: NDArray[np.int64]
+    table: TextTable, states: list[str], sources: NDArray[np.int64], targets: NDArray[np.int64]
 ) -> None:
     key = sources * len(states) + targets
     _, first, which = np.unique(key, return_index=True, return_inverse=True)
@@ -118,7 +118,7 @@ def _refuse_twice(
 
 
 def _refuse_sums(
-    table: Table, states: list[str], sources: NDArray[np.int64], p: NDArray[np.float64]
+    table: TextTable, states: list[str], sources: NDArray[np.int64], p: NDArray[np.float64]
 ) -> None:
     leaving, first = np.unique(sources, return_index=True)
     sums = np.bincount(sources, weights=p, minlength=len(states))

@@ -1,14 +1,14 @@
-"""What the cells of a table say: numbers, and anything else that a text can be read as.
+"""What the cells of a table mean: numbers, dates, and anything else that text can be read as.
 
-Each reader notes the cells that it cannot read in the table's `problems` and goes on,
-so that one look at a file tells all that is wrong with it.
+Each reader adds the cells that it cannot read to the table's `problems` and goes on, so that
+everything wrong with a file is found at once.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from datetime import date
 from typing import Any, NamedTuple
 
@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.problems import quoted
-from evenbreak.files.text_table import Table
+from evenbreak.files.text_table import TextTable
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
-# A comma before three noughts would group thousands.
+# A comma before three zeros would group thousands.
 _WHOLE = re.compile(r"[+-]?[0-9]+(\.0*|,00?)?", re.ASCII)
 _TIME = r"([T ]\d{1,2}:\d{2}\S*)?"
 _YEAR_FIRST = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})" + _TIME, re.ASCII)
@@ -31,17 +31,25 @@ LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of
 
 
 class Values(NamedTuple):
-    """A column as read: a value for each row, and whether its cell could be read.
+    """A column as read.
 
-    Cells that could not be read, empty ones among them, have the value for empty cells.
+    Attributes
+    ----------
+    values
+        a value for each row: that of an empty cell where a cell could not be read.
+    good
+        which cells could be read, or may be empty.
+    stated
+        which cells are not empty.
     """
 
     values: NDArray[Any]
     good: NDArray[np.bool_]
+    stated: NDArray[np.bool_]
 
 
 def read_cells(
-    table: Table,
+    table: TextTable,
     name: str,
     meaning: Callable[[str], Any],
     *,
@@ -51,54 +59,52 @@ def read_cells(
     empty: Any,
     may_be_empty: bool = False,
 ) -> Values:
-    """Read a column, noting in the table's problems each cell that has no meaning.
+    """Read a column, adding each cell without a meaning to the table's problems.
 
     Parameters
     ----------
     table, name
-        the column to read; one that the file lacks is all empty and no further problem.
+        the column to read; one that the file lacks is empty and not a further problem.
     meaning
         from the text of a cell, never empty, to its value; None where it has none.
     wanted, remedy
-        what a cell should be, and how to mend one: "x is not `wanted`; `remedy`".
+        what a cell should be, and how to correct one: "x is not `wanted`; `remedy`".
     dtype
         numpy type of the values.
     empty
         the value of empty cells.
     may_be_empty
-        whether empty cells are no problem.
+        whether empty cells are allowed.
 
     >>> from evenbreak.files.problems import Problems
     >>> from evenbreak.files.text_table import Texts
-    >>> column = Texts(["7", "seven"], np.array([0, 1, 0]))
-    >>> table = Table("r.csv", np.array([2, 3, 5]), {"score": column}, Problems("r.csv"), (), b"")
-    >>> read_cells(table, "score", lambda text: {"7": 7}.get(text), wanted="a score",
-    ...            remedy="write 0, 1, 2, ...", dtype=int, empty=0).values
+    >>> columns = {"score": Texts(["7", "seven"], np.array([0, 1, 0]))}
+    >>> table = TextTable("r.csv", np.array([2, 3, 5]), columns, frozenset(columns),
+    ...                   Problems("r.csv"), (), b"")
+    >>> read_cells(table, "score", {"7": 7}.get, wanted="a score", remedy="write 0, 1, 2, ...",
+    ...            dtype=int, empty=0).values
     array([7, 0, 7])
     >>> table.problems.raise_any()
     Traceback (most recent call last):
     ...
     evenbreak.errors.DataError: r.csv:3: score 'seven' is not a score; write 0, 1, 2, ...
     """
-    distinct, codes = table.texts(name)
+    distinct, codes = table.columns[name]
+    stated = np.array([bool(text) for text in distinct], dtype=bool)
     meant = [meaning(text) if text else None for text in distinct]
     values = np.array([empty if value is None else value for value in meant], dtype=dtype)
     good = np.array([value is not None for value in meant], dtype=bool)
-    if may_be_empty or name not in table:
-        good |= np.array([not text for text in distinct], dtype=bool)
-
-    def message(row: int) -> str:
+    if may_be_empty or name not in table.found:
+        good |= ~stated
+    for row in np.flatnonzero(~good[codes]):
         text = distinct[codes[row]]
-        if not text:
-            return f"{name} is empty; {remedy}"
-        return f"{name} {quoted(text)} is not {wanted}; {remedy}"
-
-    table.problems.add_rows(table.lines, np.flatnonzero(~good[codes]), message)
-    return Values(values[codes], good[codes])
+        what = f"{quoted(text)} is not {wanted}" if text else "is empty"
+        table.problems.add(int(table.lines[row]), f"{name} {what}; {remedy}")
+    return Values(values[codes], good[codes], stated[codes])
 
 
 def whole_numbers(
-    table: Table,
+    table: TextTable,
     name: str,
     *,
     at_least: int = 0,
@@ -126,8 +132,8 @@ def whole_numbers(
     )
 
 
-def numbers(table: Table, name: str, *, remedy: str, may_be_empty: bool = False) -> Values:
-    """Read a column of finite numbers; cells that are none are NaN.
+def numbers(table: TextTable, name: str, *, remedy: str, may_be_empty: bool = False) -> Values:
+    """Read a column of finite numbers; other cells are NaN.
 
     A comma is read as the decimal point, as spreadsheets in many languages write it, and
     never groups thousands.
@@ -144,26 +150,70 @@ def numbers(table: Table, name: str, *, remedy: str, may_be_empty: bool = False)
     )
 
 
-def dates(table: Table, name: str) -> Values:
-    """Read a column of dates; a time after one is ignored, empty cells are NaT.
+def dates(table: TextTable, name: str) -> Values:
+    """Read a column of dates; a time after a date is ignored, empty cells are NaT.
 
-    With dots the day comes first, else the year: of 9/3/2024 some would read the 9th of
-    March and others the 3rd of September.
+    With dots the day comes first, else the year. 9/3/2024 is refused: to some it is the 9th
+    of March and to others the 3rd of September.
     """
     return read_cells(
         table,
         name,
         read_date,
         wanted="a date",
-        remedy="write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
+        remedy="write 2024-09-03 or 3.9.2024 (3/9/2024 is ambiguous), or leave it empty",
         dtype="datetime64[D]",
         empty=np.datetime64("NaT"),
         may_be_empty=True,
     )
 
 
+def words(
+    table: TextTable, name: str, meanings: Mapping[str, Any], *, choices: str, empty: Any
+) -> Values:
+    """Read a column of words, compared by their letters and digits in one case.
+
+    Parameters
+    ----------
+    table, name
+        the column to read.
+    meanings
+        the value of each word.
+    choices
+        the words that a message proposes.
+    empty
+        the value of empty cells, which are allowed.
+    """
+    return read_cells(
+        table,
+        name,
+        lambda text: meanings.get(letters(text)),
+        wanted=choices,
+        remedy=f"write {choices}, or leave it empty",
+        dtype=type(empty),
+        empty=empty,
+        may_be_empty=True,
+    )
+
+
+def texts(table: TextTable, name: str, meaning: Callable[[str], str]) -> Values:
+    """Read a column of any text; empty cells are ''."""
+    return read_cells(
+        table, name, meaning, wanted="", remedy="", dtype=object, empty="", may_be_empty=True
+    )
+
+
+def letters(text: str) -> str:
+    """Return the letters and digits of a text, in one case.
+
+    >>> letters("W/O"), letters("Player A")
+    ('wo', 'playera')
+    """
+    return "".join(letter for letter in text.casefold() if letter.isalnum())
+
+
 def read_date(text: str) -> np.datetime64 | None:
-    """Return the date that a text says, as `dates` reads it; None where it says none.
+    """Return the date that a text states, read as in `dates`; None where it states none.
 
     >>> read_date("3.9.2024"), read_date("3/9/2024")
     (np.datetime64('2024-09-03'), None)

@@ -1,4 +1,4 @@
-"""From a roster with what a simulation needs besides to the players of a season."""
+"""The roster of a season: a list of ratings with what a simulation needs besides."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from evenbreak.files.roster import (
     roster_of,
 )
 from evenbreak.files.schedule import LAST_WEEK
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.league.players import ESTABLISHED, LeaguePlayers
 from evenbreak.ratings.roster import NOT_STATED, Roster
 
@@ -28,15 +28,15 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 FARTHEST = 10_000
-"""The largest rating or skill that is simulated, in points."""
+"""The largest rating or skill that can be simulated, in points."""
 
 LARGEST_SD = 1_000
-"""The largest standard deviation, or drift a week, that is simulated, in points."""
+"""The largest standard deviation, or drift a week, that can be simulated, in points."""
 
 
 @dataclass(frozen=True, eq=False)
 class LeagueFile:
-    """What a league's roster says.
+    """What a league's roster contains.
 
     Parameters
     ----------
@@ -45,28 +45,28 @@ class LeagueFile:
     roster
         the same players as a list of ratings.
     source
-        what the file is called in messages.
+        the name of the file in messages.
     warnings
-        what a person should look at although the file can be used, a line each.
-    guessed
-        how many players have a skill that is drawn, from rating and standard error.
+        what somebody should look at although the file can be used, a line each.
+    drawn
+        for how many players the skill is drawn, from rating and standard error.
     exact
-        how many are taken to be rated rightly, for want of a skill and a standard error.
+        for how many the rating is taken as the skill, for lack of a skill and a standard error.
     """
 
     players: LeaguePlayers
     roster: Roster
     source: str
     warnings: tuple[str, ...]
-    guessed: int
+    drawn: int
     exact: int
 
 
 def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     r"""Read the roster of a season from a CSV file; '-' is standard input.
 
-    The columns of a roster, and those of `LEAGUE`. A skill that is not stated is drawn anew
-    for each replica, from a normal law about the rating with the standard error; where that is
+    It has the columns of a roster and those of `LEAGUE`. A skill that is not stated is drawn for
+    each replica from a normal distribution around the rating with the standard error; if that is
     not stated either, the skill is the rating. Ratings are rounded to whole points, halves
     upwards.
 
@@ -75,13 +75,13 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     path
         the file.
     day_sd
-        how far skills vary from day to day, in points, where the file does not say.
+        standard deviation of form from day to day, in points, where the file does not state it.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: what `read_roster` tells, players without a
-        rating, cells out of range, somebody who leaves before he joins.
+        with every problem of the file: those that `read_roster` finds, players without a rating,
+        cells out of range, a player who leaves before joining.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -104,7 +104,7 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     )
     _check_ratings(table)
     if len(table) == 1:
-        table.problems.add(None, "1 player is no league; write two or more")
+        table.problems.add(None, "has 1 player; a league needs two or more")
     file = roster_of(table, all_rated=True)
     roster = file.roster
     sd = np.where(np.isnan(skill), roster.standard_error, 0.0)
@@ -120,7 +120,7 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
             joins=np.maximum(joins, 1),
             leaves=leaves,
             absence=np.nan_to_num(absence),
-            # Of whom the list does not say it, he is no newcomer.
+            # Players without a number of matches are established.
             played=np.where(roster.matches == NOT_STATED, ESTABLISHED, roster.matches),
         )
     except InputError as error:
@@ -130,29 +130,29 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     if rounded:
         warnings.append(
             f"{table.source}: {rounded:,} rating{'s are' if rounded > 1 else ' is'} rounded to "
-            "whole points, as charts need them"
+            "whole points, as charts need"
         )
     return LeagueFile(
         players, roster, table.source, tuple(warnings), int((sd > 0).sum()), int(np.isnan(sd).sum())
     )
 
 
-def _check_ratings(table: Table) -> None:
-    """Note ratings that are too far out; what is no number `roster_of` tells."""
+def _check_ratings(table: TextTable) -> None:
+    """Add a problem for each rating out of range; `roster_of` adds those that are no numbers."""
     aside = replace(table, problems=Problems(table.source))
     rating = numbers(aside, "rating", remedy="", may_be_empty=True).values
     table.problems.add_rows(
         table.lines,
         np.flatnonzero((np.abs(rating) > FARTHEST) & (np.abs(rating) <= LARGEST)),
         lambda row: (
-            f"rating {rating[row]:g} is not from {-FARTHEST:,} to {FARTHEST:,}, beyond which "
-            "nothing is simulated; take the same number of points from all ratings"
+            f"rating {rating[row]:g} is not from {-FARTHEST:,} to {FARTHEST:,}, the range that can "
+            "be simulated; subtract the same number of points from all ratings"
         ),
     )
 
 
 def _within(
-    table: Table, name: str, example: str, least: float, most: float
+    table: TextTable, name: str, example: str, least: float, most: float
 ) -> NDArray[np.float64]:
     """Read a column of numbers from `least` to `most`, NaN where a cell is empty."""
     remedy = f"write {example}, or leave it empty"
@@ -165,7 +165,7 @@ def _within(
     return values
 
 
-def _week(table: Table, name: str) -> NDArray[np.int64]:
+def _week(table: TextTable, name: str) -> NDArray[np.int64]:
     """Read a column of weeks, 0 where a cell is empty."""
     remedy = "write 1 for the first week, 2, ..., or leave it empty"
     weeks: NDArray[np.int64] = whole_numbers(

@@ -1,4 +1,4 @@
-"""From a file of practice scores to numbers, with everything that is wrong in it told at once."""
+"""Reading a file of practice scores, with all its problems at once."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.cells import dates, numbers
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.stats.confidence import LARGEST
 
 REQUIRED = {"score": ("points", "result", "total", "balls")}
@@ -19,7 +19,7 @@ OPTIONAL = {"date": ("day", "practised on", "played on")}
 class ScoresFile(NamedTuple):
     """The scores of a file, in the order of its rows.
 
-    `dates` has the day of each score; it is None where the file does not date them all.
+    `dates` has the day of each score; it is None unless every score has a date.
     """
 
     scores: NDArray[np.float64]
@@ -29,13 +29,13 @@ class ScoresFile(NamedTuple):
 
 
 def read_scores(path: str | Path) -> ScoresFile:
-    r"""Read practice scores from a CSV file, a row a score; '-' is standard input.
+    r"""Read practice scores from a CSV file, one score per row; '-' is standard input.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: no column of scores, no rows, scores that are
-        no numbers or too large, dates that are none.
+        with all problems of the file: no column of scores, no rows, scores that are not
+        numbers or too large, dates that cannot be read.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -47,12 +47,14 @@ def read_scores(path: str | Path) -> ScoresFile:
     """
     table = read_table(path, REQUIRED, OPTIONAL)
     if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no scores below its header; write one line for each")
-    scores = numbers(table, "score", remedy="write one such as 48").values
+        table.problems.add(None, "has no scores below its header; write a line for each one")
+    scores = numbers(table, "score", remedy="write a number, such as 48").values
     table.problems.add_rows(
         table.lines,
         np.flatnonzero(np.abs(scores) > LARGEST),
-        lambda row: f"score {scores[row]:g} is not from {-LARGEST:g} to {LARGEST:g}; correct it",
+        lambda row: (
+            f"score {scores[row]:g} is not between {-LARGEST:g} and {LARGEST:g}; correct it"
+        ),
     )
     days = dates(table, "date").values
     table.problems.raise_any()
@@ -66,9 +68,9 @@ def read_scores(path: str | Path) -> ScoresFile:
     )
 
 
-def _undated(table: Table, rows: NDArray[np.int64]) -> list[str]:
-    """Return a warning if some scores are dated and others, `rows`, are not."""
+def _undated(table: TextTable, rows: NDArray[np.int64]) -> list[str]:
+    """Return a warning if some scores have a date and others, those of `rows`, do not."""
     if "date" not in table or rows.size == len(table):
         return []
-    many = f"{rows.size} dates are" if rows.size > 1 else "the date is"
-    return [f"{table.source}:{table.lines[rows[0]]}: {many} missing; no date is used"]
+    missing = f"{rows.size} dates are missing" if rows.size > 1 else "the date is missing"
+    return [f"{table.source}:{table.lines[rows[0]]}: {missing}, so no dates are used"]

@@ -1,8 +1,8 @@
-"""The chances and moves of matches as flat tables of whole numbers, for drawing by the million.
+"""The chances and moves of matches as flat tables of whole numbers, for millions of draws.
 
-A match is looked up by two whole differences, of ratings (which race is it, what does it move)
-and of skills (how likely is each score). Chances are held in 32 bits: a draw is 32 random bits
-that are compared with them, so that a chance is off by less than 2^-32.
+A match is looked up by two whole differences: of ratings (which race it is, how ratings move) and
+of skills (how likely each score is). Chances are held in 32 bits and compared with 32 random
+bits, so a chance is off by less than 2^-32.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from evenbreak.handicaps.systems.match_table import MatchTable
 
 CLASSES = 3
-"""What is noted of a final score: hill-hill, shutout, games."""
+"""What is counted of a final score: hill-hill, shutout, games."""
 
 _CERTAIN = 12.0
-"""Doublings of the odds beyond which skills are as far apart as they need be."""
+"""Larger gaps of skill, in doublings of the odds, are treated as this one."""
 
 _AT_ONCE = 64
 """Skill differences whose scores are worked out at a time."""
@@ -35,10 +35,10 @@ class Lookup:
     table
         what it was made of.
     gap
-        the largest skill difference, in whole points; larger ones are taken for it.
+        the largest skill difference, in whole points; larger ones are treated as this one.
     wins
-        P(player 1 wins) in 2^32nds, flat and each twice, so that who wins may be added to the
-        place: 2 * ((skill difference + gap) * races + number of the race).
+        P(player 1 wins) in 2^32nds, flat, at 2 * ((skill difference + gap) * races + number of
+        the race) and the place after it, so that the winner can be added to the place.
     """
 
     table: MatchTable
@@ -47,7 +47,7 @@ class Lookup:
 
     @property
     def widest(self) -> int:
-        """The largest rating difference; larger ones are taken for it."""
+        """The largest rating difference; larger ones are treated as this one."""
         return self.table.widest
 
     @property
@@ -62,12 +62,12 @@ class Lookup:
 
     @cached_property
     def twice_race(self) -> NDArray[np.intp]:
-        """Twice the number of the race by rating difference, the negative ones from the end."""
+        """Twice the number of the race by rating difference, negative ones from the end."""
         return np.asarray(np.roll(2 * self._races[1], -self.widest))
 
     @property
     def outcomes(self) -> int:
-        """How many final scores there is room for at each rating difference."""
+        """The number of final scores that fit at each rating difference."""
         return int(self.table.games.shape[1])
 
     @cached_property
@@ -83,7 +83,7 @@ class Lookup:
 
     @cached_property
     def steps(self) -> tuple[int, int] | None:
-        """What every winner and every loser moves; None where it depends on the match."""
+        """The points that every winner and every loser moves; None if they depend on the match."""
         table = self.table
         real = table.games[..., 0] >= 0
         won = np.where(table.won, table.moves[..., 0], table.moves[..., 1])[real]
@@ -96,7 +96,7 @@ class Lookup:
     def by_winner(self) -> tuple[NDArray[np.int16], NDArray[np.int16]] | None:
         """Points of player 1 and of player 2, flat by (rating difference, does player 1 win).
 
-        None where they depend on the final score too.
+        None if they depend on the final score too.
         """
         table = self.table
         moves = table.moves
@@ -123,9 +123,9 @@ class Lookup:
 
     @cached_property
     def classes(self) -> NDArray[np.int64]:
-        """Hill-hill, shutout and games of each final score: (width, outcomes, 3).
+        """Hill-hill, shutout and games of each final score, shape (width, outcomes, 3).
 
-        A match is hill-hill where the loser lacks one game, a shutout where he has none.
+        A match is hill-hill if the loser lacks one game, a shutout if the loser has none.
         """
         games, needs = self.table.games, self.table.needs[:, None, :]
         real = games[..., 0] >= 0
@@ -135,7 +135,7 @@ class Lookup:
 
     @property
     def codes(self) -> int:
-        """How many values `code` has room for."""
+        """The number of values that `code` can have."""
         return 4 * (int(self.classes[..., 2].max()) + 1)
 
     @cached_property
@@ -145,7 +145,7 @@ class Lookup:
 
     @cached_property
     def noted(self) -> NDArray[np.int64]:
-        """`classes` of each value of `code`, shape (codes, 3)."""
+        """The `classes` of each value of `code`, shape (codes, 3)."""
         code = np.arange(self.codes)
         return np.column_stack([code & 1, code >> 1 & 1, code >> 2])
 
@@ -157,7 +157,7 @@ class Lookup:
 
     @cached_property
     def expected(self) -> NDArray[np.float64]:
-        """The mean of each of `classes` by skill difference and race: (3, rows * races)."""
+        """The mean of each of `classes` by skill difference and race, shape (3, rows * races)."""
         first, _ = self._races
         means = np.empty((len(self.game), len(first), CLASSES))
         for start in range(0, len(self.game), _AT_ONCE):
@@ -168,7 +168,7 @@ class Lookup:
 
     @cached_property
     def cumulative(self) -> tuple[NDArray[np.uint32], NDArray[np.intp]]:
-        """The largest draw of each final score, and the race of each rating difference.
+        """The largest draw for each final score, and the race of each rating difference.
 
         The first has shape (final scores, (2 * gap + 1) * races): a table for each score.
         """
@@ -183,12 +183,12 @@ class Lookup:
 
     @cached_property
     def _races(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Where each race stands first, and which race each rating difference has."""
+        """The first place of each race, and the race of each rating difference."""
         return _races_of(self.table)
 
 
 def lookup_of(table: MatchTable, gap: float) -> Lookup:
-    """Return the tables for skills that lie up to `gap` points apart."""
+    """Return the tables for skills up to `gap` points apart."""
     certain = _CERTAIN * table.system.scale.points_per_doubling
     size = int(np.ceil(min(max(gap, 1.0), certain)))
     p = table.system.scale.win_probability(np.arange(-size, size + 1.0))

@@ -1,8 +1,8 @@
 """One season match by match: every rack, as a league would write it down.
 
-What `evenbreak.league.play` does for thousands of seasons at a time is done here for one, the
-obvious way, so that the results can be rated like those of any league, and so that the fast
-way has a witness.
+What `evenbreak.league.many_seasons` does for thousands of seasons is done here for one, in the
+obvious way: its results can be rated like those of any league, and it is the witness for the
+fast way.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from evenbreak.league.season import Season, draws_opponents
 from evenbreak.ratings.results import Results
 
 FIRST_NIGHT = np.datetime64("2025-01-07")
-"""The date of week 1 where nobody says another."""
+"""The date of week 1 by default."""
 
 _APART = 0x6D617463
-"""Keeps the draws of this season apart from those of the replicas of the same seed."""
+"""Makes the draws of this season independent of those of the replicas of the same seed."""
 
 
 class _Match(NamedTuple):
@@ -42,23 +42,23 @@ class _Match(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PlayedSeason:
-    """A season that was played, and what nobody knows of a real one.
+    """A season that was played, with the true skills that are unknown in a real one.
 
     Parameters
     ----------
     results
         the matches, in the order in which they were played: dates, races, scores and racks;
-        players in the order of the season's.
+        players in the order of the season.
     week
-        of each match, from 1 on.
+        of each match, from 1.
     rating_a, rating_b
-        with which the two came, in points.
+        the two ratings before each match, in points.
     skill
         true skill of each player before the first week, in points.
     rating
         of each player after the last week, in points.
     skill_after
-        true skill of each player after the last week, in points: drift is in it.
+        true skill of each player after the last week, in points, drift included.
     """
 
     results: Results
@@ -75,25 +75,25 @@ def season_matches(
 ) -> PlayedSeason:
     """Play one season rack by rack and return its matches.
 
-    In each week everybody who is there plays at his skill of the day. The ratings before the
-    week decide its races, and its moves are added at its end, as `apply_results` does with a
-    night's. A match of somebody who is not there is not played.
+    In each week everybody who is present plays at their skill of the day. The ratings before the
+    week set its races, and its moves are added at its end, as `apply_results` does for a night.
+    A match of somebody who is absent is not played.
 
     Parameters
     ----------
     season
         what is played.
     seed
-        a whole number from 0 on; the same one gives the same season.
+        a whole number from 0; the same seed gives the same season.
     first_night
-        the date of week 1; a week later comes week 2.
+        the date of week 1; week 2 is a week later.
     names
         of the players; None: those of the season, or 'player 1' and so on.
 
     Raises
     ------
     InputError
-        if the seed is no such number, or the date is none.
+        if the seed is not such a number, or the date is not a date.
 
     >>> from evenbreak.handicaps import chart, system_of
     >>> from evenbreak.league import LeaguePlayers, RoundRobin, Season
@@ -107,7 +107,9 @@ def season_matches(
     try:
         first = np.datetime64(first_night, "D")
     except ValueError:
-        raise InputError(f"first_night is {first_night!r}; give a date, 2025-01-07") from None
+        raise InputError(
+            f"first_night is {first_night!r}; give a date such as 2025-01-07"
+        ) from None
     players = season.players
     rating = np.array(players.rating, dtype=np.int64)
     skill = rng.normal(players.skill, players.skill_sd)
@@ -126,17 +128,17 @@ def season_matches(
                     played[[a, b]] += 1
         rating += move
         skill = skill + players.drift
-    return _told(season, matches, first, names, began, rating, skill)
+    return _played_season(season, matches, first, names, began, rating, skill)
 
 
 def _there(season: Season, week: int, rng: np.random.Generator) -> NDArray[np.bool_]:
-    """Return who plays in a week: a member who is not absent."""
+    """Return who plays in a week: members who are not absent."""
     players = season.players
     return np.asarray(players.here(week) & (rng.random(len(players)) >= players.absence))
 
 
 def _rounds(season: Season, week: int, rng: np.random.Generator) -> list[Round]:
-    """Return who meets whom; lots are drawn among the members of the week only."""
+    """Return who meets whom; random opponents are drawn among the members of the week only."""
     if not draws_opponents(season.schedule):
         return list(season.schedule.pairs(week, rng, len(season.players)))
     who = np.flatnonzero(season.players.here(week))
@@ -170,7 +172,7 @@ def _points(
     race: tuple[int, int],
     played: tuple[int, int],
 ) -> tuple[int, int]:
-    """Return by how much the two ratings move; the rule sees the winner first."""
+    """Return the points that the two ratings move; the rule sees the winner first."""
     (r, s), (m, n), (i, j) = rating, race, played
     won, lost = racks.count("a"), racks.count("b")
     rule: UpdateRule = season.system.rule
@@ -180,7 +182,7 @@ def _points(
     return down, up
 
 
-def _told(
+def _played_season(
     season: Season,
     matches: Sequence[_Match],
     first: np.datetime64,

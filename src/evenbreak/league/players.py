@@ -1,4 +1,4 @@
-"""The players of a simulated league: how they are rated, how well they play, when they play."""
+"""The players of a simulated league: their ratings, their skills, and when they play."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ Floats = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
 ESTABLISHED = 1_000_000
-"""Matches played before by a player of whom nobody says it: more than any newcomer has."""
+"""Matches played before, if nothing else is said: more than any newcomer has."""
 
 _FAR = 15_000
-"""Points beyond which nobody is rated: a season holds differences as 16-bit whole numbers."""
+"""The largest rating or skill, in points: a season holds differences in 16 bits."""
 
 
 @dataclass(frozen=True, eq=False)
 class LeaguePlayers:
-    """The players of a league as read-only columns; `LeaguePlayers.of` makes them of less.
+    """The players of a league as read-only columns; `LeaguePlayers.of` fills in defaults.
 
     Parameters
     ----------
@@ -33,29 +33,27 @@ class LeaguePlayers:
     skill
         the true skill at the start, in points of the same scale.
     skill_sd
-        how far the true skill is unknown, in points: each replica of a season draws its own
-        from the normal law of mean `skill` and this standard deviation.
+        how uncertain the true skill is, in points: each replica of a season draws its own skill
+        from a normal distribution with mean `skill` and this standard deviation.
     day_sd
-        how far a player's skill of the day strays from his skill, one standard deviation in
-        points.
+        standard deviation of a player's form from day to day, in points.
     drift
-        points by which the true skill rises a week.
+        points by which the true skill rises each week.
     joins
         the first week in which a player plays, from 1.
     leaves
-        the last week in which he plays; 0 where he stays.
+        the last week in which a player plays; 0 for a player who stays.
     absence
-        P(a player misses a week | he is in the league).
+        P(a player misses a week | the player is in the league).
     played
-        the matches that each had played before the season, for a system that moves newcomers
-        faster.
+        the matches played before the season, for a system that moves newcomers faster.
     names
         the names, or None.
 
     Raises
     ------
     InputError
-        if a column has not a value for each player, or one that it cannot have.
+        if a column does not have a value for each player, or has one that is out of range.
 
     >>> club = LeaguePlayers.of([92, 80, 71], skill=[90, 84.5, 71], joins=[1, 1, 5])
     >>> len(club), club.skill, club.absence
@@ -76,7 +74,7 @@ class LeaguePlayers:
     def __post_init__(self) -> None:
         many = np.size(self.rating)
         if many < 2 or np.ndim(self.rating) != 1:
-            raise InputError(f"rating has {many} values; give those of two players or more")
+            raise InputError(f"rating has {many} values; give one for each of two players or more")
         for field in fields(self):
             if field.name != "names":
                 kind: Any = np.int64 if field.type == "Whole" else np.float64
@@ -86,7 +84,7 @@ class LeaguePlayers:
         if self.names is not None:
             names = tuple(self.names)
             if len(names) != many or len(set(names)) < many:
-                raise InputError(f"names are {len(names)}; give each of {many} players his own")
+                raise InputError(f"names is {names!r}; give {many} different names")
             object.__setattr__(self, "names", names)
 
     @classmethod
@@ -104,14 +102,14 @@ class LeaguePlayers:
         played: ArrayLike = ESTABLISHED,
         names: Iterable[str] | None = None,
     ) -> LeaguePlayers:
-        """Return players of columns, or of one number for all of them.
+        """Return players from columns, or from one number for all of them.
 
         Parameters
         ----------
         rating
             a column, one rating for each player.
         skill
-            a column; None: everybody is rated rightly.
+            a column; None: everybody is correctly rated.
         skill_sd, day_sd, drift, joins, leaves, absence, played
             a column each, or one number for everybody.
         names
@@ -169,7 +167,7 @@ def _column(given: Any, name: str, kind: Any, many: int) -> NDArray[Any]:
         if broken.any():
             raise InputError(f"{name} holds {_first(numbers, broken)}; give whole numbers")
     # One number for everybody stays one number in memory, however many players there are.
-    column = numbers.astype(kind)  # a copy: a later change of the caller's changes nothing here
+    column = numbers.astype(kind)  # a copy, so that later changes by the caller have no effect
     column.flags.writeable = False
     return np.broadcast_to(column, (many,))
 
@@ -197,7 +195,7 @@ def _check_range(players: LeaguePlayers) -> None:
     if gone.any():
         raise InputError(
             f"a player leaves in week {_first(players.leaves, gone)} and joins in week "
-            f"{_first(players.joins, gone)}; give a week not before, or 0 where he stays"
+            f"{_first(players.joins, gone)}; give a week not before that, or 0 if the player stays"
         )
 
 

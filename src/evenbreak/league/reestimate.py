@@ -1,9 +1,9 @@
-"""Ratings that are worked out anew from all results, as Fargo's are: how wrong they stay.
+"""Ratings that are refitted to all results, as Fargo's are: how far off they stay.
 
-A ladder moves a rating by what the last match says. A league may instead fit all ratings to all
-results, old ones counting less, after each so many weeks. What is left of error then has no
-chain of few states, so it is simulated: leagues of players of known skill play by the ratings
-that they have, and the ratings are fitted again and again.
+A ladder moves a rating by the last match alone. A league may instead refit all ratings to all
+results every few weeks, with older results counting less. The error that remains is not a chain
+with few states, so it is simulated: leagues of players of known skill play by their ratings, and
+the ratings are refitted again and again.
 """
 
 from __future__ import annotations
@@ -34,21 +34,21 @@ _NEAR = 1.0 / 6.0
 
 @dataclass(frozen=True, eq=False)
 class Reestimated:
-    """How wrong fitted ratings are, by simulation, with Monte Carlo standard errors.
+    """How far off refitted ratings are, by simulation, with Monte Carlo standard errors.
 
     Parameters
     ----------
     row
-        the line that `compare_systems` would have of it. The error, the favourite's chance and
-        the length of a match are of the later half of the weeks before newcomers come;
+        the row that `compare_systems` would have for it. The error, the favourite's chance and
+        the length of a match are from the second half of the weeks before newcomers come;
         settling is the newcomers'. The sum of all ratings is fixed, so there is no inflation.
     sd_error
         standard error of `row.sd`, in points, from the differences between the leagues.
     settling_error
-        standard error of `row.settling_mean`, in matches, found likewise.
+        standard error of `row.settling_mean`, in matches, found in the same way.
     unsettled
-        the share of newcomers who had not settled at the end; they count as if they did then,
-        so that where it is not 0 settling takes longer than the row says.
+        the share of newcomers who had not settled by the end. They count as if they settled
+        then, so if it is not 0, settling takes longer than the row says.
     sd_by_week
         shape (leagues, weeks): standard deviation of rating less skill after each week.
     """
@@ -61,7 +61,7 @@ class Reestimated:
 
 
 class _Plan(NamedTuple):
-    """What all leagues of a simulation have in common."""
+    """What all simulated leagues have in common."""
 
     skill: NDArray[np.float64]
     begun_with: int
@@ -96,13 +96,13 @@ def reestimate(
     leagues: int = 4,
     seed: int = 0,
 ) -> Reestimated:
-    """Return how wrong ratings stay that are fitted anew to all results, old ones fading.
+    """Return how far off ratings stay that are refitted to all results, with old ones fading.
 
-    Players of the given skills, which do not change, are paired by lot each week (with an odd
-    number of players one rests). The chart gives the race for the ratings of the day, rounded
-    to whole points, and every game is decided by the skills. All begin at their mean skill; so
-    do the newcomers, of whom one half is a doubling of the odds better than that and the other
-    half a doubling worse.
+    Players with the given skills, which do not change, are paired at random each week (with an
+    odd number of players one rests). The chart gives the race for the current ratings, rounded
+    to whole points, and the skills decide every game. All players start at their mean skill; so
+    do the newcomers, half of whom are a doubling of the odds better than that, and half a
+    doubling worse.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def reestimate(
     newcomers, newcomer_weeks
         how many come (an even number, 2 or more), and how many weeks they are followed.
     fit_every
-        after how many weeks the ratings are fitted again.
+        the number of weeks between two fits.
     half_life
         weeks after which a match counts half; None: age does not matter.
     prior_sd
@@ -130,13 +130,13 @@ def reestimate(
     Raises
     ------
     InputError
-        if a parameter is not such a one.
+        if a parameter has a value that it cannot have.
 
     Notes
     -----
-    Fits are those of `ratings.fit` (Bradley-Terry, maximum a posteriori), anchored at the mean
-    skill, which no result can tell. Settled is the first night on which a newcomer comes rated
-    within a sixth of a doubling, as in `compare_systems`.
+    The fit is that of `ratings.fit` (Bradley-Terry, maximum a posteriori), anchored at the mean
+    skill, which results cannot show. A newcomer has settled on the first night with a rating
+    within a sixth of a doubling of the skill, as in `compare_systems`.
 
     >>> import numpy as np
     >>> from evenbreak.handicaps import chart
@@ -169,10 +169,10 @@ def reestimate(
         prior_sd=prior_sd,
     )
     seeds = np.random.SeedSequence(seed).spawn(whole(leagues, "leagues", at_least=2))
-    return _told(plan, [_league(plan, np.random.default_rng(child)) for child in seeds])
+    return _summed_up(plan, [_league(plan, np.random.default_rng(child)) for child in seeds])
 
 
-def _told(plan: _Plan, courses: list[_Course]) -> Reestimated:
+def _summed_up(plan: _Plan, courses: list[_Course]) -> Reestimated:
     first, later = plan.weeks
     sd = np.array([course.sd for course in courses])
     sds = sd[:, first // 2 :].mean(axis=1)
@@ -204,7 +204,7 @@ def _told(plan: _Plan, courses: list[_Course]) -> Reestimated:
 
 
 def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
-    """Play one league: weeks with the players given, then weeks with the newcomers."""
+    """Play one league: first weeks with the given players, then weeks with newcomers too."""
     skill, (first, later) = plan.skill, plan.weeks
     centre = float(skill.mean())
     rating = np.full(len(skill), centre)
@@ -244,7 +244,7 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
 def _night(
     plan: _Plan, rating: NDArray[np.float64], rng: np.random.Generator
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return rows of a, b and the games of each, shape (4, matches), and P(a wins) of each."""
+    """Return rows of a, b and the games of each, shape (4, matches), and P(a wins)."""
     order = rng.permutation(len(rating))
     half = len(rating) // 2
     a, b = order[:half], order[half : 2 * half]

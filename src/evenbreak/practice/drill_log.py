@@ -15,18 +15,18 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MOST_LEVELS = 100
-"""The most levels that the drill of a log may have."""
+"""The most levels that a drill with a log may have."""
 
 AFTER_START, AFTER_MISS, AFTER_SUCCESS = range(3)
-"""What came before an attempt: the middle index of `DrillLog.outcomes`."""
+"""What came before an attempt; the middle index of `DrillLog.outcomes`."""
 
 
 @dataclass(frozen=True, eq=False)
 class DrillLog:
     """The attempts of a progressive drill, in the order in which they were made.
 
-    By the drill's rule a success leads one level up (the last level repeats) and a miss
-    one level down (the first level repeats); a session may begin at any level.
+    The rule of the drill: a success leads one level up (the last level repeats), a miss one
+    level down (the first level repeats). A session may begin at any level.
 
     Parameters
     ----------
@@ -35,16 +35,16 @@ class DrillLog:
     success
         shape (attempts,): whether it succeeded.
     session
-        shape (attempts,): the session of each attempt, as any labels; a label other than
-        the one before begins a new session. None where all is one session.
+        shape (attempts,): any label for the session of each attempt; a change of label
+        begins a new session. None if everything is one session.
     levels
-        how many levels the drill has; None takes the highest one in the log.
+        how many levels the drill has, at most 100; None takes the highest one in the log.
 
     Raises
     ------
     InputError
         if there is no attempt, the shapes differ, or a level is not a whole number from 1
-        to `levels`, which is 100 at the most.
+        to `levels`.
 
     >>> log = DrillLog([1, 2, 3, 2], [True, True, False, True])
     >>> log.attempts, log.successes
@@ -67,7 +67,7 @@ class DrillLog:
         highest = int(level.max())
         levels = highest if self.levels is None else whole(self.levels, "levels", at_least=1)
         if levels > MOST_LEVELS:
-            raise InputError(f"the drill has {levels} levels; give {MOST_LEVELS} at the most")
+            raise InputError(f"the drill has {levels} levels; give {MOST_LEVELS} at most")
         if highest > levels:
             raise InputError(f"levels is {levels}, but the log has level {highest}; give more")
         for name, value in (
@@ -98,14 +98,14 @@ class DrillLog:
 
     @cached_property
     def jumps(self) -> NDArray[np.int64]:
-        """The attempts, by position, that stand against the rule within their session."""
-        told = self.success[:-1] * 2 - 1
-        ruled = np.clip(self.level[:-1] + told, 1, self._top)
-        return np.flatnonzero((self.level[1:] != ruled) & ~self._new_session[1:]) + 1
+        """The positions of attempts that break the rule of the drill within their session."""
+        step = self.success[:-1] * 2 - 1
+        by_rule = np.clip(self.level[:-1] + step, 1, self._top)
+        return np.flatnonzero((self.level[1:] != by_rule) & ~self._new_session[1:]) + 1
 
     @cached_property
     def starts(self) -> NDArray[np.int64]:
-        """The attempts, by position, that begin a session or stand against the rule."""
+        """The positions of attempts that begin a session or break the rule."""
         begins = self._new_session.copy()
         begins[self.jumps] = True
         return np.flatnonzero(begins)
@@ -138,9 +138,9 @@ class DrillLog:
 def _level_array(given: Any) -> NDArray[np.int64]:
     level = np.asarray(given)
     if level.ndim != 1 or not level.size:
-        raise InputError("level is empty or no list; give the level of each attempt")
+        raise InputError("level is empty or not a list; give the level of each attempt")
     if level.dtype.kind not in "iuf" or not ((level >= 1) & (level == np.floor(level))).all():
-        raise InputError("level is not whole numbers from 1; give the level of each attempt")
+        raise InputError("level must hold whole numbers from 1; give the level of each attempt")
     if level.max() > MOST_LEVELS:
-        raise InputError(f"the log has level {level.max():g}; give {MOST_LEVELS} at the most")
+        raise InputError(f"the log has level {level.max():g}; give {MOST_LEVELS} at most")
     return level.astype(np.int64)

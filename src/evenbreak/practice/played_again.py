@@ -1,4 +1,4 @@
-"""Drill logs played again by chance: what a log looks like if only its p_i decide."""
+"""Drill logs simulated again: what a log looks like if only the chances decide."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ if TYPE_CHECKING:
     from evenbreak.practice.drill_log import DrillLog
 
 _AT_ONCE = 500_000
-"""Stretches that are played side by side, so that memory stays small."""
+"""The most stretches simulated side by side, so that memory stays small."""
 
 
 def play_again(
     log: DrillLog, success: NDArray[np.float64], *, replicas: int, rng: np.random.Generator
 ) -> NDArray[np.int64]:
-    """Return the outcomes of logs played by chance, with the starts and lengths of a log.
+    """Return the outcomes of simulated logs that have the starts and lengths of a log.
 
-    Each stretch of the log, from a start to the next, is played again from its first level
-    for as many attempts, each independent of those before, given its level.
+    Each stretch of the log, from one start to the next, is simulated from its first level for
+    the same number of attempts, each independent of those before it, given its level.
 
     Parameters
     ----------
     log
-        where the stretches begin and how long they are.
+        where the stretches begin, and how long they are.
     success
         shape (levels,): P(success | an attempt at level i).
     replicas
-        how many logs to play.
+        how many logs to simulate.
     rng
-        where chance comes from.
+        the source of the random draws.
 
     Returns
     -------
     numpy.ndarray
-        shape (replicas, levels, 3, 2): as `DrillLog.outcomes`, one log a row.
+        shape (replicas, levels, 3, 2): as `DrillLog.outcomes`, one log per row.
 
     >>> from evenbreak.practice import DrillLog
     >>> log = DrillLog([1, 2, 1], [True, False, True])
@@ -66,7 +66,7 @@ def _played(
     replicas: int,
     rng: np.random.Generator,
 ) -> NDArray[np.int64]:
-    """Play all stretches of all replicas side by side, the longest first."""
+    """Simulate all stretches of all replicas side by side, the longest first."""
     n = len(success)
     counts = np.zeros(replicas * n * 6, dtype=np.int64)
     level = np.tile(first, (replicas, 1))

@@ -25,7 +25,7 @@ from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 Floats = NDArray[np.float64]
 
 _DENSE_UP_TO = 2000
-"""Players up to which the Hessian is factorised once; of more, each answer is iterated for."""
+"""Players up to which the Hessian is factorised once; with more, each answer is iterated."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,9 +62,7 @@ class Curvature:
 
     @cached_property
     def _diagonal(self) -> Floats:
-        total: Floats = np.bincount(self.low, self.weight, self.size).astype(np.float64)
-        total += np.bincount(self.high, self.weight, self.size)
-        return total + self.precision
+        return sums_by_player(self.size, self.low, self.high, self.weight) + self.precision
 
     @cached_property
     def _factor(self) -> Any:
@@ -138,3 +136,29 @@ class Curvature:
         if failed:
             raise AccuracyError("the ratings' covariance was not found; give a smaller prior_sd")
         return np.asarray(scale * solution)
+
+
+def sums_by_player(
+    players: int,
+    low: NDArray[np.intp],
+    high: NDArray[np.intp],
+    for_low: Floats,
+    for_high: Floats | None = None,
+) -> Floats:
+    """Return for each player the sum over their pairs.
+
+    Parameters
+    ----------
+    players
+        how many there are.
+    low, high
+        the two players of each pair.
+    for_low, for_high
+        what each pair adds to its low and its high player; the same where only one is given.
+
+    >>> sums_by_player(3, np.array([0, 0]), np.array([1, 2]), np.array([1.0, 10.0]))
+    array([11., 1., 10.])
+    """
+    total: Floats = np.bincount(low, for_low, players).astype(np.float64)
+    total += np.bincount(high, for_low if for_high is None else for_high, players)
+    return total

@@ -1,4 +1,4 @@
-"""In which dense blocks a sparse symmetric matrix is eliminated.
+"""The dense blocks in which a sparse symmetric matrix is eliminated.
 
 A minimum degree order, its elimination tree, and pivots that share their rows gathered
 in one front (Liu 1992, "The multifrontal method for sparse matrix solution").
@@ -17,7 +17,7 @@ Ints = NDArray[np.intp]
 
 _ONE_FRONT_UP_TO = 300
 _PADDING, _PADDING_PER_ROW = 64, 20
-"""Explicit zeros that a front takes in rather than hand its rows on to a front of their own."""
+"""Explicit zeros that a front accepts before its rows get a front of their own."""
 
 
 @dataclass(eq=False)
@@ -50,7 +50,7 @@ def _fills_in(matrix: sparse.csc_array) -> bool:
     """Return whether nearly everybody is reached in two steps, through many at once.
 
     No order helps such a matrix, and finding that out by minimum degree takes longer than
-    the elimination. A sample of the rows tells.
+    the elimination. A sample of the rows is enough.
     """
     size = matrix.shape[0]
     if matrix.nnz < 32 * size:

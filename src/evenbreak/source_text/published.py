@@ -1,6 +1,6 @@
-"""What the source text prints: its numbers, the tables of P5.6 and its slips.
+"""What the source text prints: its numbers, the tables of P5.6 and its errata.
 
-The rows come with the package, so that a reader can lay what is computed beside them.
+The rows come with the package, for comparison with what it computes.
 """
 
 from __future__ import annotations
@@ -12,27 +12,26 @@ from typing import NamedTuple
 
 
 class PublishedNumber(NamedTuple):
-    """One number of the text, and how near to it a computed one should come.
+    """One number of the text, and how close a computed number should come to it.
 
     Parameters
     ----------
     problem
-        where it stands: a problem such as P5.13, a table, or NPL for the ladder.
+        where it is printed: a problem such as P5.13, a table, or NPL for the ladder.
     quantity, inputs
-        what it is and for what, as text such as `p=0.5 m=8`; together with the problem
-        they name it.
+        what it is, and for which inputs, such as `p=0.5 m=8`; with the problem they identify it.
     printed
-        the number with the digits that are printed; None where nothing is.
+        the number with its printed digits; None if nothing is printed.
     tolerance
-        how far a computed number may be from it. Of an erratum, how far what is computed
-        may be from what is known to be wrong: it does not make the number right.
+        how far a computed number may be from it. An erratum may be within its tolerance and
+        is wrong all the same.
     verdict
-        'agrees'; 'erratum' where the text is off by more than half its last place, see
-        the note; 'derived' where it prints nothing, or nothing that can be read. Sections 1
-        to 4 have two more: 'formula' where the text prints a formula, and `printed` is what
-        it gives for the inputs; 'given' for what the text takes from elsewhere.
+        'agrees'; 'erratum' if the text is off by more than half its last place, see the note;
+        'derived' if it prints nothing, or nothing legible. Sections 1 to 4 have two more:
+        'formula' if the text prints a formula, and `printed` is its value for the inputs;
+        'given' for numbers that the text takes from elsewhere.
     note
-        what there is to say; '' for nothing.
+        a comment, or ''.
     """
 
     problem: str
@@ -45,23 +44,23 @@ class PublishedNumber(NamedTuple):
 
 
 class Erratum(NamedTuple):
-    """A place where the text is wrong, where there is more to say, or where the copy is lacking.
+    """An error of the text, a remark on it, or a gap in the copy that was read.
 
     Parameters
     ----------
     where
         the problem, table or passage.
     class_
-        'slip' where the text is wrong; 'remark' where it is right, and a reader may still
-        go astray; 'copy' for what is lost in the copy that was read.
+        'slip' if the text is wrong; 'remark' if it is right but easy to misread; 'copy' for
+        what is missing from the copy that was read.
     printed
         what it says, in short.
     correct
-        what it should say, or for a remark what holds; '' where nothing can be said.
+        what it should say, or for a remark what is true; '' if there is nothing to say.
     kind
-        what kind of slip or remark it is, such as 'cut off' for digits that were not rounded.
+        what kind of slip or remark it is, such as 'cut off' for truncated digits.
     why
-        how it is known.
+        how this is known.
     """
 
     where: str
@@ -83,7 +82,7 @@ def published_numbers() -> list[PublishedNumber]:
 
 
 def further_numbers() -> list[PublishedNumber]:
-    """Return the numbers that stand in passing in the answers of section 5.
+    """Return the numbers that the answers of section 5 mention in passing.
 
     >>> {row.verdict for row in further_numbers()} <= {"agrees", "erratum", "derived"}
     True

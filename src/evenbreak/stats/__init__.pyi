@@ -15,7 +15,6 @@ from .confidence import mean_interval as mean_interval
 from .confidence import sd_of_mean as sd_of_mean
 from .confidence import was_it_luck as was_it_luck
 from .counts import CountLaw as CountLaw
-from .counts import whole_counts as whole_counts
 from .exact import exact as exact
 from .innings import InningsScore as InningsScore
 from .runs import FairLine as FairLine

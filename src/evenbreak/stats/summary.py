@@ -1,4 +1,4 @@
-"""What a set of values or a law of values says: mean, median, mode, spread, quantiles."""
+"""Summaries of values or of a distribution: mean, median, mode, spread, quantiles."""
 
 from __future__ import annotations
 
@@ -17,38 +17,38 @@ from evenbreak.stats.exact import exact
 Number = float | Fraction
 
 _EQUAL = 1e-12
-"""Sums of float probabilities, and float probabilities relative to the largest, that come
-nearer to each other than this count as equal."""
+"""Sums of float probabilities count as equal within this, and so do float probabilities,
+relative to the largest."""
 
 _SUM = 1e-9
-"""How far float probabilities may sum from 1."""
+"""How far from 1 float probabilities may sum."""
 
 
 @dataclass(frozen=True)
 class Distribution:
-    """Values that increase, each with its probability.
+    """Values in increasing order, each with its probability.
 
     Parameters
     ----------
     values
         finite numbers, each larger than the one before it.
     probability
-        the probability of each; they sum to 1. Fractions sum to 1 exactly and decide
-        median, mode and quantiles exactly. Floats sum to 1 within 1e-9; a cumulative
-        float probability within 1e-12 below q counts as having reached q, and float
-        probabilities within 1e-12 of the largest, relatively, count as equally large.
+        the probability of each; they sum to 1. With fractions the sum is exactly 1, and
+        median, mode and quantiles are exact. Floats sum to 1 within 1e-9; a cumulative float
+        probability within 1e-12 below q counts as having reached q, and float probabilities
+        within 1e-12 of the largest, relatively, count as equally large.
 
     Raises
     ------
     InputError
-        if there is no value, a value is not a finite number, they do not increase, or
-        the probabilities are not as many, are not from 0 to 1 or do not sum to 1.
+        if there is no value, a value is not a finite number, the values do not increase, or
+        the probabilities are not one for each value, from 0 to 1, with sum 1.
 
     Notes
     -----
-    The mean, median, mode and standard deviation of section 5 of the source text, with
-    its convention for the median: the smallest value whose cumulative probability reaches
-    1/2, a value of the set also where the set is even.
+    The mean, median, mode and standard deviation of section 5 of the source text, with its
+    convention for the median: the smallest value whose cumulative probability reaches 1/2,
+    which is one of the values even if their number is even.
 
     >>> law = Distribution((0, 1, 4, 5), (0.2, 0.4, 0.2, 0.2))
     >>> round(law.mean, 3), law.median, law.mode, round(law.sd, 3)
@@ -74,17 +74,17 @@ class Distribution:
         Parameters
         ----------
         values
-            finite numbers in any order; equal ones are taken together.
+            finite numbers in any order; equal ones are combined.
         weights
             the weight of each value, in the same order; whole numbers are counts. None:
             each value counts once. Counts and Fractions give exact probabilities, other
-            weights floats. A value of no weight is left out.
+            weights give floats. A value of weight 0 is left out.
 
         Raises
         ------
         InputError
             if there is no value, a value or weight is not a finite number, a weight is
-            negative, all are 0, or they are not as many as the values.
+            negative, all are 0, or there is not one weight for each value.
 
         >>> Distribution.of([4, 1, 0, 5, 1]).probability[:2]
         (Fraction(1, 5), Fraction(2, 5))
@@ -151,12 +151,12 @@ class Distribution:
 
     @property
     def mode(self) -> Number:
-        """The most probable value, the smallest of them where several are."""
+        """The most probable value; the smallest one where several are equally probable."""
         return self.modes[0]
 
     @property
     def modes(self) -> tuple[Number, ...]:
-        """All values than which none is more probable."""
+        """All the most probable values."""
         largest = max(self.probability)
         least = largest if self.exact else largest * (1 - _EQUAL)
         pairs = zip(self.values, self.probability, strict=True)
@@ -165,8 +165,8 @@ class Distribution:
     def quantile(self, q: Any) -> Number:
         """Return the smallest value with P(value <= it) >= q.
 
-        q = .9 gives the 90th percentile. q = 0 gives the smallest value that can occur,
-        q = 1 the largest.
+        q = .9 gives the 90th percentile, q = 0 the smallest possible value, q = 1 the
+        largest.
 
         Raises
         ------
@@ -203,13 +203,13 @@ class Distribution:
 
 @dataclass(frozen=True)
 class Moments:
-    """How many values there are, their mean, and their population standard deviation.
+    """The number of values, their mean, and their population standard deviation.
 
     Raises
     ------
     InputError
-        if n is not a whole number from 1 up, the mean is not finite, or the standard
-        deviation is negative or not finite.
+        if n is not a whole number from 1 up, or the mean or the standard deviation is not
+        finite, or the latter is negative.
 
     >>> Moments.of([0, 1, 1, 4, 5]).mean
     2.2
@@ -241,10 +241,10 @@ class Moments:
 
 
 def merge(parts: Iterable[Moments]) -> Moments:
-    """Return the number, mean and standard deviation of several sets taken together.
+    """Return the number, mean and standard deviation of several sets combined.
 
-    The values themselves are not needed. The variance of the whole is the mean of the
-    parts' variances plus the variance of the parts' means, each part weighted by its size.
+    The values themselves are not needed. The variance of the whole is the mean of the parts'
+    variances plus the variance of the parts' means, each part weighted by its size.
 
     Raises
     ------
@@ -264,7 +264,7 @@ def merge(parts: Iterable[Moments]) -> Moments:
         raise InputError("parts is empty; give one Moments or more")
     n = sum(part.n for part in parts)
     mean = math.fsum(part.n * part.mean for part in parts) / n
-    # hypot adds squares that would leave the range of a float by themselves.
+    # hypot adds squares that alone would exceed the range of a float.
     spread = (math.sqrt(part.n / n) * math.hypot(part.sd, part.mean - mean) for part in parts)
     return Moments(n, mean, math.hypot(*spread))
 
@@ -309,7 +309,7 @@ def _weights(weights: Iterable[Any] | None, many: int) -> list[Number]:
 
 
 def _probabilities(probability: Iterable[Any], many: int) -> tuple[float | Fraction, ...]:
-    """Return as many probabilities that sum to 1, all of them Fractions or all floats."""
+    """Return `many` probabilities that sum to 1, all of them Fractions or all floats."""
     listed = _numbers(probability, "probability")
     if len(listed) != many:
         raise InputError(f"probability has {len(listed)} entries for {many} values; give one each")

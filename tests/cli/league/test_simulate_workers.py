@@ -66,8 +66,7 @@ def test_ctrl_c_ends_with_130_and_writes_nothing(roster, tmp_path, jobs, after):
     out = tmp_path / "out"
     play = started(roster, "--replicas", "10000000", "--jobs", jobs, "--out", str(out))
     assert play.stderr is not None
-    assert "drawn anew" in play.stderr.readline()  # the roster is read
-    assert "About 6,000,000,000 matches are played" in play.stderr.readline()
+    assert "6,000,000,000 matches" in play.stderr.readline()  # the roster is read
     time.sleep(after)
     os.killpg(play.pid, signal.SIGINT)  # to the workers too, as a terminal sends it
     told = ended(play)

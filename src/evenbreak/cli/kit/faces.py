@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 Function = Callable[..., "Answer"]
 
 
-def faces(*, page: bool = True, always_text: bool = False) -> Callable[[Function], Function]:
+def faces(
+    *, page: bool = True, always_text: bool = False, ask_face: bool = False
+) -> Callable[[Function], Function]:
     """Return a decorator that prints the `Answer` of a command, as its options ask.
 
     Parameters
@@ -27,14 +29,19 @@ def faces(*, page: bool = True, always_text: bool = False) -> Callable[[Function
         option `--html` of its own.
     always_text
         whether a pipe gets text too, because the tables are written to files.
+    ask_face
+        whether the command gets the face (text, csv or json) as `face`, because some faces hold
+        less than others.
     """
 
     def decorate(function: Function) -> Function:
         def run(
             *, face: str | None, verbose: bool, page_file: str | None = None, **options: Any
         ) -> None:
-            answer = function(**options)
             chosen = face or ("text" if always_text or to_terminal() else "csv")
+            if ask_face:
+                options["face"] = chosen
+            answer = function(**options)
             print_answer(answer, chosen, verbose=verbose)
             if page_file is not None:
                 _write_page(answer, page_file)
@@ -88,8 +95,8 @@ def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
     elif face == "csv":
         from evenbreak.answers.faces.to_csv import to_csv
 
-        for sentence in (answer.heading, *answer.sentences):
-            say(sentence)
+        for line in "\n".join([answer.heading, *answer.sentences]).split("\n"):
+            say(line)
         for line in to_csv(answer):
             click.echo(line.encode(), nl=False)
     else:

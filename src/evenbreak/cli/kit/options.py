@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from evenbreak.cli.kit.values import LONGEST, NUMBER, SPAN, Whole, meant, refuse
+from evenbreak.cli.kit.values import CHANCE, LONGEST, NUMBER, SPAN, Whole, meant, refuse
 
 if TYPE_CHECKING:
     from evenbreak.ratings.scale import Scale
@@ -105,6 +105,17 @@ aliases_option = click.option(
     help="Which names mean the same player: a file with the columns name and means.",
 )
 """The option --aliases of every command that reads results."""
+
+
+safety_option = click.option(
+    "--safety",
+    metavar="ALPHA",
+    type=CHANCE,
+    default="1",
+    show_default=True,
+    help="The first shot of an inning goes in ALPHA times as often as the others.",
+)
+"""The option --safety of the commands about straight pool."""
 
 
 def which_races(command: Command) -> Command:

@@ -50,7 +50,7 @@ def players_of(
 
 
 def player_options(command: Command) -> Command:
-    """Add the arguments and options that say who plays."""
+    """Add the arguments and options that describe the players."""
     for add in (
         click.option(
             "--first-break",

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn
 
 import click
 
 LONGEST = 1000
 """The most games that a race, a lead or a score can have here."""
 
+MOST_BALLS = 100_000
+"""The most balls that an option can name."""
+
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 """A finite number, as text."""
-
-Value = TypeVar("Value")
 
 
 class Whole(click.IntRange):
@@ -114,7 +115,7 @@ def meant(value: str, low: float, high: float) -> str:
     """Return how to write a number typed with a decimal comma or as a percentage, or nothing.
 
     >>> meant("80%", 0, 1), meant("95", 0, 1), meant("24,5", 0, 100), meant("half", 0, 1)
-    (' (80 % is 0.8)', ' (95 % is 0.95)', ' (with a decimal point: 24.5)', '')
+    (' (80% is 0.8)', ' (95% is 0.95)', ' (with a decimal point: 24.5)', '')
     """
     text = value.strip().replace(",", ".")
     plain = text.removesuffix("%").rstrip()
@@ -122,7 +123,7 @@ def meant(value: str, low: float, high: float) -> str:
         return ""
     found = float(plain)
     if (low, high) == (0.0, 1.0) and (plain != text or found > 1.0):
-        return f" ({found:.12g} % is {found / 100.0:.12g})" if 0.0 <= found <= 100.0 else ""
+        return f" ({found:.12g}% is {found / 100.0:.12g})" if 0.0 <= found <= 100.0 else ""
     if "," in value and plain == text and low <= found <= high:
         return f" (with a decimal point: {plain})"
     return ""

@@ -1,4 +1,4 @@
-"""Charts of races of one length: whoever plays, the table is taken for as many games."""
+"""Charts of races of one length: every match can last equally many games."""
 
 from __future__ import annotations
 
@@ -14,30 +14,30 @@ _LONGEST = 999
 
 
 def fixed_length_chart(games: Any, scale: Any = "npl", *, name: str | None = None) -> Chart:
-    """Return the chart of the races that last so many games at most, each where it is most even.
+    """Return the chart whose races all last at most a given number of games.
 
-    At each difference it has the race m:n with m + n - 1 = games whose chance to be won is
-    nearest 1/2. The chart ends with the race in which the weaker player needs one game.
+    At each difference it has the race m:n with m + n - 1 = games that is nearest to even. The
+    chart ends with the race in which the weaker player needs one game.
 
     Parameters
     ----------
     games
-        the longest that a match may last, an odd whole number up to 999: with an even one two equal
-        players would have no even race.
+        the most games of a match, an odd whole number up to 999. An even number would leave
+        no even race for equal players.
     scale
         what differences mean: 'npl', 'fargo', 'elo', a `Scale`, or the points that double the
         odds.
     name
-        what the chart is called; None: 'fixed_9' for nine games.
+        the name of the chart; None: 'fixed_9' for nine games.
 
     Raises
     ------
     InputError
-        if games is not such a number, or there is no such scale.
+        if games is not such a number, or the scale is unknown.
 
     Notes
     -----
-    Source: the rule before Table 5.6, within one sum m + n.
+    Source: the rule before Table 5.6, for a single sum m + n.
 
     >>> chart = fixed_length_chart(5)
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
@@ -46,7 +46,7 @@ def fixed_length_chart(games: Any, scale: Any = "npl", *, name: str | None = Non
     longest = whole(games, "games", at_least=1)
     if longest % 2 == 0:
         raise InputError(
-            f"games is {longest}, in which two equal players have no even race; give "
+            f"games is {longest}, which leaves no even race for equal players; give "
             f"{longest - 1} or {longest + 1}"
         )
     if longest > _LONGEST:

@@ -1,12 +1,12 @@
-"""Whom the player of a ladder meets, pair by pair, and what their matches come to.
+"""The pairs of player and opponent on a ladder, and what their matches come to.
 
 With the player's rating error i, the opponent's skill s or rating r less the player's skill, and
 the opponent's error e, the chart sees the difference
 
     i - (s + e)    given the skill,        i - r    given the rating,
 
-and the games are decided by the difference of skill, -s or e - r, and by that of the two players'
-form, over whose law all chances are averaged.
+and the games are decided by the difference of skill, -s or e - r, plus the difference of the two
+players' forms, over which all chances are averaged.
 """
 
 from __future__ import annotations
@@ -30,19 +30,19 @@ _RARE = 1e-18
 
 
 @dataclass(frozen=True, eq=False)
-class Meetings:
-    """The opponents of a ladder as pairs of offsets, with the matches that they lead to.
+class OpponentPairs:
+    """The kinds of opponents on a ladder, as pairs of offsets, with their matches.
 
     Parameters
     ----------
     ladder
-        whose player it is.
+        the ladder.
     table
         the matches by rating difference, wide enough for all pairs.
     skills
         the differences of skill that occur, the player's less the opponent's, in points.
     apart
-        for each kind of opponent: by how much the rating difference exceeds the player's error.
+        for each kind of opponent: how much the rating difference exceeds the player's error.
     ahead
         for each kind of opponent: the place in `skills` of the difference of skill.
     chance
@@ -87,7 +87,7 @@ class Meetings:
         return self.ladder.errors[:, None] + self.apart + self.table.widest
 
     def _forms(self) -> Iterator[tuple[NDArray[np.float64], float]]:
-        """Yield the game chances of all differences of skill, form by form, with weights."""
+        """Yield the chances of a game by difference of skill, form by form, with weights."""
         scale = self.ladder.system.scale
         law = difference_law(self.ladder.day_sd, self.ladder.match_sd)
         forms, weights = deviation_grid(law, scale.points_per_doubling)
@@ -96,22 +96,22 @@ class Meetings:
 
 
 @lru_cache(maxsize=1)
-def meetings_of(ladder: Ladder) -> Meetings:
-    """Return whom the player of a ladder meets."""
+def opponent_pairs_of(ladder: Ladder) -> OpponentPairs:
+    """Return the kinds of opponents that the player of a ladder meets."""
     opponents, law = ladder.opponents, ladder.opponent_law
-    of_each = np.array(opponents.spread.values, float), np.array(law.values, float)
-    given, error = np.meshgrid(*of_each, indexing="ij")
+    values = np.array(opponents.spread.values, float), np.array(law.values, float)
+    given, error = np.meshgrid(*values, indexing="ij")
     chance = np.outer(
         np.asarray(opponents.spread.probability, float), np.asarray(law.probability, float)
     ).ravel()
     given, error = given.ravel().astype(np.int64), error.ravel().astype(np.int64)
     by_skill = opponents.given == "skill"
-    pairs = np.column_stack(
+    offsets = np.column_stack(
         [-(given + error) if by_skill else -given, -given if by_skill else error - given]
     )
-    kinds, kind = np.unique(pairs[chance > _RARE], axis=0, return_inverse=True)
+    kinds, kind = np.unique(offsets[chance > _RARE], axis=0, return_inverse=True)
     weight = np.bincount(kind.reshape(-1), chance[chance > _RARE])
     skills, ahead = np.unique(kinds[:, 1], return_inverse=True)
     widest = ladder.widest + int(np.abs(kinds[:, 0]).max())
     table = known_table(ladder.system, ladder.chart, widest=widest)
-    return Meetings(ladder, table, skills, kinds[:, 0], ahead, weight / weight.sum())
+    return OpponentPairs(ladder, table, skills, kinds[:, 0], ahead, weight / weight.sum())

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.physics.offset import NATURAL_ROLL_OFFSET, ContactPoint, small_circle_point
-from evenbreak.plots.style import LINES
+from evenbreak.plots.style import LINES, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -81,13 +81,4 @@ def name_point(
     """Mark a point, and write its name so many points of the page beside it."""
     axes.plot([point.y], [point.z], "ko", ms=4.5, zorder=4)
     box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
-    axes.annotate(
-        name,
-        (point.y, point.z),
-        beside,
-        textcoords="offset points",
-        fontsize=9.5,
-        ha=ha,
-        va="center",
-        bbox=box,
-    )
+    note(axes, name, (point.y, point.z), beside, fontsize=9.5, ha=ha, va="center", bbox=box)

@@ -9,7 +9,7 @@ import numpy as np
 
 from evenbreak.physics.offset import ContactPoint, gearing_tip, small_circle_point
 from evenbreak.physics.throw import gearing_side, throw_factor, throw_sensitivity
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, note
 from evenbreak.source_text.physics.ball_view import (
     ball_view,
     draw_line,
@@ -64,13 +64,7 @@ def throw_factors() -> Figure:
             label=f"{topspin:g}" + _NAMES.get(topspin, ""),
         )
     axes.plot([step], [0.0], "ko", ms=4, zorder=4)
-    axes.annotate(
-        r"$J_{0z}$ = $-\sin\alpha$",
-        (step, 0.0),
-        (12, -14),
-        textcoords="offset points",
-        fontsize=10,
-    )
+    note(axes, r"$J_{0z}$ = $-\sin\alpha$", (step, 0.0), (12, -14), fontsize=10)
     axes.axhline(0.0, color="0.7", lw=0.7, zorder=0)
     axes.set(xlim=(-LARGEST_SPIN, LARGEST_SPIN), ylim=(-1.08, 1.08))
     axes.legend(title="$|J_{0y}|$", loc="lower right", frameon=False, handlelength=3.5)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.physics.collision import Collision, axis_tilt, collide
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.offset import NATURAL_ROLL_OFFSET, gearing_tip, offset_for
 from evenbreak.physics.slide import roll_velocity
 from evenbreak.physics.throw import (
@@ -22,7 +22,8 @@ from evenbreak.physics.throw import (
     throw_sensitivity,
 )
 from evenbreak.physics.units import DEGREE, FOOT, GRAVITY, INCH
-from evenbreak.source_text.physics.inputs import Answers, Inputs, crossing, slope
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.physics.calculus import crossing, slope
 
 _HALF_BALL = math.asin(0.5)
 
@@ -165,7 +166,7 @@ ANSWERS: Answers = {
     ("Section 4", "deviation of 4 degrees over 8 feet, in"): lambda _: (
         8.0 * FOOT * math.tan(4.0 * DEGREE) / INCH
     ),
-    ("Section 4", "half a diamond, in"): lambda _: Table().length / 16.0 / INCH,
+    ("Section 4", "half a diamond, in"): lambda _: PoolTable().length / 16.0 / INCH,
     ("Section 4", "departure angle below 90, deg"): lambda _: (
         90.0 - collide(_HALF_BALL, 0.0).departure / DEGREE
     ),

@@ -24,7 +24,8 @@ from evenbreak.physics.objects import Ball
 from evenbreak.physics.rolling import kinetic_energy
 from evenbreak.physics.slide import roll_velocity
 from evenbreak.physics.units import DEGREE
-from evenbreak.source_text.physics.inputs import Answers, Inputs, crossing
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.physics.calculus import crossing
 
 _SMALL = 1e-5
 """A cut, in radians, that is small enough for the limits of small cuts."""

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import (
     MOON_GRAVITY,
     SHAPES,
@@ -28,7 +28,7 @@ from evenbreak.physics.slide import (
 )
 from evenbreak.physics.table_speed import lag_distance, table_speed
 from evenbreak.physics.units import GRAVITY, INCH
-from evenbreak.source_text.physics.inputs import Answers, Inputs
+from evenbreak.source_text.inputs import Answers, Inputs
 
 _MU = 0.1
 """A coefficient for what does not depend on it."""
@@ -88,7 +88,7 @@ def _moon_time(i: Inputs, shape: str) -> float:
     friction = i.get("mu_rolling")
     if friction is None:
         friction = rolling_friction(1.0 / table_speed(i["t"]))
-    way = lag_distance(Table(), Ball())
+    way = lag_distance(PoolTable(), Ball())
     return float(rolling_time(way, friction, shape=SHAPES[shape], gravity=MOON_GRAVITY))
 
 

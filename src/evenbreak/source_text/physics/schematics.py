@@ -10,7 +10,7 @@ import numpy as np
 
 from evenbreak.physics.collision import axis_tilt, collide
 from evenbreak.physics.throw import throw_factor
-from evenbreak.plots.style import new_axes
+from evenbreak.plots.style import new_axes, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,7 +52,7 @@ def tip_forces() -> Figure:
     axes.plot(tip, _OFFSET + np.array([0.09, 0.05, -0.05, -0.09]), color="black", lw=1.2)
     axes.plot([touch[0], 0.0], [0.0, 0.0], ls=":", color="black", lw=0.9)
     axes.plot([touch[0], touch[0]], [0.0, _OFFSET], ls=":", color="black", lw=0.9)
-    axes.annotate("$b$", (touch[0], _OFFSET / 2), (-9, 0), textcoords="offset points", va="center")
+    note(axes, "$b$", (touch[0], _OFFSET / 2), (-9, 0), va="center")
     axes.plot([0.0], [0.0], "ko", ms=4)
     _arrow(axes, touch, force, "$F$", beside=(10, 0), lw=2.2)
     _arrow(axes, touch, normal, "$F_N$", beside=(-12, -8), at=0.9, ls="--")
@@ -179,7 +179,7 @@ def _arrow(
     vector: Any,
     name: str,
     *,
-    beside: Pair,
+    beside: tuple[float, float],
     at: float = 1.0,
     lw: float = 1.4,
     ls: str = "-",
@@ -194,15 +194,7 @@ def _arrow(
         (tail[0], tail[1]), (head[0], head[1]), color="black", lw=lw, ls=ls, label=name, **style
     )
     axes.add_patch(arrow)
-    axes.annotate(
-        name,
-        (named[0], named[1]),
-        (beside[0], beside[1]),
-        textcoords="offset points",
-        fontsize=11,
-        ha="center",
-        va="center",
-    )
+    note(axes, name, (named[0], named[1]), beside, fontsize=11, ha="center", va="center")
     return arrow
 
 

@@ -35,7 +35,7 @@ from evenbreak.physics.tip import (
     stroke_speed,
 )
 from evenbreak.physics.units import OUNCE
-from evenbreak.source_text.physics.inputs import Answers, Inputs
+from evenbreak.source_text.inputs import Answers, Inputs
 
 _P1 = ContactPoint(-math.sqrt(0.5), 1.0)
 _P2 = ContactPoint(-0.5, 0.5)

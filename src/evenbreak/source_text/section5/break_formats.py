@@ -11,8 +11,9 @@ from evenbreak.games.breaks import BREAK_FORMATS
 from evenbreak.games.rack import Rack
 from evenbreak.games.series import Series
 from evenbreak.practice.breaks import compare_break_formats, long_run_share
+from evenbreak.source_text.inputs import Answers, Inputs
 from evenbreak.source_text.section5.matrices import MATRICES, matrix_rows
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.section5.rows import Derived, Row
 
 FORMATS = ("winner", "loser", "alternate")
 PAIRS = (
@@ -39,13 +40,13 @@ EIGENVALUES = {name: " and ".join(MATRICES[f"M, {name} breaks"].eigenvalues) for
 
 
 def _share(inputs: Inputs, name: str) -> float:
-    p1, p2 = float(inputs.one("p1")), float(inputs.one("p2"))
+    p1, p2 = inputs["p1"], inputs["p2"]
     return float(long_run_share(p1, p2, BREAK_FORMATS[name]))
 
 
 def _points(inputs: Inputs) -> float:
-    rack = Rack(float(inputs.one("p1")), float(inputs.one("p2")))
-    win, lose = float(inputs.one("win")), float(inputs.one("lose"))
+    rack = Rack(inputs["p1"], inputs["p2"])
+    win, lose = inputs["win"], inputs["lose"]
     values = compare_break_formats(rack, win=win, lose=lose)
     points = {value.name: value.points for value in values}
     return points[inputs.words[0]]

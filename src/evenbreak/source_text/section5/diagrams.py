@@ -6,27 +6,12 @@ Each is a graph with symbols on its arcs: p for a success, q = 1 - p for a failu
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
-
-from evenbreak.plots.style import our_look
 
 if TYPE_CHECKING:
     import networkx as nx
     from matplotlib.figure import Figure
-
-
-def diagrams() -> Mapping[str, Callable[[], Figure]]:
-    """Return the game diagrams of section 5 by name, each a function that draws it.
-
-    Notes
-    -----
-    Source: Figs. 5.2, 5.4, 5.5, 5.7 and 5.10, and the diagrams of problem P5.24.
-
-    >>> list(diagrams())[-1]
-    'figure_p5_24'
-    """
-    return {name: _drawing(graph) for name, graph in diagram_graphs().items()}
 
 
 def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
@@ -37,7 +22,7 @@ def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
 
     Notes
     -----
-    Source: as for `diagrams`.
+    Source: Figs. 5.2, 5.4, 5.5, 5.7 and 5.10, and the diagrams of problem P5.24.
 
     >>> graph = diagram_graphs()["figure_5_5"]
     >>> graph.edges["S1", "W"]["label"]
@@ -53,14 +38,11 @@ def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
     }
 
 
-def _drawing(graph: nx.DiGraph[Any]) -> Callable[[], Figure]:
-    @our_look()
-    def drawing() -> Figure:
-        from evenbreak.plots.diagram import draw
+def drawn(graph: nx.DiGraph[Any]) -> Figure:
+    """Return the drawing of a graph whose nodes have places."""
+    from evenbreak.plots.diagram import draw
 
-        return draw(graph, layout={state: graph.nodes[state]["place"] for state in graph})
-
-    return drawing
+    return draw(graph, layout={state: graph.nodes[state]["place"] for state in graph})
 
 
 class _Sketch:

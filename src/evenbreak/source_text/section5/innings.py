@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
 
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.section5.rows import Derived, Row
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength, median_ratio_limit
 from evenbreak.stats.summary import Distribution
@@ -25,7 +26,7 @@ def _run(inputs: Inputs) -> RunLength:
 
 
 def _score(inputs: Inputs) -> InningsScore:
-    innings = inputs.named.get("m") or inputs.all("innings")
+    innings = inputs.numbers.get("m") or inputs.all("innings")
     return InningsScore(inputs.one("p"), int(innings[0]))
 
 

@@ -16,8 +16,9 @@ from evenbreak.handicaps.ladders.opponents import AUTOCORRELATED, NATURAL
 from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.practice.drills import DrillStatistics, drill_statistics
 from evenbreak.ratings.scale import SCALES
+from evenbreak.source_text.inputs import Answers, Inputs
 from evenbreak.source_text.section5.matrices import matrix_rows
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.section5.rows import Derived, Row
 from evenbreak.stats.summary import Distribution
 
 DRILL_P = ("0.5", "0.6", "0.7", "0.8", "0.9", "0.95", "0.99")
@@ -63,7 +64,7 @@ def _term(a: int, b: int) -> str:
 
 
 def _drill(inputs: Inputs) -> DrillStatistics:
-    return drill(float(inputs.one("p")))
+    return drill(inputs["p"])
 
 
 def _ladder_sd(inputs: Inputs, *, autocorrelated: bool) -> float:
@@ -72,7 +73,7 @@ def _ladder_sd(inputs: Inputs, *, autocorrelated: bool) -> float:
 
 def _ahead(inputs: Inputs) -> float:
     m, n = map(int, inputs.all())
-    return float(win_probability(Ahead(m, n, Rack(float(inputs.one("p"))))))
+    return float(win_probability(Ahead(m, n, Rack(inputs["p"]))))
 
 
 def _ahead_chain(inputs: Inputs) -> Ahead:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from evenbreak.source_text.section5.markdown import markdown_table
+from evenbreak.source_text.markdown import markdown_table
 from evenbreak.source_text.section5.rows import Row
 
 

@@ -12,8 +12,9 @@ from evenbreak.chains.powers import propagate
 from evenbreak.chains.spectrum import spectrum
 from evenbreak.games.one_ball import OneBall
 from evenbreak.practice.shots import critical_p2, one_ball_win
+from evenbreak.source_text.inputs import Answers, Inputs
 from evenbreak.source_text.section5.matrices import MATRICES, matrix_rows
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.section5.rows import Derived, Row
 
 SHOTS = ((0.1, 0.9), (0.9, 0.1), (0.9, 0.9), (0.5, 0.5), (0.25, 0.33), (0.4, 0.8), (0.3, 0.3))
 """The pairs p1, p2 of the table in P5.22."""
@@ -39,7 +40,7 @@ TWO_SHOTS = "p1 + (1 - p1)*(1 - p2)/2"
 
 
 def _win(inputs: Inputs, look_ahead: str) -> float:
-    p1, p2 = float(inputs.one("p1")), float(inputs.one("p2"))
+    p1, p2 = inputs["p1"], inputs["p2"]
     return float(one_ball_win(p1, p2, look_ahead=look_ahead))
 
 
@@ -51,7 +52,7 @@ def _chain() -> Chain:
 ANSWERS: Answers = {
     ("P5.22", "W infinite look-ahead"): lambda i: _win(i, "infinite"),
     ("P5.22", "W two-shot look-ahead"): lambda i: _win(i, "two shots"),
-    ("P5.22", "critical p2"): lambda i: critical_p2(float(i.one("p1"))),
+    ("P5.22", "critical p2"): lambda i: critical_p2(i["p1"]),
     ("P5.23", "number of eigenvalues 1"): lambda _: spectrum(_chain()).units,
 }
 

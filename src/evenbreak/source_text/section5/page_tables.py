@@ -2,45 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
+from evenbreak.source_text.cells import Rows
+from evenbreak.source_text.findings import Finding
+from evenbreak.source_text.markdown import beside, markdown_table, rounded, short
 from evenbreak.source_text.section5.innings import INNINGS
 from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
-from evenbreak.source_text.section5.markdown import beside, markdown_table, rounded, short
 from evenbreak.source_text.section5.matrices import MATRICES
-from evenbreak.source_text.section5.numbers import Finding
 from evenbreak.source_text.section5.samples import pascals_triangle
 
-if TYPE_CHECKING:
-    import pandas as pd
-
-_STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half and half"}
+_STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half the time"}
 
 
-def score_table(frame: pd.DataFrame) -> str:
+def score_table(rows: Rows) -> str:
     """Return a table of P5.6, row m and column n."""
-    columns = list(frame.columns)
-    rows = [[f"**{row[0]}**", *map(_chance, row[1:])] for row in frame.itertuples(index=False)]
-    return markdown_table(["m \\ n", *(name.removeprefix("n_") for name in columns[1:])], rows)
+    header = ["m \\ n", *(name.removeprefix("n_") for name in list(rows[0])[1:])]
+    cells = [list(row.values()) for row in rows]
+    return markdown_table(header, [[f"**{m}**", *map(_chance, chances)] for m, *chances in cells])
 
 
 def _chance(value: Decimal) -> str:
     return f"{value:.0E}" if value < Decimal("0.00095") else rounded(value, 3)
 
 
-def _records(frame: pd.DataFrame) -> list[dict[str, Any]]:
-    return [dict(zip(frame.columns, row, strict=True)) for row in frame.itertuples(index=False)]
-
-
 def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
     return beside(row[name], row[f"{name}_printed"], decimals)
 
 
-def table_5_1(frame: pd.DataFrame) -> str:
+def _pairs_table(
+    rows: Rows, *, header: Sequence[str], plain: Sequence[str], decimals: Mapping[str, int]
+) -> str:
+    """Return a table of some columns as they are, then of computed numbers with printed ones."""
+    return markdown_table(
+        header,
+        [
+            [*(row[name] for name in plain), *(_pair(row, *pair) for pair in decimals.items())]
+            for row in rows
+        ],
+    )
+
+
+def _table_5_1(rows: Rows) -> str:
     """Return the critical values, the printed ones below."""
-    rows = _records(frame)
     return markdown_table(
         ["P", *(str(row["coverage"]) for row in rows)],
         [
@@ -50,21 +57,9 @@ def table_5_1(frame: pd.DataFrame) -> str:
     )
 
 
-def table_5_2(frame: pd.DataFrame) -> str:
-    """Return the statistics of runs."""
-    decimals = {"mean_run": 1, "median_bound": 1, "median_run": 0, "median_over_mean": 3}
-    return markdown_table(
-        ["p", "mean", "bound", "median", "median / mean"],
-        [
-            [row["p"], *(_pair(row, *column) for column in decimals.items())]
-            for row in _records(frame)
-        ],
-    )
-
-
-def table_5_3(frame: pd.DataFrame) -> str:
+def _table_5_3(rows: Rows) -> str:
     """Return mode, mean and median of scores, a column for each number of innings."""
-    cells = {(row["p"], row["m"]): row for row in _records(frame)}
+    cells = {(row["p"], row["m"]): row for row in rows}
     chances = list(dict.fromkeys(p for p, _ in cells))
     return markdown_table(
         ["p", "", *(f"m = {innings}" for innings in INNINGS)],
@@ -76,6 +71,48 @@ def table_5_3(frame: pd.DataFrame) -> str:
     )
 
 
+def _table_5_6(rows: Rows) -> str:
+    """Return the four charts side by side."""
+    charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
+    for row in rows:
+        last = row["difference_to"]
+        span = f"{row['difference_from']}{' up' if last is None else f'–{last}'}"
+        charts[row["chart"]].append([span, f"{row['stronger_needs']}:{row['weaker_needs']}"])
+    header = [name for number in CHARTS for name in (f"chart {number}", "race")]
+    longest = max(map(len, charts.values()))
+    return markdown_table(
+        header,
+        [
+            [cell for rows in charts.values() for cell in (rows[k] if k < len(rows) else ["", ""])]
+            for k in range(longest)
+        ],
+    )
+
+
+_DRILL = {f"d{level}": 3 for level in range(1, LEVELS + 1)}
+_DRILL |= {"mean": 3, "mode": 0, "median": 0, "standard_deviation": 3}
+
+TABLES: Mapping[int, Callable[[Rows], str]] = {
+    1: _table_5_1,
+    2: partial(
+        _pairs_table,
+        header=["p", "mean", "bound", "median", "median / mean"],
+        plain=["p"],
+        decimals={"mean_run": 1, "median_bound": 1, "median_run": 0, "median_over_mean": 3},
+    ),
+    3: _table_5_3,
+    4: partial(
+        _pairs_table,
+        header=["row", "p1", "p2", "winner breaks", "loser breaks", "alternate breaks"],
+        plain=["row", "p1", "p2"],
+        decimals={"w_winner_breaks": 3, "w_loser_breaks": 3, "w_alternate_breaks": 3},
+    ),
+    5: partial(_pairs_table, header=["p", *list(_DRILL)[:-1], "sd"], plain=["p"], decimals=_DRILL),
+    6: _table_5_6,
+}
+"""How Tables 5.1 to 5.6 are shown."""
+
+
 def triangle_table() -> str:
     """Return Pascal's triangle, row n and column m."""
     rows = pascals_triangle()
@@ -85,17 +122,17 @@ def triangle_table() -> str:
     )
 
 
-def games_table(frame: pd.DataFrame) -> str:
+def games_table(rows: Rows) -> str:
     """Return what P5.9 gives for some numbers of games."""
     names = ("N p - q", "mode", "number of modes", "mean", "standard deviation")
-    rows: dict[str, dict[str, Any]] = {}
-    for row in _records(frame):
-        rows.setdefault(row["inputs"], {})[row["quantity"]] = row["computed"]
+    games: dict[str, dict[str, Any]] = {}
+    for row in rows:
+        games.setdefault(row["inputs"], {})[row["quantity"]] = row["computed"]
     return markdown_table(
         ["games", *(name.replace("-", "−") for name in names)],
         [
             [inputs, *(short(found[name]) for name in names)]
-            for inputs, found in rows.items()
+            for inputs, found in games.items()
             if inputs
         ],
     )
@@ -114,12 +151,10 @@ def eigenvalues_table(problem: str) -> str:
     )
 
 
-def eigenvalues(frame: pd.DataFrame) -> str:
+def eigenvalues(rows: Rows) -> str:
     """Return the eigenvalues of P5.23 for the shots of its table."""
     values = [
-        rounded(row["computed"], 4)
-        for row in _records(frame)
-        if row["quantity"].startswith("eigenvalue ")
+        rounded(row["computed"], 4) for row in rows if row["quantity"].startswith("eigenvalue ")
     ]
     return ", ".join(values).replace("-", "−")
 
@@ -127,9 +162,9 @@ def eigenvalues(frame: pd.DataFrame) -> str:
 def products_table(found: Sequence[Finding]) -> str:
     """Return the sixteen means of P5.18."""
     means = {
-        tuple(finding.published.inputs.split()): short(finding.computed)
-        for finding in found
-        if finding.published.quantity == "mean of two"
+        tuple(row.inputs.split()): f"{computed:.6g}"
+        for row, computed, _ in found
+        if row.quantity == "mean of two"
     }
     values = list(dict.fromkeys(first for first, _ in means))
     return markdown_table(
@@ -149,66 +184,23 @@ def table_5_22(found: Sequence[Finding]) -> str:
     )
 
 
-def steps_table(frame: pd.DataFrame) -> str:
+def steps_table(rows: Rows) -> str:
     """Return the densities of P5.23, step by step, and their limits."""
-    rows: dict[str, list[str]] = {}
-    for row in _records(frame):
+    steps: dict[str, list[str]] = {}
+    for row in rows:
         start, _, when = row["quantity"].rpartition(", ")
         if start in _STARTS:
-            rows.setdefault(f"{_STARTS[start]}: {when}", []).append(rounded(row["computed"], 4))
+            steps.setdefault(f"{_STARTS[start]}: {when}", []).append(rounded(row["computed"], 4))
     return markdown_table(
         ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],
-        [[name, *cells] for name, cells in rows.items()],
+        [[name, *cells] for name, cells in steps.items()],
     )
 
 
-def table_5_4(frame: pd.DataFrame) -> str:
-    """Return the shares of racks by break format."""
-    names = ("w_winner_breaks", "w_loser_breaks", "w_alternate_breaks")
-    return markdown_table(
-        ["row", "p1", "p2", "winner breaks", "loser breaks", "alternate breaks"],
-        [
-            [row["row"], row["p1"], row["p2"], *(_pair(row, name, 3) for name in names)]
-            for row in _records(frame)
-        ],
-    )
-
-
-def table_5_5(frame: pd.DataFrame) -> str:
-    """Return the shares of the drill's levels and their statistics."""
-    decimals = {f"d{level}": 3 for level in range(1, LEVELS + 1)}
-    decimals |= {"mean": 3, "mode": 0, "median": 0, "standard_deviation": 3}
-    return markdown_table(
-        ["p", *list(decimals)[:-1], "sd"],
-        [
-            [row["p"], *(_pair(row, *column) for column in decimals.items())]
-            for row in _records(frame)
-        ],
-    )
-
-
-def table_5_6(frame: pd.DataFrame) -> str:
-    """Return the four charts side by side."""
-    charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
-    for row in _records(frame):
-        last = row["difference_to"]
-        span = f"{row['difference_from']}{' up' if last is None else f'–{last}'}"
-        charts[row["chart"]].append([span, f"{row['stronger_needs']}:{row['weaker_needs']}"])
-    header = [name for number in CHARTS for name in (f"chart {number}", "race")]
-    longest = max(map(len, charts.values()))
-    return markdown_table(
-        header,
-        [
-            [cell for rows in charts.values() for cell in (rows[k] if k < len(rows) else ["", ""])]
-            for k in range(longest)
-        ],
-    )
-
-
-def ladder_table(frame: pd.DataFrame) -> str:
+def ladder_table(rows: Rows) -> str:
     """Return how far ratings wander under each chart."""
     return markdown_table(
-        ["chart", "even races up to", "opponents rated rightly", "opponents err alike"],
+        ["chart", "even races up to", "opponents rated correctly", "opponents off the same way"],
         [
             [
                 row["chart"],
@@ -216,6 +208,6 @@ def ladder_table(frame: pd.DataFrame) -> str:
                 _pair(row, "sd_natural", 3),
                 _pair(row, "sd_autocorrelated", 3),
             ]
-            for row in _records(frame)
+            for row in rows
         ],
     )

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 from itertools import combinations, pairwise, product
 
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.section5.rows import Derived, Row
 from evenbreak.stats.binomial import coverage_within
 from evenbreak.stats.confidence import mean_interval, sd_of_mean, was_it_luck
 from evenbreak.stats.summary import Distribution, Moments, merge

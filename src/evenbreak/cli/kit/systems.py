@@ -1,0 +1,91 @@
+"""The handicap system of a command, its scale, and its chart: --system, --scale, --chart."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from evenbreak.cli.kit.options import Decorator
+from evenbreak.cli.kit.values import refuse
+
+if TYPE_CHECKING:
+    from evenbreak.handicaps.charts.chart import Chart
+    from evenbreak.handicaps.systems.system import System
+    from evenbreak.ratings.scale import Scale
+
+SCALE_OFF = 0.25
+"""How much the scale that a chart fits best may differ from the system's without a warning."""
+
+
+class SystemName(click.ParamType):  # type: ignore[type-arg]
+    """A handicap system by its name."""
+
+    name = "system"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> System:
+        """Return the system."""
+        from evenbreak.errors import InputError
+        from evenbreak.handicaps.systems.catalogue import system_of
+
+        try:
+            return system_of(value)
+        except InputError as error:
+            self.fail(str(error), param, ctx)
+
+
+def system_option(default: str | None = "npl") -> Decorator[Any]:
+    """Return the option --system; without a default, a command gets None for npl."""
+    return click.option(
+        "--system",
+        type=SystemName(),
+        metavar="NAME",
+        default=default,
+        help="How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].  "
+        "[default: npl]",
+    )
+
+
+def on_scale(system: System, scale: Scale | None) -> System:
+    """Return a system on another scale (None: its own), or refuse what does not go together."""
+    from dataclasses import replace
+
+    if scale is None:
+        return system
+    if scale.points_per_doubling < 1.0:
+        refuse(
+            f"--scale {scale.points_per_doubling:g}: ratings are whole points, so at least 1 "
+            "point must double the odds"
+        )
+    if system.scale.name != "npl" and scale != system.scale:
+        refuse(f"the system {system.name} has a scale of its own; leave --scale out")
+    return replace(system, scale=scale)
+
+
+def chart_for(system: System, name: str | None) -> tuple[Chart, list[str]]:
+    """Return the chart of --chart (None: the system's own), and warnings about it."""
+    from evenbreak.files.chart import find_chart_file
+    from evenbreak.handicaps.charts.audit import audit
+    from evenbreak.handicaps.charts.chart import Chart
+
+    if name is None:
+        chart: Any = system.usual_chart()
+        warnings = []
+    else:
+        file = find_chart_file(name)
+        chart, warnings = file.chart, list(file.warnings)
+    if not isinstance(chart, Chart):
+        refuse(
+            f"--chart {name!r} is a chart of skill levels, which do not change match by match; "
+            "give a chart of rating differences"
+        )
+    best, own = audit(chart, scale=system.scale).best_fit, system.scale.points_per_doubling
+    if best is not None and abs(best.points_per_doubling / own - 1.0) > SCALE_OFF:
+        warnings.append(
+            f"the races of {chart.name} fit a scale on which about "
+            f"{best.points_per_doubling:.0f} points double the odds, but here {own:.4g} do; "
+            "--scale sets the scale"
+        )
+    return chart, warnings
