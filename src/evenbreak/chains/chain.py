@@ -16,13 +16,14 @@ from scipy.sparse import csc_array, issparse
 
 from evenbreak.chains.arcs import Arcs, arcs_of, sums
 from evenbreak.chains.birth_death import BirthDeath, birth_death_of
-from evenbreak.chains.dense_law import MOST_STATES, dense_law
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Places
 
 _SUM_TOLERANCE = 1e-9
 _ROUNDING = 1e-15
@@ -72,11 +73,12 @@ class Chain:
             raise ChainError("a state is listed twice among the states; give each of them once")
         if not ((matrix.data >= 0.0) & (matrix.data <= 1.0)).all():
             raise ChainError("the matrix has entries outside 0 to 1; give probabilities")
-        total = _column_sums(matrix)
+        columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
+        total = sums(columns, matrix.data, n)
         missed = np.abs(total - 1.0)
         if not (missed <= _ROUNDING).all():
             check_sums(self.states, total)
-            matrix = _completed(matrix, missed > _ROUNDING)
+            matrix = _completed(matrix, columns, missed > _ROUNDING)
         object.__setattr__(self, "matrix", matrix)
 
     def __len__(self) -> int:
@@ -103,13 +105,6 @@ class Chain:
     def birth_death(self) -> BirthDeath | None:
         """The chain as a line of states, if each moves to its neighbours only."""
         return birth_death_of(self.matrix)
-
-    @cached_property
-    def law(self) -> NDArray[np.float64] | None:
-        """The stationary law, if the chain is small, one closed class and easy to solve."""
-        if not 1 < len(self) <= MOST_STATES:
-            return None
-        return dense_law(self.matrix)
 
     @cached_property
     def structure(self) -> Structure:
@@ -236,8 +231,6 @@ def csc_of(matrix: Any) -> csc_array:
         given: Any = matrix if issparse(matrix) else np.asarray(matrix)
         if given.ndim != 2 or given.dtype.kind not in "biufO":
             raise TypeError
-        if not issparse(given):
-            return _csc_of_dense(given.astype(np.float64))
         found: csc_array[np.float64] = csc_array(given.astype(np.float64))
     except (TypeError, ValueError, AttributeError):
         raise ChainError(
@@ -248,32 +241,12 @@ def csc_of(matrix: Any) -> csc_array:
     return found
 
 
-def _csc_of_dense(given: NDArray[np.float64]) -> csc_array:
-    """Return a dense matrix in CSC form, several times as fast as scipy for small ones."""
-    columns = given.T
-    there = columns != 0.0
-    indptr = np.zeros(len(columns) + 1, dtype=np.int32)
-    np.cumsum(there.sum(axis=1), out=indptr[1:])
-    indices = np.nonzero(there)[1].astype(np.int32)
-    matrix = csc_array((columns[there], indices, indptr), shape=given.shape)
-    matrix.has_canonical_format = True
-    return matrix
-
-
-def _column_sums(matrix: csc_array) -> NDArray[np.float64]:
-    n = matrix.shape[0]
-    if matrix.nnz == n * n:
-        return np.asarray(matrix.data.reshape(n, n).sum(axis=1))
-    return sums(np.repeat(np.arange(n), np.diff(matrix.indptr)), matrix.data, n)
-
-
-def _completed(matrix: csc_array, wrong: NDArray[np.bool_]) -> csc_array:
+def _completed(matrix: csc_array, columns: Places, wrong: NDArray[np.bool_]) -> csc_array:
     """Return the matrix with the arcs of the `wrong` states summing to 1.
 
     A self-loop becomes what the other arcs leave over; without one the arcs are scaled.
     """
     n = len(wrong)
-    columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
     loops = (matrix.indices == columns) & (matrix.data > 0.0)
     others = sums(columns, np.where(loops, 0.0, matrix.data), n)
     looped = np.zeros(n, dtype=bool)

@@ -182,11 +182,6 @@ def stochastic_limit(chain: Chain, start: Any = None, *, via: Way | None = None)
             "there is no closed form for this chain and start: its states do not stand in a line "
             "in the order given, or the start is a density; use via='elimination'"
         )
-    known = chain.law
-    if known is not None:
-        v = chain.density(start) if at is None else None
-        period = 1 if chain.matrix.diagonal().any() else int(chain.structure.periods[0])
-        return Limit(chain, known * (1.0 if v is None else v.sum()), period)
     structure = chain.structure
     if structure.is_acyclic:
         return Limit(chain, ends_of(chain, chain.density(start)))
