@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from scipy.sparse import csc_array, issparse
@@ -21,6 +21,7 @@ from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
+    import pandas as pd
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Places
@@ -90,6 +91,21 @@ class Chain:
             f"<Chain of {n} state{'s' * (n != 1)}, {arcs} arc{'s' * (arcs != 1)}, "
             f"start {self.start!r}>"
         )
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the matrix as a DataFrame: a column for each state left, a row for each entered.
+
+        >>> from evenbreak.chains import chain_of
+        >>> chain_of([("rain", "rain", 0.75), ("rain", "sun", 0.25), ("sun", "rain", 1)]).to_frame()
+        from  rain  sun
+        to
+        rain  0.75  1.0
+        sun   0.25  0.0
+        """
+        import pandas as pd
+
+        left, entered = labels(self.states, "from"), labels(self.states, "to")
+        return pd.DataFrame(self.matrix.toarray(), index=entered, columns=left)
 
     @cached_property
     def position(self) -> dict[Hashable, int]:
@@ -213,6 +229,13 @@ class Chain:
         return ChainError(f"state {state!r} is not in the chain; its states begin {known}")
 
 
+def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:
+    """Return the states as an index of pandas, in which tuples stay tuples."""
+    import pandas as pd
+
+    return pd.Index(list(states), name=name, tupleize_cols=False)
+
+
 def csc_of(matrix: Any) -> csc_array:
     """Return a matrix of numbers in CSC form, its columns sorted and without duplicates.
 
@@ -258,6 +281,14 @@ def _completed(matrix: csc_array, columns: Places, wrong: NDArray[np.bool_]) -> 
     completed = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
     completed.has_canonical_format = True
     return completed
+
+
+def sums_to_1(matrix: csc_array, *, axis: Literal[0, 1]) -> bool:
+    """Whether all columns (axis 0) or all rows (axis 1) of a square matrix sum to 1 within 1e-9."""
+    n = matrix.shape[0]
+    columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
+    total = sums(columns if axis == 0 else matrix.indices, matrix.data, n)
+    return bool((np.abs(total - 1.0) <= _SUM_TOLERANCE).all())
 
 
 def check_sums(states: Sequence[Hashable], sums: NDArray[np.float64]) -> None:

@@ -23,12 +23,14 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
+from evenbreak.chains.chain import labels
 from evenbreak.chains.stationary import laws_of, stationary_laws
 from evenbreak.checks import one_of
 from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    import pandas as pd
+    from numpy.typing import DTypeLike, NDArray
 
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
@@ -121,6 +123,30 @@ class Limit(Mapping[Hashable, float]):
     def to_dict(self) -> dict[Hashable, float]:
         """Return the probability of each state."""
         return dict(zip(self.states, self.probability.tolist(), strict=True))
+
+    def to_series(self) -> pd.Series[float]:
+        """Return the probability of each state as a Series.
+
+        >>> from evenbreak.chains import chain_of
+        >>> stochastic_limit(chain_of({"rack": {"won": 0.75, "lost": 0.25}}), "rack").to_series()
+        state
+        rack    0.00
+        won     0.75
+        lost    0.25
+        Name: probability, dtype: float64
+        """
+        import pandas as pd
+
+        index = labels(self.states, "state")
+        return pd.Series(self.probability, index=index, name="probability", copy=True)
+
+    def __array__(
+        self, dtype: DTypeLike | None = None, copy: bool | None = None
+    ) -> NDArray[np.float64]:
+        """Return the probabilities, in the order of the states, where numpy asks for an array."""
+        if copy is False:
+            return np.asarray(self.probability, dtype)
+        return np.array(self.probability, dtype)
 
 
 def stochastic_limit(chain: Chain, start: Any = None, *, via: Way | None = None) -> Limit:
