@@ -42,7 +42,7 @@ def test_a_symmetric_matrix_reads_the_same_both_ways() -> None:
 
 
 def test_a_reading_that_is_not_stochastic_is_refused() -> None:
-    with pytest.raises(ChainError, match="out of state 0 sum to 1.25"):
+    with pytest.raises(ChainError, match=r"out of state 0 sum to 1\.25"):
         chain_of(FROM, rows="to")
     with pytest.raises(ChainError, match="neither the rows nor the columns"):
         chain_of(FROM / 2)
@@ -97,7 +97,7 @@ def test_a_dict_of_dicts() -> None:
     assert stochastic_limit(chain).to_dict() == {"won": 0.75, "rack": 0.0, "lost": 0.25}
     with pytest.raises(ChainError, match="moves from 'a' are 'b'"):
         chain_of({"a": "b"})
-    with pytest.raises(ChainError, match="'a' sum to 0.5"):
+    with pytest.raises(ChainError, match=r"'a' sum to 0\.5"):
         chain_of({"a": {"b": 0.5}})
 
 

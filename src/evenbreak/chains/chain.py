@@ -233,7 +233,8 @@ def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:
     """Return the states as an index of pandas, in which tuples stay tuples."""
     import pandas as pd
 
-    return pd.Index(list(states), name=name, tupleize_cols=False)
+    index: pd.Index[Any] = pd.Index(list(states), name=name, tupleize_cols=False)
+    return index
 
 
 def csc_of(matrix: Any) -> csc_array:

@@ -70,7 +70,7 @@ def _only_reading(matrix: csc_array) -> Rows:
             "neither the rows nor the columns of the matrix all sum to 1; give probabilities that "
             "sum to 1 within 1e-9, with a 1 on the diagonal for a state that is never left"
         )
-    if by_rows and by_columns and abs(matrix - matrix.T).max() > 0.0:
+    if by_rows and by_columns and (matrix - matrix.T).count_nonzero():
         raise ChainError(
             "the rows and the columns of the matrix all sum to 1, so it can be read two ways; give "
             "rows='from' if a row holds the chances out of its state, or rows='to' if into it"
