@@ -16,8 +16,10 @@ from scipy.sparse import csc_array, issparse
 
 from evenbreak.chains.arcs import Arcs, arcs_of, sums
 from evenbreak.chains.birth_death import BirthDeath, birth_death_of
+from evenbreak.chains.paths import random_paths
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
+from evenbreak.checks import whole
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
@@ -190,6 +192,43 @@ class Chain:
             held = f"{float(v[first])!r} for state {self.states[first]!r}"
             raise ChainError(f"{name} holds {held}; give finite numbers")
         return v
+
+    def simulate(
+        self, steps: int, rng: np.random.Generator, *, start: Any = None, paths: int = 1
+    ) -> NDArray[np.int64]:
+        """Return random paths of the chain, as positions in `states`.
+
+        Parameters
+        ----------
+        steps
+            the number of steps of each path.
+        rng
+            the random numbers.
+        start
+            as in `density`; each path draws its own first state from a density.
+        paths
+            the number of independent paths.
+
+        Returns
+        -------
+        array
+            shape (paths, steps + 1); column t holds the states after t steps.
+
+        Raises
+        ------
+        ChainError
+            if the start is not one.
+        InputError
+            if `steps` or `paths` is not a whole number from 0.
+
+        >>> from evenbreak.chains import chain_of
+        >>> weather = chain_of({"rain": {"rain": 0.5, "sun": 0.5}, "sun": {"rain": 1}}, start="sun")
+        >>> week = weather.simulate(6, np.random.default_rng(1))[0]
+        >>> [weather.states[i] for i in week]
+        ['sun', 'rain', 'rain', 'sun', 'rain', 'rain', 'sun']
+        """
+        steps, paths = whole(steps, "steps"), whole(paths, "paths")
+        return random_paths(self.matrix, self.density(start), steps, paths, rng)
 
     def _own_start(self) -> Hashable:
         if self.start is None:

@@ -214,6 +214,17 @@ def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
     >>> walk_to_0.p_reached, walk_to_0.mean
     (1.0, 8.0)
     """
+    return _passage(chain, chain.density(start), target_of(chain, target))
+
+
+def target_of(chain: Chain, target: Any) -> NDArray[np.bool_]:
+    """Return which states are the target, given as a state or a list or set of states.
+
+    Raises
+    ------
+    ChainError
+        if a state is unknown, or there is none.
+    """
     targets = target if isinstance(target, (list, set, frozenset)) else [target]
     if isinstance(target, Hashable) and target in chain.position:
         targets = [target]
@@ -221,7 +232,7 @@ def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
         raise ChainError("no target is given; give a state or a list of states")
     ends = np.zeros(len(chain), dtype=bool)
     ends[[chain.index(state) for state in targets]] = True
-    return _passage(chain, chain.density(start), ends)
+    return ends
 
 
 def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> PassageTime:
