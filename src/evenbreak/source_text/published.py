@@ -1,4 +1,4 @@
-"""What the source text prints: its numbers, the tables of P5.6 and its errata.
+"""What the source text prints: its numbers and its errata.
 
 The rows come with the package, for comparison with what it computes.
 """
@@ -72,31 +72,13 @@ class Erratum(NamedTuple):
 
 
 def published_numbers() -> list[PublishedNumber]:
-    """Return the numbers of the problems and tables of section 5, in the order of the text.
+    """Return the numbers of section 5 in the order of the text, a table after its problem.
 
     >>> [number] = [row for row in published_numbers() if row.quantity == "P(run>=100)"]
     >>> number.problem, number.inputs, number.printed
     ('P5.13', 'p=.96', Decimal('0.017'))
     """
     return _numbers("section5_numbers.csv")
-
-
-def further_numbers() -> list[PublishedNumber]:
-    """Return the numbers that the answers of section 5 mention in passing.
-
-    >>> {row.verdict for row in further_numbers()} <= {"agrees", "erratum", "derived"}
-    True
-    """
-    return _numbers("section5_further.csv")
-
-
-def p5_6_tables() -> list[PublishedNumber]:
-    """Return the cells of the four tables of P5.6: P and W for p = 1/2 and p = 2/3.
-
-    >>> p5_6_tables()[11].inputs, p5_6_tables()[11].printed
-    ('p=1/2 m=1 n=1', Decimal('0.500'))
-    """
-    return _numbers("p5_6_tables.csv")
 
 
 def physics_numbers() -> list[PublishedNumber]:

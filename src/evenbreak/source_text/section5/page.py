@@ -22,8 +22,6 @@ from evenbreak.source_text.page import (
 )
 from evenbreak.source_text.published import Erratum, PublishedNumber, errata
 from evenbreak.source_text.section5 import page_tables
-from evenbreak.source_text.section5.long_run import HANDICAPS, ahead_formula
-from evenbreak.source_text.section5.matrices import matrix_table
 
 _SHOWN_ELSEWHERE = {"mean of two", "W(1/2;n,n)", "W infinite look-ahead", "W two-shot look-ahead"}
 
@@ -67,13 +65,10 @@ def _blocks(found: Sequence[Finding], tables: Tables) -> Blocks:
         "scores": lambda p: page_tables.score_table(tables[f"problem_5_06_scores_{_name(p)}"]),
         "matches": lambda p: page_tables.score_table(tables[f"problem_5_06_matches_{_name(p)}"]),
         "triangle": lambda _: page_tables.triangle_table(),
-        "matrix": matrix_table,
-        "eigenvalues": page_tables.eigenvalues_table,
+        "matrix": lambda name: page_tables.matrix_table(name, tables),
         "products": lambda _: page_tables.products_table(found),
         "table_5_22": lambda _: page_tables.table_5_22(found),
-        "polynomials": lambda _: markdown_table(
-            ["match", "W"], [[f"{m}:{n}", f"`{ahead_formula(m, n)}`"] for m, n in HANDICAPS]
-        ),
+        "polynomials": lambda _: page_tables.polynomials(tables["problem_5_27"]),
         **{
             name: lambda _, show=show, file=file: show(tables[file])  # type: ignore[misc]
             for name, (show, file) in shown.items()

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from functools import partial
+from itertools import chain
 from typing import Any
 
-from evenbreak.source_text.cells import Rows
+from evenbreak.source_text.cells import Rows, Tables
 from evenbreak.source_text.findings import Finding
 from evenbreak.source_text.markdown import beside, markdown_table, rounded, short
 from evenbreak.source_text.section5.innings import INNINGS
 from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
-from evenbreak.source_text.section5.matrices import MATRICES
 from evenbreak.source_text.section5.samples import pascals_triangle
 
 _STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half the time"}
@@ -138,16 +138,27 @@ def games_table(rows: Rows) -> str:
     )
 
 
-def eigenvalues_table(problem: str) -> str:
-    """Return the eigenvalues of a problem's matrices in symbols."""
+def matrix_table(name: str, tables: Tables) -> str:
+    """Return a matrix in symbols, from the formulas among the tables."""
+    lines: dict[str, list[str]] = {}
+    for row in chain.from_iterable(tables.values()):
+        if row.get("quantity") == f"formula: {name}":
+            state = row["inputs"].split()[1]
+            lines.setdefault(state, []).append(row["computed"].replace("-", "−"))
     return markdown_table(
-        ["matrix", "eigenvalues"],
+        ["to \\ from", *lines], [[f"**{state}**", *line] for state, line in lines.items()]
+    )
+
+
+def polynomials(rows: Rows) -> str:
+    """Return W of P5.27 as a ratio of polynomials for each handicap."""
+    return markdown_table(
+        ["match", "W"],
         [
-            [name, f"`{', '.join(matrix.eigenvalues)}`"]
-            for name, matrix in MATRICES.items()
-            if matrix.problem == problem
+            [row["inputs"], f"`{row['computed']}`"]
+            for row in rows
+            if row["quantity"] == "formula: W"
         ],
-        left=2,
     )
 
 

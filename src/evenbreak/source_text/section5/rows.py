@@ -1,8 +1,10 @@
-"""What else answers a problem: rows that stand below the numbers that the text prints."""
+"""The rows of an answer below the numbers that the text prints, formulas among them."""
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Callable, Iterable, Mapping
+from importlib.resources import files
 from typing import Any, NamedTuple, TypeAlias
 
 
@@ -27,3 +29,15 @@ class Row(NamedTuple):
 
 Derived: TypeAlias = Mapping[str, Callable[[], Iterable[Row]]]
 """The rows of each problem, as functions that make them."""
+
+
+def formulas(problem: str) -> list[Row]:
+    """Return the formulas that answer a problem, and its matrices entry by entry.
+
+    An entry is the chance of the arrow from one state to another, q = 1 - p.
+
+    >>> formulas("P5.9")[1]
+    Row(quantity='formula: mean', inputs='', computed='N p', note='')
+    """
+    text = files(__package__).joinpath("formulas.csv").read_text("utf-8")
+    return [Row(*row) for home, *row in csv.reader(text.splitlines()) if home == problem]

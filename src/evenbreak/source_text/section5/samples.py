@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from itertools import combinations, pairwise, product
 
 from evenbreak.source_text.inputs import Answers, Inputs
-from evenbreak.source_text.section5.rows import Derived, Row
+from evenbreak.source_text.section5.rows import Derived, Row, formulas
 from evenbreak.stats.binomial import coverage_within
 from evenbreak.stats.confidence import mean_interval, sd_of_mean, was_it_luck
 from evenbreak.stats.summary import Distribution, Moments, merge
@@ -137,12 +137,7 @@ def _p5_18() -> Iterator[Row]:
     sd = Distribution.of(_POPULATION).sd
     everything = _listed(_POPULATION)
     without = Distribution.of([(a + b) / 2 for a, b in combinations(_POPULATION, 2)])
-    yield Row("formula: sd of the mean of m", "drawn with replacement", "sd / sqrt(m)")
-    yield Row(
-        "formula: sd of the mean of m",
-        "drawn from N without replacement",
-        "sd / sqrt(m) * sqrt((N - m) / (N - 1))",
-    )
+    yield from formulas("P5.18")
     for n in range(1, 5):
         inputs = f"{everything} m={n}"
         yield Row("sd of the mean, with replacement", inputs, sd_of_mean(sd, n))
