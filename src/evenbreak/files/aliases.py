@@ -53,9 +53,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
     ...     read_aliases(path).means
     {'Bobby': 'Bob Smith', 'Bob S.': 'Bob Smith'}
     """
-    table = read_table(path, REQUIRED)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no names below its header; write one line for each")
+    table = read_table(path, REQUIRED, rows="names")
     pairs = zip(_names(table, "name"), _names(table, "means"), table.lines.tolist(), strict=True)
     means: dict[str, str] = {}
     line_of: dict[str, int] = {}

@@ -56,27 +56,20 @@ def read_arcs(path: str | Path) -> ArcsFile:
     >>> arcs.states, arcs.sources, arcs.targets, arcs.probabilities
     (['S', 'W', 'L'], array([0, 0]), array([1, 2]), array([0.6, 0.4]))
     """
-    table = read_table(path, COLUMNS)
+    table = read_table(path, COLUMNS, rows="arcs")
     whole = len(table.problems) == 0
-    p = numbers(table, "probability", remedy="write one from 0 to 1, such as 0.25").values
-    outside = np.flatnonzero((p < 0.0) | (p > 1.0))
-    table.problems.add_rows(table.lines, outside, lambda row: _outside(p[row]))
+    remedy = "write a probability such as 0.25"
+    p = numbers(table, "probability", at_least=0, at_most=1, remedy=remedy).values
     if all(column in table for column in COLUMNS):
-        if whole and not len(table):
-            table.problems.add(None, "holds no arcs; write a row for each arc below the header")
         for column in ("source", "target"):
             _refuse_empty(table, column)
         states, sources, targets = _states(table)
         _refuse_twice(table, states, sources, targets)
         # A sum in which a number is wrong or missing would only repeat what is known.
-        if whole and ((p >= 0.0) & (p <= 1.0)).all():
+        if whole and not np.isnan(p).any():
             _refuse_sums(table, states, sources, p)
     table.problems.raise_any()
     return ArcsFile(states, sources, targets, p, table.source, table.warnings)
-
-
-def _outside(p: float) -> str:
-    return f"probability {float(p)!r} is not from 0 to 1; write one that is"
 
 
 def _refuse_empty(table: TextTable, column: str) -> None:

@@ -84,9 +84,7 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
     >>> file.log.attempts, file.log.successes
     (array([2, 1]), array([2, 0]))
     """
-    table = read_table(path, REQUIRED, OPTIONAL)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no attempts below its header; write a line for each one")
+    table = read_table(path, REQUIRED, OPTIONAL, rows="attempts")
     level = whole_numbers(
         table,
         "level",

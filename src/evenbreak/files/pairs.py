@@ -57,9 +57,7 @@ def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     ...     read_pairs(path, club).pairs.tolist()
     [[2, 0], [1, 2]]
     """
-    table = read_table(path, PAIRS)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no pairs below its header; write one line for each match")
+    table = read_table(path, PAIRS, rows="pairs")
     pairs = pairs_in(table, roster)
     table.problems.raise_any()
     return PairsFile(pairs, table.warnings)
