@@ -1,9 +1,11 @@
-"""Numbers and tables as the files have them: the same bytes on every machine."""
+"""The tables of the package, and numbers and tables as files: the same bytes on every machine."""
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import ROUND_HALF_EVEN, Context, Decimal
+from importlib.resources import files
 from typing import Any, TypeAlias
 
 from evenbreak.files.csv_writer import csv_lines
@@ -68,6 +70,16 @@ def csv_bytes(rows: Rows) -> bytes:
     """
     names = list(dict.fromkeys(name for row in rows for name in row))
     return "".join(csv_lines(names, ([row.get(name) for name in names] for row in rows))).encode()
+
+
+def packaged_rows(path: str) -> list[list[str]]:
+    """Return the rows of a CSV file of this package, without its header.
+
+    >>> packaged_rows("section5/diagram_arcs.csv")[0]
+    ['figure_5_2', 'S1', 'W1', 'p_1']
+    """
+    text = files("evenbreak.source_text").joinpath(path).read_text("utf-8")
+    return list(csv.reader(text.splitlines()))[1:]
 
 
 def _cell(value: Any, shown: Any) -> Any:

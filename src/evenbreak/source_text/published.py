@@ -5,10 +5,10 @@ The rows come with the package, for comparison with what it computes.
 
 from __future__ import annotations
 
-import csv
 from decimal import Decimal
-from importlib.resources import files
 from typing import NamedTuple
+
+from evenbreak.source_text.cells import packaged_rows
 
 
 class PublishedNumber(NamedTuple):
@@ -78,7 +78,7 @@ def published_numbers() -> list[PublishedNumber]:
     >>> number.problem, number.inputs, number.printed
     ('P5.13', 'p=.96', Decimal('0.017'))
     """
-    return _numbers("section5_numbers.csv")
+    return _numbers("published/section5_numbers.csv")
 
 
 def physics_numbers() -> list[PublishedNumber]:
@@ -88,7 +88,7 @@ def physics_numbers() -> list[PublishedNumber]:
     >>> number.problem, number.printed, number.verdict
     ('P4.19', Decimal('14.963'), 'agrees')
     """
-    return _numbers("physics_numbers.csv")
+    return _numbers("published/physics_numbers.csv")
 
 
 def physics_errata() -> list[Erratum]:
@@ -97,7 +97,7 @@ def physics_errata() -> list[Erratum]:
     >>> [slip.correct for slip in physics_errata() if slip.where == "P4.15"]
     ['28.126']
     """
-    return [Erratum(*row) for row in _rows("physics_errata.csv")]
+    return [Erratum(*row) for row in packaged_rows("published/physics_errata.csv")]
 
 
 def errata() -> list[Erratum]:
@@ -106,10 +106,10 @@ def errata() -> list[Erratum]:
     >>> errata()[1].where, errata()[1].class_, errata()[1].kind
     ('P5.7', 'slip', 'last digit')
     """
-    return [Erratum(*row) for row in _rows("section5_errata.csv")]
+    return [Erratum(*row) for row in packaged_rows("published/section5_errata.csv")]
 
 
-def _numbers(name: str) -> list[PublishedNumber]:
+def _numbers(path: str) -> list[PublishedNumber]:
     return [
         PublishedNumber(
             problem,
@@ -117,14 +117,7 @@ def _numbers(name: str) -> list[PublishedNumber]:
             inputs,
             Decimal(printed) if printed else None,
             Decimal(tolerance),
-            verdict,
-            note,
+            *rest,
         )
-        for problem, quantity, inputs, printed, tolerance, verdict, note in _rows(name)
+        for problem, quantity, inputs, printed, tolerance, *rest in packaged_rows(path)
     ]
-
-
-def _rows(name: str) -> list[list[str]]:
-    """Return the rows of a file of the package below its header."""
-    text = files("evenbreak.source_text").joinpath("published", name).read_text("utf-8")
-    return list(csv.reader(text.splitlines()))[1:]

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from evenbreak.physics.collision import Collision, axis_tilt, collide
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
@@ -23,7 +24,6 @@ from evenbreak.physics.throw import (
 )
 from evenbreak.physics.units import DEGREE, FOOT, GRAVITY, INCH
 from evenbreak.source_text.inputs import Answers, Inputs
-from evenbreak.source_text.physics.calculus import crossing, slope
 
 _HALF_BALL = math.asin(0.5)
 
@@ -88,12 +88,20 @@ def _spin_left(i: Inputs) -> float:
     return hit.ball.radius * float(hit.cue_spin[2])
 
 
+def _slope(function: Callable[[float], float], at: float) -> float:
+    """Return the derivative of a smooth function, to nine digits or more."""
+    step = 3e-4
+    near = function(at + step) - function(at - step)
+    far = function(at + 2.0 * step) - function(at - 2.0 * step)
+    return (8.0 * near - far) / (12.0 * step)
+
+
 def _by_topspin(i: Inputs) -> float:
-    return slope(lambda topspin: float(throw_factor(i["alpha"], topspin, i["Jz"])), i["Jy"])
+    return _slope(lambda topspin: float(throw_factor(i["alpha"], topspin, i["Jz"])), i["Jy"])
 
 
 def _by_side(i: Inputs) -> float:
-    return slope(lambda side: float(throw_factor(i["alpha"], i["Jy"], side)), i["Jz"])
+    return _slope(lambda side: float(throw_factor(i["alpha"], i["Jy"], side)), i["Jz"])
 
 
 def _aim(i: Inputs) -> float:
@@ -224,7 +232,7 @@ ANSWERS: Answers = {
     ("P4.10", "E_inelastic/(M V_0^2)"): _of_hit("delta_inelastic", scale=0.5),
     ("P4.10", "least E_inelastic/(M V_0^2)"): _of_hit("delta_inelastic", scale=0.5),
     ("P4.10", "stun cut below which the text's law makes energy, deg"): lambda _: (
-        crossing(_energy_made, 0.01, 0.5) / DEGREE
+        brentq(_energy_made, 0.01, 0.5, xtol=1e-15) / DEGREE
     ),
     ("P4.11", "Delta_inelastic/V_0^2"): _of_hit("delta_inelastic"),
     ("P4.11", "Delta_elastic/V_0^2"): _of_hit("delta_elastic"),

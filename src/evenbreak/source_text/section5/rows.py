@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Iterable, Mapping
-from importlib.resources import files
 from typing import Any, NamedTuple, TypeAlias
+
+from evenbreak.source_text.cells import packaged_rows
 
 
 class Row(NamedTuple):
@@ -39,5 +39,4 @@ def formulas(problem: str) -> list[Row]:
     >>> formulas("P5.9")[1]
     Row(quantity='formula: mean', inputs='', computed='N p', note='')
     """
-    text = files(__package__).joinpath("formulas.csv").read_text("utf-8")
-    return [Row(*row) for home, *row in csv.reader(text.splitlines()) if home == problem]
+    return [Row(*row) for home, *row in packaged_rows("section5/formulas.csv") if home == problem]
