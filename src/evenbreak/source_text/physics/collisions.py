@@ -126,11 +126,6 @@ def _tilt(i: Inputs) -> float:
     return side / float(np.hypot(*after))
 
 
-def _deepest(i: Inputs) -> float:
-    hit = _hit(i)
-    return 0.5 * float(hit.delta_inelastic)
-
-
 def _energy_made(cut: float) -> float:
     return float(collide(cut, 0.0, friction="shepard").delta_inelastic)
 
