@@ -80,18 +80,11 @@ def _refuse_empty(table: TextTable, column: str) -> None:
 
 def _states(table: TextTable) -> tuple[list[str], NDArray[np.int64], NDArray[np.int64]]:
     """Return the states as the file first names them, and the position of each arc's two."""
-    source, target = table.columns["source"], table.columns["target"]
-    number = {text: code for code, text in enumerate(source.distinct)}
-    other = np.array(
-        [number.setdefault(text, len(number)) for text in target.distinct], dtype=np.int64
-    )
-    ends = np.column_stack([source.codes, other[target.codes]]).ravel()
-    met, first = np.unique(ends, return_index=True)
-    order = np.argsort(first)
-    names = list(number)
-    place = np.zeros(len(names), dtype=np.int64)
-    place[met[order]] = np.arange(len(met))
-    return [names[code] for code in met[order]], place[ends[::2]], place[ends[1::2]]
+    import pandas as pd
+
+    ends = np.array([table.cells("source"), table.cells("target")], dtype=object).T.ravel()
+    places, states = pd.factorize(ends)
+    return states.tolist(), places[::2], places[1::2]
 
 
 def _refuse_twice(
