@@ -1,4 +1,4 @@
-"""From a file of aliases to a mapping from names as written to the names that are meant."""
+"""Reading a file of aliases: which names mean which player."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class AliasesFile:
     source
         what the file is called in messages.
     warnings
-        what a person should check although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     means: dict[str, str]

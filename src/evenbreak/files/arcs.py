@@ -1,4 +1,4 @@
-"""A chain of the user's own from a file of arcs: source, target, probability."""
+"""Reading a Markov chain from a file of arcs: source, target, probability."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def read_arcs(path: str | Path) -> ArcsFile:
             _refuse_empty(table, column)
         states, sources, targets = _states(table)
         _refuse_twice(table, states, sources, targets)
-        # A sum in which a number is wrong or missing would only repeat what is known.
+        # If a number is wrong or missing, its sum would be reported for the same reason.
         if whole and not np.isnan(p).any():
             _refuse_sums(table, states, sources, p)
     table.problems.raise_any()

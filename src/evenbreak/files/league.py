@@ -1,4 +1,4 @@
-"""The roster of a season: a list of ratings with what a simulation needs besides."""
+"""Reading the roster of a season: ratings, and what else a simulation needs."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class LeagueFile:
     source
         the name of the file in messages.
     warnings
-        what somebody should look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     drawn
         for how many players the skill is drawn, from rating and standard error.
     exact

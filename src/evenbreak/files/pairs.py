@@ -1,4 +1,4 @@
-"""Lists of who plays whom: from a CSV file to places in a roster."""
+"""Reading a list of who plays whom, as places in a roster."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class PairsFile:
     pairs
         places in the roster, shape (matches, 2), in the order of the file.
     warnings
-        what to look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     pairs: NDArray[np.int64]

@@ -1,4 +1,4 @@
-"""Lists of rated players: from a CSV file to a `Roster`."""
+"""Reading a list of rated players as a `Roster`."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class RosterFile:
     source
         what the file is called in messages.
     warnings
-        what to look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     sha256
         fingerprint of the bytes that were read.
     by_quasi

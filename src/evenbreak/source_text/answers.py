@@ -1,4 +1,4 @@
-"""How every number of the text is computed, and what comes of comparing all of them."""
+"""How each number of the text is computed, and how it compares with the printed one."""
 
 from __future__ import annotations
 

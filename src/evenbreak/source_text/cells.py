@@ -13,7 +13,7 @@ from evenbreak.files.csv_writer import csv_lines
 _DIGITS = Context(prec=10, rounding=ROUND_HALF_EVEN)
 
 Records: TypeAlias = Iterator[Mapping[str, Any]]
-"""Rows that are made one by one."""
+"""Rows, computed one at a time."""
 
 Rows: TypeAlias = Sequence[Mapping[str, Any]]
 """The rows of a table, each by the names of its columns; a cell may be missing."""
@@ -32,7 +32,7 @@ def number_cell(value: Any) -> Decimal:
 
 
 def difference_cell(computed: Any, printed: Decimal) -> Decimal:
-    """Return computed - printed to ten decimals; what machines disagree on is below that.
+    """Return computed - printed to ten decimals; machines disagree only beyond that.
 
     >>> difference_cell(0.1 + 0.2, Decimal("0.3")), difference_cell(0.25, Decimal("0.2"))
     (Decimal('0'), Decimal('0.05'))
@@ -51,9 +51,9 @@ def fixed_cell(value: Any) -> Decimal:
 
 
 def record(inputs: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a row of a curve's points: its inputs exactly, its values with six decimals.
+    """Return a point of a curve as a row: its inputs exactly, its values with six decimals.
 
-    Words and None stay what they are.
+    Text and None are kept as they are.
 
     >>> record({"line": "a", "p": 0.1}, {"w": 1 / 3})
     {'line': 'a', 'p': Decimal('0.1'), 'w': Decimal('0.333333')}
@@ -93,7 +93,7 @@ def _sure(value: Any) -> Decimal:
 
 
 def _plain(value: Decimal) -> Decimal:
-    """Return a decimal without zeros at its end, and without a sign of zero."""
+    """Return a decimal without trailing zeros, and zero without a sign."""
     value = value.normalize()
     if value == 0:
         return Decimal(0)

@@ -58,7 +58,7 @@ class Erratum(NamedTuple):
     correct
         what it should say, or for a remark what is true; '' if there is nothing to say.
     kind
-        what kind of slip or remark it is, such as 'cut off' for truncated digits.
+        the kind of slip or remark, such as 'cut off' for truncated digits.
     why
         how this is known.
     """

@@ -1,4 +1,4 @@
-"""Section 4, P4.1 to P4.12 and P4.26, P4.27: friction between the balls, and none."""
+"""Section 4, P4.1 to P4.12 and P4.26, P4.27: hits with and without friction between the balls."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def _spins(i: Inputs) -> tuple[float, float, float]:
 
 
 def _hit(i: Inputs) -> Collision:
-    """Return the hit by the law of friction that the text has."""
+    """Return the hit by the text's law of friction."""
     return collide(*_spins(i), speed=i.get("V_0", 1.0), friction="shepard")
 
 
@@ -52,7 +52,7 @@ def _upward_share(hit: Collision) -> float:
 
 
 def _along_centres(hit: Collision, vector: Any) -> Any:
-    """Return a vector of the frame of the shot in that of the line of centres."""
+    """Turn a vector from the frame of the shot to that of the line of centres."""
     sin, cos = math.sin(hit.cut), math.cos(hit.cut)
     x, y, z = vector
     return np.array([x * cos - y * sin, x * sin + y * cos, z])
@@ -157,7 +157,7 @@ def _gained(i: Inputs, *, jump: bool) -> Any:
 
 
 def _contact(i: Inputs) -> float:
-    """Return y of the point of the cue ball that touches, over R: to the right of its middle."""
+    """Return y/R of the point of the cue ball that touches: to the right of its centre."""
     return -math.sin(i["alpha"])
 
 
@@ -220,7 +220,7 @@ ANSWERS: Answers = {
     ("P4.8", "F_grav/F_avg"): lambda i: GRAVITY * i["t"] / i["V_bx"],
     ("P4.9", "sin(gamma) of straight draw"): lambda i: _upward_share(_straight(i)),
     ("P4.9", "V_bz, in/s"): lambda i: _straight(i).upward / INCH,
-    # A flight is as long down as up.
+    # The ball falls for as long as it rises.
     ("P4.9", "t_max, s"): lambda i: 0.5 * _straight(i).jump().time,
     ("P4.9", "z_max, in"): lambda i: _straight(i).jump().height / INCH,
     ("P4.9", "x when it lands, in"): lambda i: _straight(i).jump().distance / INCH,
@@ -250,4 +250,4 @@ ANSWERS: Answers = {
     ("P4.27", "y_tip/R in natural roll"): lambda i: gearing_tip(i["alpha"], i["z/R"]).y,
     ("P4.27", "y_tip/(-y_cp) at z = 7/5 R"): lambda i: gearing_tip(i["alpha"]).y / -_contact(i),
 }
-"""What the text answers."""
+"""How each quantity of these problems is computed."""

@@ -28,10 +28,10 @@ from evenbreak.physics.units import DEGREE
 from evenbreak.source_text.inputs import Answers, Inputs
 
 _SMALL = 1e-5
-"""A cut, in radians, that is small enough for the limits of small cuts."""
+"""A cut, in radians, that stands for the limit of small cuts."""
 
 _FULL = 1e-9
-"""A cut that is hardly one."""
+"""A cut, in radians, of a nearly full hit."""
 
 _NATURAL, _STUN, _REVERSE = 1.0, 0.0, -1.0
 
@@ -122,7 +122,7 @@ def _estimate_error(i: Inputs) -> float:
 
 
 def _in(unit: float, function: Callable[[float], Any]) -> Callable[[Inputs], Any]:
-    """Return how to answer with an angle that depends on the topspin alone."""
+    """Return how to compute an angle that depends on the topspin alone."""
     return lambda i: function(i["Jy"]) / unit
 
 
@@ -214,4 +214,4 @@ ANSWERS: Answers = {
         DEGREE, right_angle_cut
     ),
 }
-"""What the text answers."""
+"""How each quantity of these problems is computed."""

@@ -37,7 +37,7 @@ def _sets(p: float) -> Race:
 
 
 class _Needs(NamedTuple):
-    """The sets that each player needs, and the games of a set; a game is a set of one."""
+    """The sets that each player needs, and the games that each needs for a set."""
 
     m: int
     n: int

@@ -37,7 +37,7 @@ def drill(p: float) -> DrillStatistics:
 
 @cache
 def ladder(number: int, *, autocorrelated: bool = False) -> Distribution:
-    """Return the law of the rating error under one of the charts."""
+    """Return the distribution of the rating error under one of the charts."""
     opponents = AUTOCORRELATED if autocorrelated else NATURAL
     return Ladder(chart(f"npl_{number}"), opponents=opponents).law()
 

@@ -1,7 +1,7 @@
 """The page that shows and explains all of section 5: prose from `page.md`, numbers from here.
 
 In the prose `{{numbers P5.7}}` stands for the printed and computed numbers of a problem,
-`{{slips P5.7}}` for what is wrong in it or to be remarked, and the other names for tables.
+`{{slips P5.7}}` for the slips and remarks there, and the other names for tables.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def section_5_page(found: Sequence[Finding], tables: Tables) -> str:
 
 
 def slips_of(place: str) -> list[Erratum]:
-    """Return the slips of the text at a problem, a table or a figure, and what else is said.
+    """Return the slips and remarks at a problem, a table or a figure.
 
     >>> [slip.kind for slip in slips_of("P5.25")]
     ['rounded inputs']
@@ -100,7 +100,7 @@ def _in_a_table(row: PublishedNumber) -> bool:
 
 
 def _given(inputs: str) -> str:
-    """Return inputs as a reader would like them: lists of scores by name, not over and over.
+    """Return inputs as the page shows them: lists of scores by name, not in full each time.
 
     >>> _given("as above"), _given("scores 50 44 46"), _given("p=.96 innings=5")
     ('both lists', 'the scores', 'p=.96 innings=5')

@@ -44,7 +44,7 @@ def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
 def _pairs_table(
     rows: Rows, *, header: Sequence[str], plain: Sequence[str], decimals: Mapping[str, int]
 ) -> str:
-    """Return a table of some columns as they are, then of computed numbers with printed ones."""
+    """Return a table: some columns as they are, then computed numbers beside printed ones."""
     return markdown_table(
         header,
         [
@@ -207,7 +207,7 @@ def steps_table(rows: Rows) -> str:
 
 
 def ladder_table(rows: Rows) -> str:
-    """Return how far ratings wander under each chart."""
+    """Return the spread of ratings under each chart."""
     return markdown_table(
         ["chart", "even races up to", "opponents rated correctly", "opponents off the same way"],
         [

@@ -22,7 +22,7 @@ _PROBLEM_OF = {
 """The problem that a table answers or follows."""
 
 DERIVED: Derived = {key: rows for part in SECTION_5 for key, rows in part.DERIVED.items()}
-"""What answers each problem beyond the numbers that the text prints."""
+"""The rows of each problem beyond the numbers that the text prints."""
 
 
 def file_of(problem: str) -> str:
@@ -35,7 +35,7 @@ def file_of(problem: str) -> str:
 
 
 def problem_tables(found: Iterable[Finding]) -> Tables:
-    """Return the answer of each problem by the name of its file: what is printed, then the rest."""
+    """Return the answer of each problem by file name: printed numbers, then the rest."""
     printed: dict[str, list[dict[str, Any]]] = {}
     for finding in found:
         home = finding.published.problem

@@ -1,4 +1,4 @@
-"""The rows of an answer below the numbers that the text prints, formulas among them."""
+"""The rows of an answer that follow the printed numbers: numbers and formulas."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ class Row(NamedTuple):
     Parameters
     ----------
     quantity, inputs
-        what it is and for what.
+        the quantity, and the inputs for which it is computed.
     computed
         a number, or a formula or an enumeration as text.
     note
-        what there is to say; '' for nothing.
+        a comment, or ''.
     """
 
     quantity: str

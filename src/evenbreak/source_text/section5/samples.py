@@ -15,7 +15,7 @@ from evenbreak.stats.summary import Distribution, Moments, merge
 _FIRST, _SECOND = (0, 1, 1, 4, 5), (0, 1, 1, 8, 9)
 _SLIPS = (1, 2, 3, 4)
 _ROWS = 10
-"""Of Pascal's triangle, below its tip."""
+"""The rows of Pascal's triangle, below its tip."""
 _POPULATION = (1, 2, 4, 5)
 _SCORES = (50, 44, 46, 52, 47, 51, 49, 45, 48, 50)
 _NEW = 53
