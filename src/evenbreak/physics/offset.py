@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from evenbreak.checks import together
+from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import LEAST, Floats, numbers, plain, positive
+from evenbreak.physics.arrays import LEAST, Floats, numbers, positive
 from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.checks import together
-from evenbreak.physics.arrays import numbers, plain, positive
+from evenbreak.checks import plain, together
+from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.objects import Ball, Cloth
 from evenbreak.physics.units import GRAVITY, INCH
 

@@ -22,9 +22,9 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from evenbreak.checks import together
+from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.arrays import Floats, numbers
 from evenbreak.physics.objects import Ball, Cloth
 
 if TYPE_CHECKING:

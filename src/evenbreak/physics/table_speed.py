@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, overload
 
-from evenbreak.checks import together
-from evenbreak.physics.arrays import Floats, numbers, plain, positive
+from evenbreak.checks import plain, together
+from evenbreak.physics.arrays import Floats, numbers, positive
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.units import GRAVITY
 
