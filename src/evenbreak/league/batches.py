@@ -7,12 +7,10 @@ which is played at a time, has several batches if these are small.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from evenbreak.league.counting import ALONE
-
-if TYPE_CHECKING:
-    from evenbreak.league.season import Season
+from evenbreak.league.season import Season
 
 _CHUNK = 1 << 16
 """Players times replicas in a chunk, unless the league alone is larger."""

@@ -15,14 +15,12 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.league.sandbag_pay import at_the_end, dumped_matrix, earnest_matrix, start_law
-
-Floats = NDArray[np.float64]
 
 _HELD = 1e-6
 """With a larger chance than this of being held at the ladder's lower end, the end decides."""

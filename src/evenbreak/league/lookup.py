@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.handicaps.systems.match_table import MatchTable
 
 CLASSES = 3
@@ -61,7 +62,7 @@ class Lookup:
         return len(self._races[0])
 
     @cached_property
-    def twice_race(self) -> NDArray[np.intp]:
+    def twice_race(self) -> Places:
         """Twice the number of the race by rating difference, negative ones from the end."""
         return np.asarray(np.roll(2 * self._races[1], -self.widest))
 
@@ -71,7 +72,7 @@ class Lookup:
         return int(self.table.games.shape[1])
 
     @cached_property
-    def game(self) -> NDArray[np.float64]:
+    def game(self) -> Floats:
         """P(player 1 wins a game) by skill difference, shape (2 * gap + 1,)."""
         scale = self.table.system.scale
         return np.asarray(scale.win_probability(np.arange(-self.gap, self.gap + 1.0)))
@@ -122,7 +123,7 @@ class Lookup:
         return np.ascontiguousarray(m), np.ascontiguousarray(n)
 
     @cached_property
-    def classes(self) -> NDArray[np.int64]:
+    def classes(self) -> Ints:
         """Hill-hill, shutout and games of each final score, shape (width, outcomes, 3).
 
         A match is hill-hill if the loser lacks one game, a shutout if the loser has none.
@@ -139,12 +140,12 @@ class Lookup:
         return 4 * (int(self.classes[..., 2].max()) + 1)
 
     @cached_property
-    def code(self) -> NDArray[np.int64]:
+    def code(self) -> Ints:
         """`classes` as one number, 4 * games + 2 * shutout + hill-hill, flat."""
         return np.asarray(self.classes @ np.array([1, 2, 4])).ravel()
 
     @cached_property
-    def noted(self) -> NDArray[np.int64]:
+    def noted(self) -> Ints:
         """The `classes` of each value of `code`, shape (codes, 3)."""
         code = np.arange(self.codes)
         return np.column_stack([code & 1, code >> 1 & 1, code >> 2])
@@ -156,7 +157,7 @@ class Lookup:
         return one.ravel(), two.ravel()
 
     @cached_property
-    def expected(self) -> NDArray[np.float64]:
+    def expected(self) -> Floats:
         """The mean of each of `classes` by skill difference and race, shape (3, rows * races)."""
         first, _ = self._races
         means = np.empty((len(self.game), len(first), CLASSES))
@@ -167,7 +168,7 @@ class Lookup:
         return np.ascontiguousarray(np.moveaxis(means, 2, 0)).reshape(CLASSES, -1)
 
     @cached_property
-    def cumulative(self) -> tuple[NDArray[np.uint32], NDArray[np.intp]]:
+    def cumulative(self) -> tuple[NDArray[np.uint32], Places]:
         """The largest draw for each final score, and the race of each rating difference.
 
         The first has shape (final scores, (2 * gap + 1) * races): a table for each score.
@@ -182,7 +183,7 @@ class Lookup:
         return last.reshape(self.outcomes, -1), place
 
     @cached_property
-    def _races(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def _races(self) -> tuple[Places, Places]:
         """The first place of each race, and the race of each rating difference."""
         return _races_of(self.table)
 
@@ -196,7 +197,7 @@ def lookup_of(table: MatchTable, gap: float) -> Lookup:
     return Lookup(table, size, wins)
 
 
-def _races_of(table: MatchTable) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _races_of(table: MatchTable) -> tuple[Places, Places]:
     _, first, place = np.unique(table.needs, axis=0, return_index=True, return_inverse=True)
     return first, place.reshape(-1)
 

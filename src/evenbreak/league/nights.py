@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Ints
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.night_problems import night_problems
@@ -20,11 +20,11 @@ from evenbreak.ratings.roster import Roster
 class PlayedNight(NamedTuple):
     """A night of a season: the rows of its matches in the results, and what they changed."""
 
-    rows: NDArray[np.int64]
+    rows: Ints
     changes: RatingChanges
 
 
-def nights_of(results: Results) -> list[NDArray[np.int64]]:
+def nights_of(results: Results) -> list[Ints]:
     """Return the rows of the matches of each night, in the order of the dates.
 
     Without dates each match is a night of its own, in the order of the file; matches without a
@@ -42,7 +42,7 @@ def played_nights(
     results: Results,
     *,
     chart: Chart | None = None,
-    apply: Callable[[Roster, NDArray[np.int64]], RatingChanges] | None = None,
+    apply: Callable[[Roster, Ints], RatingChanges] | None = None,
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
 
@@ -65,7 +65,7 @@ def played_nights(
         if results cannot be used.
     """
 
-    def by_results(list_: Roster, rows: NDArray[np.int64]) -> RatingChanges:
+    def by_results(list_: Roster, rows: Ints) -> RatingChanges:
         night = results.select(rows)
         for problem in night_problems(system, list_, night, chart=chart):
             raise InputError(f"row {rows[problem.row]} of the results: {problem.message}")

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.systems.system import PlayedMatch, UpdateRule
@@ -62,12 +62,12 @@ class PlayedSeason:
     """
 
     results: Results
-    week: NDArray[np.int64]
-    rating_a: NDArray[np.int64]
-    rating_b: NDArray[np.int64]
-    skill: NDArray[np.float64]
-    rating: NDArray[np.int64]
-    skill_after: NDArray[np.float64]
+    week: Ints
+    rating_a: Ints
+    rating_b: Ints
+    skill: Floats
+    rating: Ints
+    skill_after: Floats
 
 
 def season_matches(
@@ -131,7 +131,7 @@ def season_matches(
     return _played_season(season, matches, first, names, began, rating, skill)
 
 
-def _there(season: Season, week: int, rng: np.random.Generator) -> NDArray[np.bool_]:
+def _there(season: Season, week: int, rng: np.random.Generator) -> Bools:
     """Return who plays in a week: members who are not absent."""
     players = season.players
     return np.asarray(players.here(week) & (rng.random(len(players)) >= players.absence))
@@ -149,9 +149,9 @@ def _play(
     season: Season,
     week: int,
     pair: tuple[int, int],
-    rating: NDArray[np.int64],
-    played: NDArray[np.int64],
-    today: NDArray[np.float64],
+    rating: Ints,
+    played: Ints,
+    today: Floats,
     rng: np.random.Generator,
 ) -> _Match:
     a, b = pair
@@ -187,9 +187,9 @@ def _played_season(
     matches: Sequence[_Match],
     first: np.datetime64,
     names: Sequence[str] | None,
-    began: NDArray[np.float64],
-    rating: NDArray[np.int64],
-    skill_after: NDArray[np.float64],
+    began: Floats,
+    rating: Ints,
+    skill_after: Floats,
 ) -> PlayedSeason:
     """Return the matches as columns."""
     known = names if names is not None else season.players.names

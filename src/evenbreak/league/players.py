@@ -10,10 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.errors import InputError
-
-Floats = NDArray[np.float64]
-Whole = NDArray[np.int64]
 
 ESTABLISHED = 1_000_000
 """Matches played before, if nothing else is said: more than any newcomer has."""
@@ -60,15 +58,15 @@ class LeaguePlayers:
     (3, array([90. , 84.5, 71. ]), array([0., 0., 0.]))
     """
 
-    rating: Whole
+    rating: Ints
     skill: Floats
     skill_sd: Floats
     day_sd: Floats
     drift: Floats
-    joins: Whole
-    leaves: Whole
+    joins: Ints
+    leaves: Ints
     absence: Floats
-    played: Whole
+    played: Ints
     names: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
@@ -77,7 +75,7 @@ class LeaguePlayers:
             raise InputError(f"rating has {many} values; give one for each of two players or more")
         for field in fields(self):
             if field.name != "names":
-                kind: Any = np.int64 if field.type == "Whole" else np.float64
+                kind: Any = np.int64 if field.type == "Ints" else np.float64
                 column = _column(getattr(self, field.name), field.name, kind, many)
                 object.__setattr__(self, field.name, column)
         _check_range(self)
@@ -139,7 +137,7 @@ class LeaguePlayers:
     def __len__(self) -> int:
         return len(self.rating)
 
-    def here(self, week: int) -> NDArray[np.bool_]:
+    def here(self, week: int) -> Bools:
         """Return who is in the league in a week, absent or not.
 
         >>> LeaguePlayers.of([50, 60, 70], joins=[1, 2, 1], leaves=[0, 0, 1]).here(2)

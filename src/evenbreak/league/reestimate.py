@@ -10,10 +10,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -24,9 +26,6 @@ from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
 
 _FIRST_NIGHT = np.datetime64("2001-01-01")
 _NEAR = 1.0 / 6.0
@@ -57,13 +56,13 @@ class Reestimated:
     sd_error: float
     settling_error: float
     unsettled: float
-    sd_by_week: NDArray[np.float64]
+    sd_by_week: Floats
 
 
 class _Plan(NamedTuple):
     """What all simulated leagues have in common."""
 
-    skill: NDArray[np.float64]
+    skill: Floats
     begun_with: int
     chart: Chart
     scale: Scale
@@ -77,9 +76,9 @@ class _Course(NamedTuple):
     """What came of one league."""
 
     sd: list[float]
-    settled: NDArray[np.int64]
-    chances: NDArray[np.float64]
-    games: NDArray[np.int64]
+    settled: Ints
+    chances: Floats
+    games: Ints
 
 
 def reestimate(
@@ -209,10 +208,10 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
     centre = float(skill.mean())
     rating = np.full(len(skill), centre)
     names = tuple(map(str, range(len(skill))))
-    nights: list[NDArray[np.int64]] = []
+    nights: list[Ints] = []
     dates: list[NDArray[np.datetime64]] = []
     sd: list[float] = []
-    chances: list[NDArray[np.float64]] = []
+    chances: list[Floats] = []
     settled = np.full(len(skill) - plan.begun_with, later)
     for week in range(first + later):
         there = plan.begun_with if week < first else len(skill)
@@ -241,9 +240,7 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
     return _Course(sd, settled, np.concatenate(chances[half]), games)
 
 
-def _night(
-    plan: _Plan, rating: NDArray[np.float64], rng: np.random.Generator
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def _night(plan: _Plan, rating: Floats, rng: np.random.Generator) -> tuple[Ints, Floats]:
     """Return rows of a, b and the games of each, shape (4, matches), and P(a wins)."""
     order = rng.permutation(len(rating))
     half = len(rating) // 2

@@ -25,11 +25,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import AccuracyError
-
-Floats = NDArray[np.float64]
 
 _HELD = ("drifting", "steady", "other")
 

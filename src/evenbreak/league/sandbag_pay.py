@@ -21,16 +21,14 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.error_chain import move_matrix
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.stats.summary import Distribution
-
-Floats = NDArray[np.float64]
 
 _HELD = 1e-6
 """With a larger chance than this of being held at the ladder's lower end, the end decides."""
@@ -328,14 +326,14 @@ def dumped_matrix(ladder: Ladder) -> Floats:
     return matrix
 
 
-def dumped_moves(ladder: Ladder) -> NDArray[np.int64]:
+def dumped_moves(ladder: Ladder) -> Ints:
     """Return how far the most costly defeat moves each error."""
     table = match_table(ladder.system, ladder.chart, widest=int(ladder.errors[-1]))
     lost = ~table.won & (table.games[..., 1] >= 0)
     return np.asarray(np.where(lost, table.moves[..., 0], np.iinfo(np.int64).max).min(axis=1))
 
 
-def at_the_end(ladder: Ladder) -> NDArray[np.bool_]:
+def at_the_end(ladder: Ladder) -> Bools:
     """Return which errors are the lowest, or cannot fall because of the ladder's end."""
     here = np.arange(ladder.errors.size)
     return np.asarray((here == 0) | (here + dumped_moves(ladder) < 0))

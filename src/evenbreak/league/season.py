@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Ints
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -120,7 +120,7 @@ class Season:
         return int(np.abs(self.table.moves).max()) * max(factors, default=1)
 
     @cached_property
-    def fifths(self) -> NDArray[np.int64]:
+    def fifths(self) -> Ints:
         """Each player's fifth by skill at the start, 0 the weakest; one column."""
         return fifths_of(self.players.skill[:, None])
 

@@ -12,11 +12,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import expit, ndtr, ndtri, xlog1py, xlogy
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from evenbreak.arrays import Floats, Ints
 
 CONFIDENCE = 0.95
 """How often intervals cover the truth."""

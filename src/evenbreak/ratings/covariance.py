@@ -14,15 +14,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse.linalg import LinearOperator, cg
 
+from evenbreak.arrays import Floats, Places
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
-
-Floats = NDArray[np.float64]
 
 _DENSE_UP_TO = 2000
 """Players up to which the Hessian is factorised once; with more, each answer is iterated."""
@@ -46,8 +44,8 @@ class Curvature:
     """
 
     size: int
-    low: NDArray[np.intp]
-    high: NDArray[np.intp]
+    low: Places
+    high: Places
     weight: Floats
     precision: float
     border: Floats | None = None
@@ -140,8 +138,8 @@ class Curvature:
 
 def sums_by_player(
     players: int,
-    low: NDArray[np.intp],
-    high: NDArray[np.intp],
+    low: Places,
+    high: Places,
     for_low: Floats,
     for_high: Floats | None = None,
 ) -> Floats:

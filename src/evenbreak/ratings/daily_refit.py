@@ -12,15 +12,12 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.special import expit
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.covariance import sums_by_player
 from evenbreak.ratings.newton import damped, find_zero, tolerance
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 GRADIENT = 1e-6
 """How small the gradient has to become, in games, times τ where that is below 1."""

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats
 from evenbreak.checks import positive
 from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
@@ -32,7 +33,7 @@ def day_of(value: Any, name: str = "as_of") -> np.datetime64:
     return day
 
 
-def until(results: Results, as_of: np.datetime64) -> NDArray[np.bool_]:
+def until(results: Results, as_of: np.datetime64) -> Bools:
     """Return which matches were played by the end of a day.
 
     Raises
@@ -44,9 +45,7 @@ def until(results: Results, as_of: np.datetime64) -> NDArray[np.bool_]:
     return np.asarray(date <= as_of)
 
 
-def match_weights(
-    results: Results, half_life: float, as_of: np.datetime64 | None = None
-) -> NDArray[np.float64]:
+def match_weights(results: Results, half_life: float, as_of: np.datetime64 | None = None) -> Floats:
     """Return the weight of each match: 1 on the day `as_of`, 1/2 `half_life` days before.
 
     A game of weight w enters the likelihood with the power w, so it counts as w games.

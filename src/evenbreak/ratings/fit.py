@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of, match_weights, until
@@ -164,7 +164,7 @@ def checked_prior(prior_sd: Any) -> float:
 class _Found(NamedTuple):
     """The mode, and what the uncertainty of the ratings follows from."""
 
-    skill: NDArray[np.float64]
+    skill: Floats
     gradient: float
     iterations: int
     played: PairCounts | LikelihoodTerms
@@ -232,11 +232,11 @@ def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float
 
 
 def _shifted(
-    rating: NDArray[np.float64],
+    rating: Floats,
     named: Mapping[str, float],
     players: tuple[str, ...],
-    component: NDArray[np.int64],
-) -> NDArray[np.float64]:
+    component: Ints,
+) -> Floats:
     """Return the ratings, each component shifted so that its named players fit on average."""
     at = np.array([players.index(name) for name in named], dtype=np.int64)
     missing = np.array(list(named.values())) - rating[at]
@@ -248,7 +248,7 @@ def _shifted(
 
 def _weights(
     scored: Results, won_only: Results, half_life: float | None, day: np.datetime64 | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """Return the weight of each match; ages are counted from the last match of all."""
     if half_life is None:
         return np.ones(len(scored)), np.ones(len(won_only))
@@ -260,7 +260,7 @@ def _weights(
     return match_weights(scored, half_life, day), match_weights(won_only, half_life, day)
 
 
-def _races(won_only: Results) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _races(won_only: Results) -> tuple[Ints, Ints]:
     """Return how many matches known by their winner alone each player won and lost."""
     players = len(won_only.players)
     a_won = np.zeros(0, bool) if won_only.winner is None else won_only.winner == 1
@@ -279,7 +279,7 @@ def _refuse_nonsense(scored: Results, won_only: Results) -> None:
             )
 
 
-def _components(graph: sparse.csr_array) -> NDArray[np.int64]:
+def _components(graph: sparse.csr_array) -> Ints:
     """Return the component of each player, numbered from 1, the largest first."""
     number, label = connected_components(graph, directed=False)
     size = np.bincount(label, minlength=number)

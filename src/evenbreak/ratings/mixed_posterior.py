@@ -12,12 +12,10 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
 from evenbreak.ratings.newton import find_zero, tolerance
-
-Floats = NDArray[np.float64]
 
 _FULL_STEP = 1e-6
 """Newton steps shorter than this are taken whole: the value can no longer measure their gain."""

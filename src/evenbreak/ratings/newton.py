@@ -7,11 +7,9 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Places
 from evenbreak.errors import AccuracyError
-
-Floats = NDArray[np.float64]
 
 MOST_STEPS = 200
 GRADIENT_TOLERANCE = 1e-8
@@ -79,7 +77,7 @@ def find_zero(
     )
 
 
-def damped(step: Floats, low: NDArray[np.intp], high: NDArray[np.intp]) -> Floats:
+def damped(step: Floats, low: Places, high: Places) -> Floats:
     """Return a Newton step, shortened where it would change a skill difference by much.
 
     Where the skills of opponents change by at most β, log(1 + β)/β of the step always goes

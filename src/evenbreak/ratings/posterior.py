@@ -18,16 +18,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, cg
 from scipy.special import expit
 
+from evenbreak.arrays import Floats
 from evenbreak.ratings.covariance import sums_by_player
 from evenbreak.ratings.newton import Mode, damped, find_zero, tolerance
 from evenbreak.ratings.pairs import PairCounts
-
-Floats = NDArray[np.float64]
 
 
 def find_mode(pairs: PairCounts, precision: float) -> Mode:

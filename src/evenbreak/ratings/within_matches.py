@@ -11,14 +11,11 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import expit
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.calibration import two_sided
 from evenbreak.ratings.walk_forward import Forecasts
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 REPLICAS = 300
 """Simulated seasons."""

@@ -7,11 +7,12 @@ points of the NPL are one doubling, and so are 100 of Fargo's.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.ladders.inflation import inflation
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponent_pairs import opponent_pairs_of
@@ -20,9 +21,6 @@ from evenbreak.handicaps.ladders.settling import settling
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE, better_off, unfairness
 from evenbreak.handicaps.systems.step import step_system
 from evenbreak.ratings.scale import SCALES
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
 
 NEAR = 1.0 / 6.0
 """A rating within this share of a doubling is settled: 5 points of the NPL's 30."""

@@ -8,21 +8,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.chains import Chain, chain_from_arrays
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.error_walk import walk_matrix
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.ladder import Ladder
 
 
-def move_matrix(ladder: Ladder, factor: int = 1) -> NDArray[np.float64]:
+def move_matrix(ladder: Ladder, factor: int = 1) -> Floats:
     """Return P(error j after the match | error i before it), shape (errors, errors).
 
     Rows are the errors before. Moves are multiplied by a newcomer's factor; a move beyond an end

@@ -9,20 +9,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.chains import first_passage
 from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.ladders.error_chain import chain_of_errors, error_on, move_matrix
+from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.ladder import Ladder
 
 _TAIL = 1e-12
 _HORIZON = 100_000

@@ -18,9 +18,10 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import gammaln, xlog1py, xlogy
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -72,12 +73,12 @@ class MatchTable:
     system: System
     chart: Chart
     widest: int
-    needs: NDArray[np.int64]
-    games: NDArray[np.int64]
-    moves: NDArray[np.int64]
-    won: NDArray[np.bool_]
+    needs: Ints
+    games: Ints
+    moves: Ints
+    won: Bools
 
-    def wins(self, p: ArrayLike) -> NDArray[np.float64]:
+    def wins(self, p: ArrayLike) -> Floats:
         """Return P(player 1 wins the match | rating difference, chance p to win a game).
 
         Parameters
@@ -106,7 +107,7 @@ class MatchTable:
         by_race = np.asarray(race_win_probability(game, m[down], n[down]))
         return by_race[place]
 
-    def chances(self, p: ArrayLike) -> NDArray[np.float64]:
+    def chances(self, p: ArrayLike) -> Floats:
         """Return P(each final score | rating difference, player 1's chance p to win a game).
 
         Parameters
@@ -139,7 +140,7 @@ class MatchTable:
         return by_race[place]
 
     @cached_property
-    def _races(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def _races(self) -> tuple[Ints, Ints]:
         """The different races of the table, and which of them is played at each difference."""
         races, place = np.unique(self.needs, axis=0, return_inverse=True)
         return races, place.reshape(-1)
@@ -187,7 +188,7 @@ known_table = lru_cache(maxsize=8)(match_table)
 """`match_table`, with the last tables kept; they are read-only."""
 
 
-def _scores(needs: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+def _scores(needs: Ints) -> tuple[Ints, Bools]:
     """Return the final scores of each race, and which of them player 1 wins."""
     m, n = needs[:, 0, None], needs[:, 1, None]
     place = np.arange(needs.sum(axis=1).max())
@@ -198,9 +199,7 @@ def _scores(needs: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.boo
     return np.where(real[..., None], np.stack([a, b], axis=2), NOBODY), won
 
 
-def _moves(
-    system: System, needs: NDArray[np.int64], games: NDArray[np.int64], won: NDArray[np.bool_]
-) -> NDArray[np.int64]:
+def _moves(system: System, needs: Ints, games: Ints, won: Bools) -> Ints:
     moves = np.zeros_like(games)
     size = len(needs) // 2
     for place, outcome in np.argwhere(games[..., 0] != NOBODY).tolist():
