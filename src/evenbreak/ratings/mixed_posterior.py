@@ -15,7 +15,7 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
-from evenbreak.ratings.newton import find_zero, tolerance
+from evenbreak.ratings.newton import find_zero, step_accuracy, tolerance
 
 _FULL_STEP = 1e-6
 """Newton steps shorter than this are taken whole: the value can no longer measure their gain."""
@@ -79,8 +79,7 @@ def find_mixed_mode(
         def step() -> Floats:
             nonlocal value
             curvature = terms.curvature(skill, advantage, precision, break_precision)
-            accuracy = max(min(0.1, float(np.abs(whole).max())), 1e-9)
-            full = np.append(*curvature.newton_step(gradient, slope, accuracy))
+            full = np.append(*curvature.newton_step(gradient, slope, step_accuracy(whole)))
             length, longest = 1.0, float(np.abs(full).max())
             while True:
                 new = cost(point + length * full)

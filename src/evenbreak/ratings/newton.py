@@ -77,6 +77,17 @@ def find_zero(
     )
 
 
+def step_accuracy(gradient: Floats) -> float:
+    """Return how exactly to solve for a Newton step: more exactly as the gradient gets smaller.
+
+    The error of an inexact step adds to the squared error of the exact one.
+
+    >>> step_accuracy(np.array([0.01, -0.02]))
+    0.02
+    """
+    return max(min(0.1, float(np.abs(gradient).max())), 1e-9)
+
+
 def damped(step: Floats, low: Places, high: Places) -> Floats:
     """Return a Newton step, shortened where it would change a skill difference by much.
 
