@@ -59,12 +59,12 @@ class Lookup:
     @property
     def races(self) -> int:
         """How many different races there are."""
-        return len(self._races[0])
+        return len(self.table.races[0])
 
     @cached_property
     def twice_race(self) -> Places:
         """Twice the number of the race by rating difference, negative ones from the end."""
-        return np.asarray(np.roll(2 * self._races[1], -self.widest))
+        return np.asarray(np.roll(2 * self.table.races[1], -self.widest))
 
     @property
     def outcomes(self) -> int:
@@ -159,7 +159,7 @@ class Lookup:
     @cached_property
     def expected(self) -> Floats:
         """The mean of each of `classes` by skill difference and race, shape (3, rows * races)."""
-        first, _ = self._races
+        first, _ = self.table.races
         means = np.empty((len(self.game), len(first), CLASSES))
         for start in range(0, len(self.game), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
@@ -173,7 +173,7 @@ class Lookup:
 
         The first has shape (final scores, (2 * gap + 1) * races): a table for each score.
         """
-        first, place = self._races
+        first, place = self.table.races
         sums = np.empty((self.outcomes, len(self.game), len(first)))
         for start in range(0, len(self.game), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
@@ -182,24 +182,14 @@ class Lookup:
         last = np.maximum(np.rint(np.ldexp(sums, 32)) - 1.0, 0.0).astype(np.uint32)
         return last.reshape(self.outcomes, -1), place
 
-    @cached_property
-    def _races(self) -> tuple[Places, Places]:
-        """The first place of each race, and the race of each rating difference."""
-        return _races_of(self.table)
-
 
 def lookup_of(table: MatchTable, gap: float) -> Lookup:
     """Return the tables for skills up to `gap` points apart."""
     certain = _CERTAIN * table.system.scale.points_per_doubling
     size = int(np.ceil(min(max(gap, 1.0), certain)))
     p = table.system.scale.win_probability(np.arange(-size, size + 1.0))
-    wins = np.repeat(_in_bits(table.wins(p)[_races_of(table)[0]].T).ravel(), 2)
+    wins = np.repeat(_in_bits(table.wins(p)[table.races[0]].T).ravel(), 2)
     return Lookup(table, size, wins)
-
-
-def _races_of(table: MatchTable) -> tuple[Places, Places]:
-    _, first, place = np.unique(table.needs, axis=0, return_index=True, return_inverse=True)
-    return first, place.reshape(-1)
 
 
 def _in_bits(chance: Any) -> NDArray[np.uint32]:

@@ -24,18 +24,6 @@ class PlayedNight(NamedTuple):
     changes: RatingChanges
 
 
-def nights_of(results: Results) -> list[Ints]:
-    """Return the rows of the matches of each night, in the order of the dates.
-
-    Without dates each match is a night of its own, in the order of the file; matches without a
-    date come last.
-    """
-    if results.date is None:
-        return [np.array([row]) for row in range(len(results))]
-    _, night = np.unique(results.date, return_inverse=True)
-    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]
-
-
 def played_nights(
     system: System,
     roster: Roster,
@@ -45,6 +33,9 @@ def played_nights(
     apply: Callable[[Roster, Ints], RatingChanges] | None = None,
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
+
+    Without dates each match is a night of its own, in the order of the rows; matches without a
+    date come last.
 
     Parameters
     ----------
@@ -72,8 +63,16 @@ def played_nights(
         return apply_results(system, list_, night, chart=chart)
 
     nights, now = [], roster
-    for rows in nights_of(results):
+    for rows in _nights(results):
         changes = (apply or by_results)(now, rows)
         nights.append(PlayedNight(rows, changes))
         now = changes.after
     return nights
+
+
+def _nights(results: Results) -> list[Ints]:
+    """Return the rows of each night's matches by date; without dates each match is a night."""
+    if results.date is None:
+        return [np.array([row]) for row in range(len(results))]
+    _, night = np.unique(results.date, return_inverse=True)
+    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]

@@ -19,7 +19,7 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.ladders.comparison import SystemRow
+from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fit import PRIOR_SD, fit
@@ -28,7 +28,6 @@ from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.stats.summary import Distribution
 
 _FIRST_NIGHT = np.datetime64("2001-01-01")
-_NEAR = 1.0 / 6.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,7 +232,7 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
             sd.append(float(error[:there].std()))
             chances.append(wins)
         else:
-            near = np.abs(error[plan.begun_with :]) <= _NEAR * plan.scale.points_per_doubling
+            near = np.abs(error[plan.begun_with :]) <= NEAR * plan.scale.points_per_doubling
             settled[near] = np.minimum(settled[near], week - first + 1)
     half = slice(first // 2, first)
     games = np.concatenate(nights[half], axis=1)[2:].sum(axis=0)

@@ -25,7 +25,7 @@ import numpy as np
 from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.ladders.error_chain import move_matrix
+from evenbreak.handicaps.ladders.error_chain import error_on, move_matrix
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.stats.summary import Distribution
@@ -158,12 +158,9 @@ def sandbagging(
     >>> round(ten.p_first, 3), round(ten.extra_wins, 2), round(ten.break_even, 2)
     (0.637, 2.13, 2.35)
     """
-    most = whole(dumped, "dumped")
-    many = whole(earnest, "earnest", at_least=1)
+    most = whole(dumped, "dumped", at_most=_MOST)
+    many = whole(earnest, "earnest", at_least=1, at_most=_MOST)
     streak = whole(in_a_row, "in_a_row", at_least=1)
-    for name, value in (("dumped", most), ("earnest", many)):
-        if value > _MOST:
-            raise InputError(f"{name} is {value}; give at most {_MOST}")
     for name, money in (("stake", stake), ("dumped_stake", dumped_stake), ("prize", prize)):
         number(money, name, low=0.0)
     law = start_law(ladder, start)
@@ -285,12 +282,7 @@ def start_law(ladder: Ladder, start: int | Distribution) -> Floats:
     )
     law, widest = np.zeros(ladder.errors.size), int(ladder.errors[-1])
     for error, chance in pairs:
-        if not (isinstance(error, int | float) and error == int(error) and abs(error) <= widest):
-            raise InputError(
-                f"start is {error!r}; give whole points from {-widest} to {widest}, "
-                "or a wider ladder"
-            )
-        law[int(error) + widest] += float(chance)
+        law[error_on(widest, error) + widest] += float(chance)
     return law
 
 

@@ -130,9 +130,7 @@ class Curvature:
         scale = 1.0 / np.sqrt(self._diagonal)
         upper = self._upper(self.weight * scale[self.low] * scale[self.high])
         lower = upper.T
-        scaled = LinearOperator(
-            upper.shape, lambda v: v - upper @ v - lower @ v, dtype=np.float64
-        )
+        scaled = LinearOperator(upper.shape, lambda v: v - upper @ v - lower @ v, dtype=np.float64)
         solution, failed = cg(scaled, scale * right, rtol=accuracy, atol=0.0)
         if failed:
             raise AccuracyError("the ratings' covariance was not found; give a smaller prior_sd")

@@ -9,25 +9,15 @@ player broke, the sum is still concave in θ, though not necessarily in β.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
-from evenbreak.ratings.newton import find_zero, step_accuracy, tolerance
+from evenbreak.ratings.newton import Mode, find_zero, step_accuracy, tolerance
 
 _FULL_STEP = 1e-6
 """Newton steps shorter than this are taken whole: the value can no longer measure their gain."""
-
-
-class MixedMode(NamedTuple):
-    """Where the posterior is highest, and how well it was found."""
-
-    skill: Floats
-    advantage: float
-    gradient: float
-    iterations: int
 
 
 def find_mixed_mode(
@@ -37,8 +27,8 @@ def find_mixed_mode(
     advantage: float = 0.0,
     break_precision: float | None = None,
     start: Floats | None = None,
-) -> MixedMode:
-    """Return the skills, and the break advantage, that are most likely a posteriori.
+) -> Mode:
+    """Return the skills, and then the break advantage, that are most likely a posteriori.
 
     Parameters
     ----------
@@ -92,5 +82,4 @@ def find_mixed_mode(
         return whole, step
 
     most = max(float(terms.race_m.max(initial=0)), terms.amount)
-    mode = find_zero(begin, gradient_at, tolerance(precision, most))
-    return MixedMode(mode.point[:-1], float(mode.point[-1]), mode.gradient, mode.iterations)
+    return find_zero(begin, gradient_at, tolerance(precision, most))

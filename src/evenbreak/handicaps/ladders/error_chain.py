@@ -14,7 +14,7 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.chains import Chain, chain_from_arrays
-from evenbreak.errors import InputError
+from evenbreak.checks import whole
 from evenbreak.handicaps.ladders.error_walk import walk_matrix
 from evenbreak.handicaps.ladders.ladder import Ladder
 
@@ -77,14 +77,5 @@ def error_on(widest: int, start: Any, what: str = "rating error") -> int:
     InputError
         if it is none.
     """
-    try:
-        error = int(start)
-        right = bool(error == start) and not isinstance(start, str | bytes)
-    except (TypeError, ValueError, OverflowError):
-        right = False
-    if not right or abs(error) > widest:
-        raise InputError(
-            f"start is {start!r}; give a {what} in whole points from {-widest} to {widest}, or a "
-            "larger widest"
-        )
-    return error
+    wanted = f"a {what} in whole points from {-widest} to {widest}, or a larger widest"
+    return whole(start, "start", at_least=-widest, at_most=widest, wanted=wanted)

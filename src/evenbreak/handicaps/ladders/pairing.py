@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfftn, next_fast_len, rfftn
 
-from evenbreak.arrays import Floats, Ints, Places
+from evenbreak.arrays import Floats, Ints
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.ladders.form import averages
 from evenbreak.handicaps.ladders.opponents import Opponents, farthest
@@ -67,7 +67,7 @@ class Pairing(ABC):
         self.chance = np.array(opponents.spread.probability, dtype=float)
         real = table.games[..., 0] >= 0
         self.steps = np.unique(table.moves[..., 0][real])
-        first, self._race = _distinct(table.needs)
+        first, self._race = table.races
         self._races = replace(
             table,
             needs=table.needs[first],
@@ -214,9 +214,3 @@ def pairing_of(
     reach = widest if opponents.error is None else min(farthest(opponents.error), widest)
     table = known_table(system, chart, widest=apart + reach)
     return SkillGiven(table, widest, opponents, blur, days)
-
-
-def _distinct(needs: Ints) -> tuple[Places, Places]:
-    """Return where each race of a table stands first, and which race is played at each place."""
-    _, first, race = np.unique(needs, axis=0, return_index=True, return_inverse=True)
-    return first, race.reshape(-1)

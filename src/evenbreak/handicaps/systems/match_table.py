@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gammaln, xlog1py, xlogy
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints, Places
 from evenbreak.checks import probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -101,9 +101,9 @@ class MatchTable:
         array([0.637, 0.5  , 0.363])
         """
         game = np.asarray(probability(p, "p"))
-        races, place = self._races
+        first, place = self.races
         down = (slice(None), *(None,) * game.ndim)
-        m, n = races.T
+        m, n = self.needs[first].T
         by_race = np.asarray(race_win_probability(game, m[down], n[down]))
         return by_race[place]
 
@@ -127,8 +127,7 @@ class MatchTable:
             if p is not a probability.
         """
         game = np.asarray(probability(p, "p"))
-        _, place = self._races
-        first = np.unique(place, return_index=True)[1]
+        first, place = self.races
         games, won = np.maximum(self.games[first], 0), self.won[first]
         a, b = games[..., 0], games[..., 1]
         # The winner wins the last game; only the games before it can be in any order.
@@ -140,10 +139,10 @@ class MatchTable:
         return by_race[place]
 
     @cached_property
-    def _races(self) -> tuple[Ints, Ints]:
-        """The different races of the table, and which of them is played at each difference."""
-        races, place = np.unique(self.needs, axis=0, return_inverse=True)
-        return races, place.reshape(-1)
+    def races(self) -> tuple[Places, Places]:
+        """Where each race of the table stands first, and which of them each difference has."""
+        _, first, place = np.unique(self.needs, axis=0, return_index=True, return_inverse=True)
+        return first, place.reshape(-1)
 
 
 def match_table(system: System, chart: Chart | None = None, *, widest: Any = None) -> MatchTable:
