@@ -94,7 +94,7 @@ import operator, time
 from evenbreak.league.workers import in_order
 if __name__ == "__main__":
     print("begun", flush=True)
-    list(in_order(operator.call, time.sleep, [0.5] * 400, jobs=2))
+    list(in_order(operator.call, time.sleep, [30.0] * 40, jobs=2))
 """
 
 
