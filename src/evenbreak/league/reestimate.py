@@ -1,9 +1,9 @@
 """Ratings that are refitted to all results, as Fargo's are: how far off they stay.
 
 A ladder moves a rating by the last match alone. A league may instead refit all ratings to all
-results every few weeks, with older results counting less. The error that remains is not a chain
+results every week, with older results counting less. The error that remains is not a chain
 with few states, so it is simulated: leagues of players of known skill play by their ratings, and
-the ratings are refitted again and again.
+the ratings are refitted to all results every week.
 """
 
 from __future__ import annotations
@@ -22,12 +22,15 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
 from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.fit import PRIOR_SD, fit
+from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.stats.summary import Distribution
 
 _FIRST_NIGHT = np.datetime64("2001-01-01")
+
+_NEWCOMERS = (1, -1, 1, -1)
+"""How many doublings of the odds each newcomer is better than the mean of the league."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,9 +69,7 @@ class _Plan(NamedTuple):
     chart: Chart
     scale: Scale
     weeks: tuple[int, int]
-    fit_every: int
     half_life: float | None
-    prior_sd: float
 
 
 class _Course(NamedTuple):
@@ -86,11 +87,8 @@ def reestimate(
     *,
     scale: Any = "fargo",
     weeks: int = 52,
-    newcomers: int = 4,
     newcomer_weeks: int = 30,
-    fit_every: int = 1,
     half_life: float | None = None,
-    prior_sd: float = PRIOR_SD,
     leagues: int = 4,
     seed: int = 0,
 ) -> Reestimated:
@@ -112,14 +110,10 @@ def reestimate(
         what a difference means, as in `fit`.
     weeks
         how many weeks are played before newcomers come, 2 or more.
-    newcomers, newcomer_weeks
-        how many come (an even number, 2 or more), and how many weeks they are followed.
-    fit_every
-        the number of weeks between two fits.
+    newcomer_weeks
+        how many weeks the four newcomers are followed.
     half_life
         weeks after which a match counts half; None: age does not matter.
-    prior_sd
-        of the prior, in natural log-odds, as in `fit`.
     leagues
         how many leagues are simulated, 2 or more.
     seed
@@ -148,13 +142,10 @@ def reestimate(
         raise InputError("skill is not a list of two finite numbers or more; give one per player")
     if not isinstance(chart, Chart):
         raise InputError(f"chart is {chart!r}; give a Chart, such as chart('fargo_r6_hot')")
-    new = whole(newcomers, "newcomers", at_least=2)
-    if new % 2:
-        raise InputError(f"newcomers is {new}; give an even number, half of them better players")
     if half_life is not None and not half_life > 0.0:
         raise InputError(f"half_life is {half_life!r}; give weeks above 0, or None")
     plan = _Plan(
-        skill=np.append(skills, skills.mean() + by.points_per_doubling * np.resize([1, -1], new)),
+        skill=np.append(skills, skills.mean() + by.points_per_doubling * np.array(_NEWCOMERS)),
         begun_with=len(skills),
         chart=chart,
         scale=by,
@@ -162,9 +153,7 @@ def reestimate(
             whole(weeks, "weeks", at_least=2),
             whole(newcomer_weeks, "newcomer_weeks", at_least=1),
         ),
-        fit_every=whole(fit_every, "fit_every", at_least=1),
         half_life=None if half_life is None else 7.0 * half_life,
-        prior_sd=prior_sd,
     )
     seeds = np.random.SeedSequence(seed).spawn(whole(leagues, "leagues", at_least=2))
     return _summed_up(plan, [_league(plan, np.random.default_rng(child)) for child in seeds])
@@ -217,16 +206,14 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
         night, wins = _night(plan, rating[:there], rng)
         nights.append(night)
         dates.append(np.full(night.shape[1], _FIRST_NIGHT + 7 * week))
-        if (week + 1) % plan.fit_every == 0:
-            columns = np.concatenate(nights, axis=1)
-            rating[:there] = fit(
-                Results(names[:there], *columns, date=np.concatenate(dates)),
-                prior_sd=plan.prior_sd,
-                scale=plan.scale,
-                anchor=centre,
-                half_life=plan.half_life,
-                as_of=_FIRST_NIGHT + 7 * week,
-            ).rating
+        columns = np.concatenate(nights, axis=1)
+        rating[:there] = fit(
+            Results(names[:there], *columns, date=np.concatenate(dates)),
+            scale=plan.scale,
+            anchor=centre,
+            half_life=plan.half_life,
+            as_of=_FIRST_NIGHT + 7 * week,
+        ).rating
         error = rating - skill
         if week < first:
             sd.append(float(error[:there].std()))

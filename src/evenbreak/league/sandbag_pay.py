@@ -30,7 +30,7 @@ from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.stats.summary import Distribution
 
-_HELD = 1e-6
+MOST_HELD = 1e-6
 """With a larger chance than this of being held at the ladder's lower end, the end decides."""
 
 _NOTHING = 1e-9
@@ -168,7 +168,7 @@ def sandbagging(
     step, down = earnest_matrix(ladder), dumped_matrix(ladder)
     honest = _laws(step, law, most + many)
     after = _laws(down, law, most + 1)
-    if after[-1] @ at_the_end(ladder) > _HELD:
+    if after[-1] @ at_the_end(ladder) > MOST_HELD:
         raise InputError(
             f"dumped is {most}, which takes the rating to the ladder's end at {-ladder.widest}; "
             "give fewer, or a wider ladder"
@@ -258,7 +258,7 @@ def most_dumped(ladder: Ladder, start: int | Distribution = 0) -> int:
     # With a point or more a match the end is reached in so many; without moves it never is.
     for many in range(ladder.errors.size):
         law = down @ law
-        if law @ last > _HELD:
+        if law @ last > MOST_HELD:
             return many
     return int(ladder.errors.size)
 

@@ -18,7 +18,7 @@ from evenbreak.handicaps.systems.match_table import MatchTable, match_table
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.lookup import Lookup, lookup_of
 from evenbreak.league.players import LeaguePlayers
-from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin, Schedule
+from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 from evenbreak.league.tally import fifths_of
 
 _DOUBLINGS = 3.0
@@ -140,8 +140,3 @@ def _check_schedule(schedule: Any, players: int) -> None:
         raise InputError(
             f"schedule is {schedule!r}; give RoundRobin, RandomPairing or FixedSchedule"
         )
-
-
-def draws_opponents(schedule: Schedule) -> bool:
-    """Return whether opponents are drawn at random, so among the players who are present."""
-    return isinstance(schedule, RandomPairing)

@@ -13,7 +13,7 @@ from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 
 
-def day_of(value: Any, name: str = "as_of") -> np.datetime64:
+def day_of(value: Any) -> np.datetime64:
     """Return a day: a date, a `numpy.datetime64`, or text such as '2026-01-31'.
 
     Raises
@@ -29,7 +29,7 @@ def day_of(value: Any, name: str = "as_of") -> np.datetime64:
     except (TypeError, ValueError):
         day = np.datetime64("NaT", "D")
     if np.isnat(day):
-        raise InputError(f"{name} is {value!r}; give a day, such as 2026-01-31")
+        raise InputError(f"as_of is {value!r}; give a day, such as 2026-01-31")
     return day
 
 
