@@ -53,7 +53,7 @@ WIDEST = 60
 """The largest rating error at the start, in points, of a sandbagger or an established player."""
 
 FARTHEST = WIDEST + max(DEPTHS)
-"""The same for an honest player of any skill: as far as a sandbagger sinks, or a hopeless
+"""The same for an honest player of any skill: as far as a sandbagger sinks. Otherwise a hopeless
 beginner would look like somebody who dumps most of their matches."""
 
 

@@ -1,4 +1,4 @@
-"""What is kept of simulated seasons: counts that add up, whoever counted which part."""
+"""What is kept of simulated seasons: counts, which can be added up across workers."""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 
 The model is that of `evenbreak.ratings.posterior`. Little changes from one day to the next,
 so a few Newton steps from yesterday's mode find today's. Newton systems, and the variances
-of today's differences, are solved by conjugate gradients: no slower than a factorisation
-here, and no threads that wait for each other.
+of today's differences, are solved by conjugate gradients, which here take no longer than a
+factorisation and start no threads that wait for each other.
 """
 
 from __future__ import annotations

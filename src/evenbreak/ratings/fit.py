@@ -28,7 +28,7 @@ PRIOR_SD = math.log(2.0)
 That is 30 points in the NPL and 100 on the Fargo scale. The NPL's own range, from beginners
 at 20 to professionals at 130, is four of them wide. A season of snooker professionals, who are
 closer to each other, is predicted best with 0.36 (see `evenbreak.ratings.prior`); there ln 2
-costs 0.0024 of log-loss a frame. It weighs as much as eight games against an equal opponent,
+costs 0.0024 of log-loss a frame. The prior weighs as much as eight games against an equal opponent,
 so after a few matches the results dominate.
 """
 

@@ -82,7 +82,7 @@ def newcomer_inflation(ladder: Ladder, start: int) -> NewcomerInflation:
     ladder
         how ratings move; its system defines the newcomer's steps.
     start
-        the newcomer's rating less his skill, in whole points.
+        the newcomer's rating less their skill, in whole points.
 
     Raises
     ------

@@ -1,8 +1,9 @@
 """How many matches a rating that starts wrong takes to become about right.
 
-A rating settles with the first match after which its error is within a band around 0. When that
-is follows from the chain of errors with the band absorbing; under a newcomer schedule each stage
-has a chain of its own, and what has not settled by its end goes on as an established player.
+A rating settles with the first match after which its error is within a band around 0. The number
+of matches follows from the chain of errors with the band made absorbing. Under a newcomer schedule
+each stage has a chain of its own; a rating that has not settled by the end of the schedule goes on
+as that of an established player.
 """
 
 from __future__ import annotations
