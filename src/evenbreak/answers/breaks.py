@@ -53,13 +53,13 @@ def breaks_answer(
     ]
     return Answer(
         f"A wins a rack that A breaks with probability {rack.p1:g}, B one that B breaks with "
-        f"{rack.chance(2, breaker=2):g}\nA wins {win:g} for each rack won and pays {lose:g} for each "
-        "rack lost",
+        f"{rack.chance(2, breaker=2):g}\nA wins {win:g} for each rack won and pays {lose:g} for "
+        "each rack lost",
         [
             f"{_who_gains(usual)}\n{_in_a_session(usual[0])}",
             Table("formats", columns, [_row(value, lose) for value in values]),
-            "'Even if a win pays': what A should get for a rack won to make the stakes fair. 'First "
-            "break': how many more racks A wins in a long session by breaking first.",
+            "'Even if a win pays': what A should get for a rack won to make the stakes fair. "
+            "'First break': how many more racks A wins in a long session by breaking first.",
         ],
         [
             "'Spread of points': multiply it by the square root of N for the standard deviation of "

@@ -68,8 +68,8 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
                 "rows",
                 columns,
                 list(map(_paired, report.rows)),
-                "The stronger player's chance in each band of differences; each race is exactly fair at "
-                "the difference 'even at':",
+                "The stronger player's chance in each band of differences; each race is exactly "
+                "fair at the difference 'even at':",
             ),
         ],
         details=list(_tilt(report, fitted=fitted)),
@@ -116,10 +116,14 @@ def _order(report: ChartAudit) -> Iterator[str]:
     for row in easier:
         yield (
             f"The race for {range_words(row.difference_from, row.difference_to)}, "
-            f"{row.stronger_needs}:{row.weaker_needs}, asks no more of the stronger player than an earlier one."
+            f"{row.stronger_needs}:{row.weaker_needs}, asks no more of the stronger player than an "
+            "earlier one."
         )
     if not (report.gaps or report.overlaps or easier):
-        yield "There are no gaps or overlaps, and each race asks more of the stronger player than the one before it."
+        yield (
+            "There are no gaps or overlaps, and each race asks more of the stronger player than "
+            "the one before it."
+        )
 
 
 def _made_for(report: ChartAudit, *, fitted: bool) -> Iterator[str]:
@@ -154,9 +158,9 @@ def _tilt(report: ChartAudit, *, fitted: bool) -> Iterator[str]:
     best = report.best_fit
     if best is not None and not fitted:
         yield (
-            f"On the scale that fits best, {best.points_per_doubling:.4g} points double the odds and "
-            f"the tilt is {decimals(2)(best.tilt)}; the bands then begin {best.misfit:.2f} points "
-            "from where it would put them."
+            f"On the scale that fits best, {best.points_per_doubling:.4g} points double the odds "
+            f"and the tilt is {decimals(2)(best.tilt)}; the bands then begin {best.misfit:.2f} "
+            "points from where it would put them."
         )
 
 
@@ -180,7 +184,8 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
         _MONOTONE,
     ]
     return Answer(
-        f"Chart {report.name}, on a scale where {points:.4g} points double the odds of winning a game",
+        f"Chart {report.name}, on a scale where {points:.4g} points double the odds of winning a "
+        "game",
         [
             _least_fair_levels(between),
             _level_order(report.cells),
@@ -201,8 +206,8 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
             ),
         ],
         details=[
-            f"With these ratings, the races are fair at differences {report.misfit:.1f} points away "
-            "from those between the levels (root mean square over all pairs of levels)."
+            f"With these ratings, the races are fair at differences {report.misfit:.1f} points "
+            "away from those between the levels (root mean square over all pairs of levels)."
         ],
         warnings=warnings,
         data={
@@ -241,5 +246,8 @@ def _least_fair_levels(between: Sequence[LevelCell]) -> str:
 def _level_order(cells: Sequence[LevelCell]) -> str:
     easier = [f"{cell.level} v {cell.opponent_level}" for cell in cells if not cell.monotone]
     if easier:
-        return f"The race of {listed(easier)} asks no more of the higher level than one against a closer level."
+        return (
+            f"The race of {listed(easier)} asks no more of the higher level than one against a "
+            "closer level."
+        )
     return "Each race asks more of the higher level than the races against closer levels."

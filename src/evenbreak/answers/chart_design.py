@@ -94,8 +94,8 @@ class DesignTask:
         if self.tilt != 0.5:
             goal += f", with tilt {self.tilt:g}"
         return (
-            f"{', '.join(words)}; {self.rules.points:.4g} points double the odds of winning a game\n"
-            f"Aim: {goal}, for differences from 0 to {up_to}"
+            f"{', '.join(words)}; {self.rules.points:.4g} points double the odds of winning a "
+            f"game\nAim: {goal}, for differences from 0 to {up_to}"
         )
 
 

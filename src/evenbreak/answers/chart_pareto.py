@@ -45,8 +45,8 @@ def chart_pareto_answer(task: DesignTask, charts: Sequence[ParetoChart]) -> Answ
         task.heading(up_to),
         [
             " ".join([_ends(charts, task.rule, task.target), *_beaten(charts)]),
-            "Each chart is named after the limit it was designed for: with games_p90 8, 9 out of 10 "
-            "matches end within 8 games; with mean_games 5, a match takes at most 5 games on "
+            "Each chart is named after the limit it was designed for: with games_p90 8, 9 out of "
+            "10 matches end within 8 games; with mean_games 5, a match takes at most 5 games on "
             "average. 'Unfair' is how far the stronger player's chance is from the target.",
             Table("charts", columns, rows),
         ],
@@ -67,7 +67,8 @@ def _ends(charts: Sequence[ParetoChart], rule: str, target: float) -> str:
     return (
         f"The fairest chart is {100 * unfair(fairest):.1f} percentage points from {aim} {how}, "
         f"with {fairest.measure.mean_games:.2f} games a match. The shortest one is "
-        f"{100 * unfair(shortest):.1f} points from {aim}, with {shortest.measure.mean_games:.2f} games."
+        f"{100 * unfair(shortest):.1f} points from {aim}, with {shortest.measure.mean_games:.2f} "
+        "games."
     )
 
 

@@ -39,8 +39,8 @@ def drill_answer(statistics: DrillStatistics, description: str) -> Answer:
     parts: list[Part] = [f"{_advice(statistics)} {_settled(law)}"]
     if statistics.period > 1:
         parts.append(
-            "Odd-numbered and even-numbered attempts are at different levels for ever; the long run "
-            "is the average of both."
+            "Odd-numbered and even-numbered attempts are at different levels for ever; the long "
+            "run is the average of both."
         )
     columns = [
         Column("level", "level", left=True),
@@ -75,7 +75,10 @@ def _settled(law: Distribution) -> str:
     return f"For now you settle at an average level of {law.mean:.2f}."
 
 
-GAIN_WORDS = "'Gain' is how fast the average level rises with the chance of success at that level (the slope)."
+GAIN_WORDS = (
+    "'Gain' is how fast the average level rises with the chance of success at that level (the "
+    "slope)."
+)
 
 
 def spread(law: Distribution) -> list[Quantity]:

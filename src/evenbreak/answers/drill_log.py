@@ -50,9 +50,9 @@ def drill_log_answer(
         details=[
             Quantities(spread(analysis.implied), "The level in the long run:"),
             *_tests(analysis),
-            f"A p-value (p) is how often chance alone gives a result at least this extreme, here among "
-            f"{count_of(analysis.replicas, 'log')} simulated for each test, with sessions like "
-            "yours.",
+            "A p-value (p) is how often chance alone gives a result at least this extreme, here "
+            f"among {count_of(analysis.replicas, 'log')} simulated for each test, with sessions "
+            "like yours.",
             GAIN_WORDS,
         ],
         warnings=file.warnings,
@@ -101,9 +101,10 @@ def _table(analysis: LogAnalysis) -> Table:
         "levels",
         columns,
         analysis.levels,
-        "Your success rate at each level, with its 95% interval; the share of your attempts at that "
-        "level, so far and in the long run; its lift: how much five more successes in 100 there "
-        "would raise your average level; and how likely it is to be the best level to practise:",
+        "Your success rate at each level, with its 95% interval; the share of your attempts at "
+        "that level, so far and in the long run; its lift: how much five more successes in 100 "
+        "there would raise your average level; and how likely it is to be the best level to "
+        "practise:",
     )
 
 
@@ -154,8 +155,8 @@ def _nothing_to_practise(*, levels: int, missed: bool) -> str:
         )
     if not missed:
         return (
-            "You never missed, so the log cannot show what to practise; log more attempts, if possible "
-            "at higher levels."
+            "You never missed, so the log cannot show what to practise; log more attempts, if "
+            "possible at higher levels."
         )
     return "No level that you missed would raise your average level."
 
@@ -188,8 +189,8 @@ def _findings(analysis: LogAnalysis) -> Iterator[str]:
     found = []
     if analysis.difference.p_value < UNLIKELY:
         found.append(
-            "Your sessions are not at the levels that your success rates would lead to; perhaps you "
-            "stop when things go well."
+            "Your sessions are not at the levels that your success rates would lead to; perhaps "
+            "you stop when things go well."
         )
     if memory is not None and memory.p_value < UNLIKELY:
         worse = "miss" if memory.seen > memory.by_chance else "success"

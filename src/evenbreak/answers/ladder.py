@@ -119,8 +119,8 @@ def _how_unfair(favourite: Distribution) -> str:
     often = favourite.at_least(CLEAR_FAVOURITE)
     return (
         "These errors create favourites in matches that should be even: the favourite wins "
-        f"{100.0 * favourite.mean:.1f}% of them on average, and {of_100(often)} of the matches have "
-        f"a clear favourite, with a chance of {100 * CLEAR_FAVOURITE:g}% or more."
+        f"{100.0 * favourite.mean:.1f}% of them on average, and {of_100(often)} of the matches "
+        f"have a clear favourite, with a chance of {100 * CLEAR_FAVOURITE:g}% or more."
     )
 
 
@@ -183,15 +183,15 @@ def _how_soon_forgotten(found: LadderFindings) -> Iterator[str]:
         half = math.log(0.5) / math.log1p(-found.gap)
         every = "match" if half < 1.5 else f"{half:,.0f} matches"
         yield (
-            f"In the long run, what is left of an old error halves every {every} (a match removes the "
-            f"share {found.gap:.4f} of it: the spectral gap)."
+            f"In the long run, what is left of an old error halves every {every} (a match removes "
+            f"the share {found.gap:.4f} of it: the spectral gap)."
         )
     if found.mixing_matches is not None:
         started = f"started {_too(start, str(abs(start)))}" if start else "started right"
         yield (
             f"After {count_of(found.mixing_matches, 'match', 'matches')} a rating that {started} "
-            "is hardly distinguishable from any other: no probability differs from its long-run value "
-            "by more than 0.25 (the total variation distance)."
+            "is hardly distinguishable from any other: no probability differs from its long-run "
+            "value by more than 0.25 (the total variation distance)."
         )
 
 

@@ -114,8 +114,8 @@ def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = 
         _EXPLANATION,
         *_notes(found),
         _view([row for row, _ in found.steps], f"Step sizes on chart {found.chart.name}:"),
-        "With longer steps ratings settle sooner but stay less accurate, so they pay off where there "
-        f"are many newcomers. {_never_worth_it(beaten)}",
+        "With longer steps ratings settle sooner but stay less accurate, so they pay off where "
+        f"there are many newcomers. {_never_worth_it(beaten)}",
     ]
     return Answer(
         f"Handicap systems side by side\n{OPPONENTS[found.opponents]}",

@@ -82,8 +82,8 @@ def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
     length = decimals(1)(odds.mean_games) if odds.mean_games < 1e6 else games(odds.mean_games)
     more = " more" if any(match.score) else ""
     return (
-        f"{text}\nIt lasts {length}{more} games on average, and 9 out of 10 such matches end within "
-        f"{odds.games_p90:,}."
+        f"{text}\nIt lasts {length}{more} games on average, and 9 out of 10 such matches end "
+        f"within {odds.games_p90:,}."
     )
 
 

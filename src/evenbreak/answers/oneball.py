@@ -60,8 +60,8 @@ def oneball_answer(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite")
     if len(ranked) > 1:
         heading = f"You shoot first and have {count_of(len(ranked), 'shot')} to choose from"
         words = (
-            f"The shots are ranked by your chance {_SUPPOSED[look_ahead]}. {words} 'Best up to': the "
-            "shot is the best one if a miss leaves less than this."
+            f"The shots are ranked by your chance {_SUPPOSED[look_ahead]}. {words} 'Best up to': "
+            "the shot is the best one if a miss leaves less than this."
         )
     return Answer(
         heading,

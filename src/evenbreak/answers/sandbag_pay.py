@@ -122,8 +122,8 @@ def sandbag_pay_answer(
     if shown < question.dumped:
         warnings = [
             *warnings,
-            f"{ladder.chart.name}: at most {count_of(shown, 'match', 'matches')} can be dumped; the "
-            f"rating is then {ladder.widest} points below the skill",
+            f"{ladder.chart.name}: at most {count_of(shown, 'match', 'matches')} can be dumped; "
+            f"the rating is then {ladder.widest} points below the skill",
         ]
     plain = [tuple(map(_finite, row)) for row in found.pays.rows]
     rows = Table("rows", [Column(name) for name in best._fields], plain)
@@ -146,10 +146,10 @@ def sandbag_pay_answer(
 
 _EXPLANATION = (
     "'Given away': how many of the dumped matches an honest player would have won. 'Extra wins': "
-    "how many more of the matches played in earnest the sandbagger wins; 'by the last': how many of "
-    "these come from the last match dumped. 'Pays from': how many times as much as a dumped match "
-    "one in earnest must be worth. 'Profit': the gain over an honest player, in the unit of the "
-    "stakes."
+    "how many more of the matches played in earnest the sandbagger wins; 'by the last': how many "
+    "of these come from the last match dumped. 'Pays from': how many times as much as a dumped "
+    "match one in earnest must be worth. 'Profit': the gain over an honest player, in the unit of "
+    "the stakes."
 )
 
 
@@ -184,9 +184,9 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
         yield "Sandbagging does not pay at these stakes, however many matches are dumped."
     if math.isfinite(cheapest.break_even):
         yield (
-            f"Over {question.earnest} matches in earnest, without a prize, it pays off only if each of "
-            f"them is worth at least {cheapest.break_even:.2f} times as much as a dumped match; "
-            f"that is with {cheapest.dumped} dumped."
+            f"Over {question.earnest} matches in earnest, without a prize, it pays off only if "
+            f"each of them is worth at least {cheapest.break_even:.2f} times as much as a dumped "
+            f"match; that is with {cheapest.dumped} dumped."
         )
     if cycle is not None and cycle.dumped and cycle.profit > 0.0:
         yield (
@@ -257,9 +257,9 @@ def sandbag_charts_answer(
             f"{least.all_pays.best.profit:.2f} at these stakes. It pays most on "
             f"{most.ladder.chart.name}: up to {most.all_pays.best.profit:.2f}.",
             Table("charts", columns, rows),
-            "Each row is for the number of dumped matches that pays most. 'Pays from': how many times "
-            "as much as a dumped match one in earnest must be worth. 'Enters low': how many more "
-            f"of their first {question.earnest} matches a player wins who enters the league "
+            "Each row is for the number of dumped matches that pays most. 'Pays from': how many "
+            "times as much as a dumped match one in earnest must be worth. 'Enters low': how many "
+            f"more of their first {question.earnest} matches a player wins who enters the league "
             f"{found[0].doubling} points under-rated.",
         ],
         warnings=warnings,

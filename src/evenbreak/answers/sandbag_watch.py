@@ -90,19 +90,19 @@ def sandbag_watch_answer(
         [
             _who_is_flagged(rows),
             *_players(rows),
-            f"A player is flagged when the evidence reaches {evidence(1.0 / alpha)}. It starts at 1, "
-            "rises with each result that is likelier from a sandbagger than from an honest player, "
-            "and falls with the others. It is not a verdict: look at the player's matches "
+            f"A player is flagged when the evidence reaches {evidence(1.0 / alpha)}. It starts at "
+            "1, rises with each result that is likelier from a sandbagger than from an honest "
+            "player, and falls with the others. It is not a verdict: look at the player's matches "
             "(--player), and ask.",
-            f"At most {percent(alpha)} of honest players are ever flagged; with {len(rows):,} honest "
-            f"players that is {alpha * len(rows):.2g} on average. This holds for "
+            f"At most {percent(alpha)} of honest players are ever flagged; with {len(rows):,} "
+            f"honest players that is {alpha * len(rows):.2g} on average. This holds for "
             f"{HONEST_PLAYER[honest]} whose form varies by no more than --day-sd.",
         ],
         details=[
-            f"If players were flagged only at {evidence(len(rows) / alpha)}, the chance that even one "
-            f"honest player of the league is flagged would be at most {percent(alpha)}. The "
-            "evidence is an e-value: its mean over honest players is at most 1 after any number of "
-            "matches."
+            f"If players were flagged only at {evidence(len(rows) / alpha)}, the chance that even "
+            f"one honest player of the league is flagged would be at most {percent(alpha)}. The "
+            "evidence is an e-value: its mean over honest players is at most 1 after any number "
+            "of matches."
         ],
         warnings=warnings,
         data={"alpha": alpha, "honest": honest},
@@ -199,8 +199,8 @@ def sandbag_player_answer(
         [
             said,
             _matches(rows),
-            "'Weight' is what the match multiplies the evidence by: above 1, the result is likelier "
-            "from a sandbagger than from an honest player.",
+            "'Weight' is what the match multiplies the evidence by: above 1, the result is "
+            "likelier from a sandbagger than from an honest player.",
         ],
         warnings=warnings,
         data={

@@ -117,9 +117,9 @@ def _handicaps(found: Validation) -> str:
     if way:
         under = "under" if way > 0 else "over"
         return (
-            f"The handicaps look fair. {figures}. The ratings predicted "
-            f"{percent(every.expected)}: they {under}rate players who give games, so do not use them "
-            "to predict handicap matches."
+            f"The handicaps look fair. {figures}. The ratings predicted {percent(every.expected)}: "
+            f"they {under}rate players who give games, so do not use them to predict handicap "
+            "matches."
         )
     return f"The handicaps look fair. {figures}."
 

@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from evenbreak.ratings.validate import Validation
 
 _EXPLAINED = (
-    "How good the predictions were, with 95% intervals. Log-loss is the average of -ln(p), where p "
-    "is the predicted chance of what happened; the Brier score is the mean squared error. Lower is "
-    "better; tossing a coin scores 0.6931 and 0.25. The slope shows whether the chances are right: "
-    "at 1 they are, below 1 they are too extreme, above 1 too cautious. 'Plug-in' takes the ratings "
-    "at face value, 'integrated' averages over their uncertainty, and 'default' does so with the "
-    "default prior. The prior, in points, is how far apart players are assumed to be before any "
-    "result."
+    "How good the predictions were, with 95% intervals. Log-loss is the average of -ln(p), where "
+    "p is the predicted chance of what happened; the Brier score is the mean squared error. Lower "
+    "is better; tossing a coin scores 0.6931 and 0.25. The slope shows whether the chances are "
+    "right: at 1 they are, below 1 they are too extreme, above 1 too cautious. 'Plug-in' takes "
+    "the ratings at face value, 'integrated' averages over their uncertainty, and 'default' does "
+    "so with the default prior. The prior, in points, is how far apart players are assumed to be "
+    "before any result."
 )
 _TESTS_EXPLAINED = (
     "Whether play within matches agrees with the model. 'Spread of scores' compares their squared "

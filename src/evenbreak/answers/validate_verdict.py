@@ -130,8 +130,8 @@ def _default_is_wrong(found: Validation, scale: Scale) -> str:
     else:
         use = f"--prior {points_text(found.prior_sd, scale)}"
     return (
-        f"Use {use} with rate and report: with the default of {points_text(PRIOR_SD, scale)} points, "
-        f"{_too_sure(wrong)}."
+        f"Use {use} with rate and report: with the default of {points_text(PRIOR_SD, scale)} "
+        f"points, {_too_sure(wrong)}."
     )
 
 
