@@ -58,7 +58,7 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
         parts.append("\n".join(map(evening_words, tonight.evening)))
     parts.append(table)
     if doubtful(tonight):
-        parts.append("A wins: the chance, averaged over how far the ratings may be off.")
+        parts.append("'A wins' is averaged over how far the ratings may be off.")
     remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
     parts += ["\n".join(f"- {remark}" for remark in remarks)] if remarks else []
     return Answer(

@@ -81,9 +81,9 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
 def _in_words(luck: Luck) -> str:
     away = luck.score - luck.mean
     if away == 0.0:
-        return f"{luck.score:g} is exactly your average before, so it says nothing new."
+        return f"{luck.score:g} is exactly your average, so it shows nothing new."
     return (
         f"{luck.score:g} is {abs(away):.2f} {'above' if away > 0 else 'below'} your average, and "
         f"{luck_words(luck.t.as_far)}: if nothing has changed, a score this far off, up or down, "
-        f"comes {how_often(luck.t.as_far)}. Several new scores would say more than one."
+        f"happens {how_often(luck.t.as_far)}. Several new scores would show more than one."
     )

@@ -81,7 +81,7 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
     if apart:
         doubts.append(
             f"{apart:,} of {len(known):,} ratings {'is' if apart == 1 else 'are'} more than "
-            f"{edge:.0f} points from the median of {middle:.0f}; are all on the same scale?"
+            f"{edge:.0f} points from the median of {middle:.0f}; are they all on the same scale?"
         )
     return doubts
 
@@ -112,6 +112,6 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
         return []
     return [
         f"new players start at {scale.centre:g}, the middle of the {scale.name} scale, but the "
-        f"other ratings go from {least:g} to {most:g}; say with --starter what a new player "
-        "starts with"
+        f"other ratings go from {least:g} to {most:g}; give the rating of a new player with "
+        "--starter"
     ]

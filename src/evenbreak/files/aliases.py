@@ -55,7 +55,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
     """
     table = read_table(path, REQUIRED)
     if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no names below its header; write one line for each")
+        table.problems.add(None, "has no names below its header; add a line for each name")
     pairs = zip(_names(table, "name"), _names(table, "means"), table.lines.tolist(), strict=True)
     means: dict[str, str] = {}
     line_of: dict[str, int] = {}
@@ -74,8 +74,8 @@ def read_aliases(path: str | Path) -> AliasesFile:
             table.problems.add(
                 line_of[name],
                 f"{quoted(name)} means {quoted(meant)}, which means {quoted(means[meant])} in line "
-                f"{line_of[meant]}; write the player's own name for both, and keep one line of two "
-                "names that mean each other",
+                f"{line_of[meant]}; write the player's real name in both lines, and keep only one "
+                "of two names that mean each other",
             )
     table.problems.raise_any()
     means = {name: meant for name, meant in means.items() if name != meant}

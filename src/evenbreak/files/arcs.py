@@ -63,7 +63,7 @@ def read_arcs(path: str | Path) -> ArcsFile:
     table.problems.add_rows(table.lines, outside, lambda row: _outside(p[row]))
     if all(column in table for column in COLUMNS):
         if whole and not len(table):
-            table.problems.add(None, "holds no arcs; write a row for each arc below the header")
+            table.problems.add(None, "has no arcs below its header; add a line for each arc")
         for column in ("source", "target"):
             _refuse_empty(table, column)
         states, sources, targets = _states(table)
@@ -76,7 +76,7 @@ def read_arcs(path: str | Path) -> ArcsFile:
 
 
 def _outside(p: float) -> str:
-    return f"probability {float(p)!r} is not from 0 to 1; write one that is"
+    return f"probability {float(p)!r} is not from 0 to 1; correct it"
 
 
 def _refuse_empty(table: TextTable, column: str) -> None:

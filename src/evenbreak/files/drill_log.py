@@ -86,7 +86,7 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
     """
     table = read_table(path, REQUIRED, OPTIONAL)
     if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no attempts below its header; write a line for each one")
+        table.problems.add(None, "has no attempts below its header; add a line for each attempt")
     level = whole_numbers(
         table,
         "level",
@@ -98,8 +98,8 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
         table,
         "success",
         lambda text: WORDS.get(text.casefold()),
-        wanted="a word for a success or a miss",
-        remedy="write yes or no, and a row for each attempt",
+        wanted="yes or no",
+        remedy="write one of them, and a row for each attempt",
         dtype=np.bool_,
         empty=False,
     ).values

@@ -146,7 +146,7 @@ def _check_ratings(table: TextTable) -> None:
         np.flatnonzero((np.abs(rating) > FARTHEST) & (np.abs(rating) <= LARGEST)),
         lambda row: (
             f"rating {rating[row]:g} is not from {-FARTHEST:,} to {FARTHEST:,}, the range that can "
-            "be simulated; subtract the same number of points from all ratings"
+            "be simulated; move all ratings by the same number of points"
         ),
     )
 

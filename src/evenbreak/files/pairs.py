@@ -59,7 +59,7 @@ def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     """
     table = read_table(path, PAIRS)
     if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no pairs below its header; write one line for each match")
+        table.problems.add(None, "has no pairs below its header; add a line for each match")
     pairs = pairs_in(table, roster)
     table.problems.raise_any()
     return PairsFile(pairs, table.warnings)

@@ -89,7 +89,7 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
     by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
     table = read_table(path, REQUIRED, OPTIONAL, INSTEAD)
     if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no matches below its header; write one line for each")
+        table.problems.add(None, "has no matches below its header; add a line for each match")
     names = PlayerNames(table, NAMES, by_alias.means)
     results = results_rows(table, names, results_columns(table, names))
     table.problems.raise_any()

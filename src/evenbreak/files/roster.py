@@ -127,7 +127,7 @@ def roster_of(table: TextTable, *, all_rated: bool = False) -> RosterFile:
         as `read_roster` does, with the problems that the table had before.
     """
     if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no players below its header; write one line for each")
+        table.problems.add(None, "has no players below its header; add a line for each player")
     names = _names(table)
     remedy = "write points such as 85, or leave it empty for a new player"
     rating = _points(table, "rating", remedy, least=-LARGEST)
@@ -141,7 +141,9 @@ def roster_of(table: TextTable, *, all_rated: bool = False) -> RosterFile:
     table.problems.add_rows(
         table.lines,
         np.flatnonzero(unrated & (games > 0)) if "rating" in table else np.zeros(0, np.int64),
-        lambda row: f"rating is empty after {games[row]} games; write it, or 0 games if new",
+        lambda row: (
+            f"rating is empty after {games[row]} games; fill it in, or write 0 games if new"
+        ),
     )
     if all_rated and "rating" in table:
         table.problems.add_rows(
@@ -170,7 +172,7 @@ def _names(table: TextTable) -> list[str]:
             table.problems.add(
                 line,
                 f"player {quoted(name)} is already in line {first[name]}; delete one of the two, "
-                "or tell two players of the same name apart, for example with a number",
+                "or give two players of the same name different names, such as 'Ann Lee 2'",
             )
     return names
 

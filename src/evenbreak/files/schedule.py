@@ -67,7 +67,7 @@ def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
     """
     table = read_table(path, {**WEEK, **PAIRS})
     if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no matches below its header; write one line for each")
+        table.problems.add(None, "has no matches below its header; add a line for each match")
     week = whole_numbers(
         table, "week", at_least=1, at_most=LAST_WEEK, remedy="write 1 for the first week, 2, ..."
     ).values

@@ -47,7 +47,7 @@ def read_scores(path: str | Path) -> ScoresFile:
     """
     table = read_table(path, REQUIRED, OPTIONAL)
     if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no scores below its header; write a line for each one")
+        table.problems.add(None, "has no scores below its header; add a line for each score")
     scores = numbers(table, "score", remedy="write a number, such as 48").values
     table.problems.add_rows(
         table.lines,
