@@ -48,11 +48,8 @@ Examples:
     "anchors",
     multiple=True,
     metavar="POINTS|NAME=POINTS",
-    help=(
-        "The mean rating, or the rating of a named player; can be repeated for several players, "
-        "who "
-    )
-    "then have these ratings on average.  [default: the middle of the scale]",
+    help="The mean rating, or the rating of a named player; can be repeated for several players, "
+    "who then have these ratings on average.  [default: the middle of the scale]",
 )
 @how_to_rate
 @click.option(

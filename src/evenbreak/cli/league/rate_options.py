@@ -54,11 +54,8 @@ def prior_option(default: str) -> Decorator[Any]:
         "--prior",
         metavar="POINTS|best",
         type=PointsOr("best", 0.0),
-        help=(
-            "How far apart players are assumed to be before any result (standard deviation); "
-            "best: "
-        )
-        f"the value that predicts best.  [default: {default}]",
+        help="How far apart players are assumed to be before any result (standard deviation); "
+        f"best: the value that predicts best.  [default: {default}]",
     )
 
 
