@@ -28,7 +28,7 @@ def chart_list_answer() -> Answer:
                     Column("what", "full name", left=True),
                     Column("looked_up_by", "looked up by", left=True),
                     Column("races", "races"),
-                    Column("longest_games", "longest match,\ngames"),
+                    Column("longest_games", "longest,\ngames"),
                 ],
                 [_row(name, title) for name, title in {**CHARTS, **LEVEL_CHARTS}.items()],
             ),

@@ -130,8 +130,8 @@ _EXPLANATION = (
     "'Error': how far ratings are typically off in the long run (standard deviation), in points "
     "and in per cent of a doubling, the points that double the odds of winning a game. 'Settles "
     "in': the matches it takes a rating that starts one doubling too low to come within a sixth "
-    "of a doubling, on average and for 9 out of 10 players. 'Favourite': how often the player with "
-    "the better rating error wins, and in how many of 100 matches their chance is 60% or more. "
+    "of a doubling, on average and for 9 out of 10 players. 'Favourite': how often the player "
+    "favoured by the errors wins, and in how many of 100 matches their chance is 60% or more. "
     "'Games': the average length of a match."
 )
 
@@ -189,7 +189,7 @@ def _advice(found: LadderComparison) -> str:
     return (
         f"Ratings are most accurate with {_called(accurate)}. Wrong ratings are corrected "
         f"fastest with {_called(fastest)}, in {fastest.settling_mean:.1f} matches on average. "
-        f"{_called(own)} takes {own.settling_mean:.1f} matches; {better}. Longer steps for "
+        f"With {_called(own)} it takes {own.settling_mean:.1f} matches; {better}. Longer steps for "
         f"newcomers alone ({new.system}) take {new.settling_mean:.1f} matches and leave everybody "
         "else's rating as accurate as it is."
     )

@@ -139,7 +139,7 @@ def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
         if estimate is not None:
             p, low, high = (1.0 / (1.0 + math.exp(-b)) for b in estimate)
             yield (
-                f"share of even games won by {name}",
+                f"even games won by {name}",
                 None,
                 f"{p:.3f}",
                 "0.500",
