@@ -45,7 +45,8 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
     >>> asked = {"scale": SCALES["npl"], "chart": chart("npl_10")}
     >>> tonight = Round(file=file, roster=club, pairs=all_pairs(club), **asked)
     >>> matchups_answer(tonight).sentences[0]
-    'Races by the chart npl_10. The race is 6:4 for Ann against Bo: Ann wins 53% of the time.'
+    'The races come from the chart npl_10. The race is 6:4 for Ann against Bo: Ann wins 53% of
+    the time.'
     """
     at_once = len(tonight.pairs) <= AT_A_TIME
     frame = tonight.matchups.frame if at_once else None

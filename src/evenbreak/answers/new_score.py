@@ -32,7 +32,8 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
     >>> earlier = np.array([50.0, 44, 46, 52, 47, 51, 49, 45, 48, 50])
     >>> print(new_score_answer(ScoresFile(earlier, None, "s.csv", ()), 53).sentences[0])
     53 is 4.80 above your average, and this may well be luck: if nothing has changed, a score this
-    far off, up or down, comes about 12 times in 100. Several new scores would say more than one.
+    far off, up or down, happens about 12 times in 100. Several new scores would show more than
+    one.
     """
     luck = was_it_luck(file.scores, score, confidence=confidence)
     sd = mean_interval(file.scores, confidence).sd

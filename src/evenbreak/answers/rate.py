@@ -207,9 +207,9 @@ def unlinked_words(ratings: Ratings) -> Iterator[str]:
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["A", "C", "D"], ["B", "D", "E"], [7, 7, 7], [2, 3, 6])
     >>> print(*unlinked_words(fit(season)))
-    2 groups of players, of 3 and 2, never met: compare ratings only within a group. That all
-    groups are equally strong on average is an assumption; a match or two between them would
-    link them.
+    2 groups of players, of 3 and 2, never met: compare ratings only within a group. All
+    groups are assumed to be equally strong on average; a match or two between them would link
+    them.
     """
     sizes = [int(size) for size in np.bincount(ratings.component)[1:] if size > 1]
     if len(sizes) > 1:

@@ -50,7 +50,7 @@ def least_even(paired: pd.DataFrame) -> str:
     >>> pairs = {"player_a": ["Ann", "Cy"], "player_b": ["Bo", "Di"]}
     >>> races = {"race_a": [7, 4], "race_b": [5, 6], "p_win_a": [0.52, 0.41]}
     >>> print(least_even(pd.DataFrame(pairs | races)))
-    The least even is 6:4 for Di against Cy: Di wins 59% of the time.
+    The least even race is 6:4 for Di against Cy: Di wins 59% of the time.
     """
     offered = paired.dropna(subset=["race_a"])
     if not len(offered):

@@ -59,8 +59,8 @@ def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
     """Return how long a player's runs are, or what several innings bring, and what is asked for.
 
     >>> print(runs_answer(RunLength(0.96), Asked(at_least=100)).sentences[0])
-    A run of 100 or more comes 1.7% of the time, once in 59 innings. Half of the runs are 16 balls
-    or fewer, although the average is 24.
+    A run of 100 or more happens 1.7% of the time, once in 59 innings. Half of the runs are 16
+    balls or fewer, although the average is 24.
     """
     innings = law.innings if isinstance(law, InningsScore) else 1
     safety = float(law.safety)

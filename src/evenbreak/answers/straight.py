@@ -27,7 +27,7 @@ def straight_answer(match: StraightPool, averages: tuple[float, float] | None = 
     >>> from evenbreak.matches import StraightPool
     >>> print(straight_answer(StraightPool(100, 100, 0.9, 0.85)).sentences[0])
     A wins the match 89% of the time. The winner needs 11.8 innings on average.
-    For an even match B should need 60 points: A then wins 50% of the time.
+    For an even match, B should play to 60 points: A then wins 50% of the time.
     """
     odds, spot = straight_pool_odds(match), even_spot(match)
     spotted = None if spot.points is None else _with(match, spot.weaker, spot.points)
