@@ -56,5 +56,5 @@ def test_what_inflates_is_said():
 
 def test_how_often_in_words():
     assert [of_100(p) for p in (0.0, 0.5, 0.1, 0.01, 0.999)] == [
-        *("none", "50 of 100", "10 of 100", "1 in 100", "nearly all")
+        *("none", "50%", "10%", "1 in 100", "nearly all")
     ]

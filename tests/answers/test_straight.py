@@ -11,7 +11,7 @@ def test_the_spot_is_named_with_its_chance():
     told = answer.to_dict()
     assert (told["even_points_a"], told["even_points_b"]) == (spot.points, 100)
     assert told["p_win_a_even"] == spot.p_win_1
-    assert f"A should need {spot.points} points" in answer.sentences[0]
+    assert f"A should play to {spot.points} points" in answer.sentences[0]
 
 
 @pytest.mark.parametrize(

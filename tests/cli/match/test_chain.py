@@ -161,7 +161,7 @@ def test_cp1252_is_read_with_a_warning(run):
     [
         (b"", ["stdin: is empty"]),
         (b"\x00\x01", ["stdin:1: holds a NUL"]),
-        (HEADER, ["stdin: holds no arcs"]),
+        (HEADER, ["stdin: has no arcs"]),
         ("a,b\n1,2\n", ["'source'", "'target'", "'probability'"]),
         (HEADER + "S,W,x\n", ["stdin:2: probability 'x' is not a number"]),
         (HEADER + "S,W,nan\n", ["stdin:2: probability 'nan' is not a number"]),
