@@ -17,7 +17,7 @@ def test_the_spot_is_named_with_its_chance():
 @pytest.mark.parametrize(
     ("match", "words"),
     [
-        (StraightPool(100, 60, 0.9, 0.85), "No other number of points"),
+        (StraightPool(100, 60, 0.9, 0.85), "No other spot"),
         (StraightPool(100, 100, 0.0, 0.9), "No spot"),
         (StraightPool(100, 100, 0.0, 0.0), "never ends"),
     ],
