@@ -89,8 +89,8 @@ def _mean_steps(chain: Chain) -> tuple[float | None, list[str]]:
     try:
         return steps_to_absorption(chain).mean, []
     except AccuracyError as error:
-        doubt = f"the mean number of steps could not be worked out ({error}); absorption may be "
-        return None, [doubt + "certain all the same"]
+        doubt = f"the mean number of steps could not be calculated ({error}); absorption may be "
+        return None, [doubt + "certain nevertheless"]
 
 
 def _in_the_end(limit: Limit, kinds: Sequence[str], mean_steps: float | None) -> str:

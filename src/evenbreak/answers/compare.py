@@ -119,7 +119,7 @@ def _formats(compared: Sequence[Compared], players: TwoPlayers, axis: str) -> Ta
         Column("from_even", "from even", signed(4)),
         Column("mean_games", "games, on\naverage", games),
         Column("games_p90", "9 of 10\nend within"),
-        Column("even", f"even at {axis}"),
+        Column("even", f"even if\n{axis} is"),
     ]
     rows = [
         (

@@ -28,7 +28,7 @@ def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float
         (race.race_1, race.race_2, race.p_win_1, race.mean_games, race.games_p90) for race in races
     ]
     m, n, p_win, mean, _ = rows[0]
-    wish = "fairest race" if target == 0.5 else f"race nearest to a {target:g} chance for {a}"
+    wish = "fairest race" if target == 0.5 else f"race nearest to {percent(target)} for {a}"
     return Answer(
         players.description,
         [

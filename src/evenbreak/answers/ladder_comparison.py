@@ -114,8 +114,8 @@ def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = 
         _EXPLANATION,
         *_notes(found),
         _view([row for row, _ in found.steps], f"Step sizes on chart {found.chart.name}:"),
-        "A longer step settles sooner and stays less accurate; it is worth more, the more "
-        f"newcomers there are. {_never_worth_it(beaten)}",
+        "With longer steps ratings settle sooner but stay less accurate, so they pay off where "
+        f"there are many newcomers. {_never_worth_it(beaten)}",
     ]
     return Answer(
         f"Handicap systems side by side\n{OPPONENTS[found.opponents]}",
@@ -127,11 +127,12 @@ def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = 
 
 
 _EXPLANATION = (
-    "error: how far ratings are off in the long run (standard deviation), in points and as a share "
-    "of a doubling, the points that double the odds of a game. settles in: matches until a rating "
-    "that starts one doubling too low is within a sixth of one, on average and for 9 of 10 "
-    "players. favoured: how often the player whom the errors favour wins, and how many matches in "
-    "100 give them a chance of 60% or more. games: the mean length of a match."
+    "'Error': how far ratings are typically off in the long run (standard deviation), in points "
+    "and in per cent of a doubling, the points that double the odds of winning a game. 'Settles "
+    "in': the matches it takes a rating that starts one doubling too low to come within a sixth "
+    "of a doubling, on average and for 9 out of 10 players. 'Favourite': how often the player "
+    "favoured by the errors wins, and in how many of 100 matches their chance is 60% or more. "
+    "'Games': the average length of a match."
 )
 
 _COLUMNS = [
@@ -163,7 +164,7 @@ def _view(rows: Sequence[SystemRow], title: str = "") -> Table:
         Column("sd_doublings", "% of a\ndoubling", per_cent(1)),
         Column("settling_mean", "settles\nin", decimals(1)),
         Column("settling_p90", "9 of 10\nin"),
-        Column("favourite", "favoured\nwins %", per_cent(1)),
+        Column("favourite", "favourite\nwins %", per_cent(1)),
         Column("clear_favourite", "60%\nor up", per_cent(0)),
         Column("games", "games", decimals(1)),
     ]
@@ -181,16 +182,16 @@ def _advice(found: LadderComparison) -> str:
     no_slower = [row for row in others if row.settling_mean <= own.settling_mean]
     best = min(no_slower, key=lambda row: row.sd_doublings)
     better = (
-        "no system that is no slower is more accurate"
+        "no other system is both as fast and more accurate"
         if best.sd_doublings >= own.sd_doublings
-        else f"{_called(best)} is the most accurate system that is no slower"
+        else f"{_called(best)} is the most accurate of the systems that are no slower"
     )
     return (
-        f"Ratings are most accurate with {_called(accurate)}. A wrong rating is put right fastest "
-        f"by {_called(fastest)}, in {fastest.settling_mean:.1f} matches on average. Compared with "
-        f"{_called(own)} ({own.settling_mean:.1f} matches), {better}. Longer steps for newcomers "
-        f"alone ({new.system}) take {new.settling_mean:.1f} matches and leave everybody else's "
-        "rating as accurate as it is."
+        f"Ratings are most accurate with {_called(accurate)}. Wrong ratings are corrected "
+        f"fastest with {_called(fastest)}, in {fastest.settling_mean:.1f} matches on average. "
+        f"With {_called(own)} it takes {own.settling_mean:.1f} matches; {better}. Longer steps for "
+        f"newcomers alone ({new.system}) take {new.settling_mean:.1f} matches and leave everybody "
+        "else's rating as accurate as it is."
     )
 
 
@@ -202,10 +203,10 @@ def _notes(found: LadderComparison) -> Iterator[str]:
     if found.refitted is not None:
         refitted = found.refitted
         yield (
-            f"{refitted.row.system}: all ratings are fitted again every week to all results, as "
-            f"Fargo's are. Its figures come from {REFITTED_LEAGUES} simulated leagues of "
-            f"{REFITTED_PLAYERS} players, each over a year: the error is known to about "
-            f"{refitted.sd_error:.2f} points, the settling to about {refitted.settling_error:.1f} "
+            f"{refitted.row.system}: every week all ratings are fitted again to all results, as in "
+            f"Fargo. Its figures come from {REFITTED_LEAGUES} simulated leagues of "
+            f"{REFITTED_PLAYERS} players, each over a year, and are uncertain: the error by about "
+            f"{refitted.sd_error:.2f} points, the settling by about {refitted.settling_error:.1f} "
             "matches."
         )
     rising = [f"{row.system} by {row.inflation:+.2f}" for row in found.systems if row.inflation]
@@ -220,7 +221,7 @@ def _never_worth_it(steps: Sequence[str]) -> str:
     'Step 6 is never worth it: another step is both more accurate and faster.'
     """
     if not steps:
-        return "Each of these can be worth it: none is both more accurate and faster than another."
+        return "Each of these steps can be worth it: none is beaten in both accuracy and speed."
     verb = "is" if len(steps) == 1 else "are"
     return (
         f"{listed(steps).capitalize()} {verb} never worth it: another step is both more accurate "

@@ -118,7 +118,7 @@ class LadderFindings:
         """1 less the largest eigenvalue below 1; -1 is set aside."""
         from evenbreak.handicaps.ladders.mixing import ladder_gap
 
-        slow = "how fast old errors fade is left out: they fade so slowly that rounding hides it"
+        slow = "how fast old errors fade is not shown: they fade too slowly to be calculated"
         return self._unless_missing(lambda: ladder_gap(self.ladder), slow)
 
     @cached_property
@@ -126,7 +126,7 @@ class LadderFindings:
         """The matches until an error that began at `start` is within 1/4 of the long run."""
         from evenbreak.handicaps.ladders.mixing import ladder_mixing
 
-        slow = "when a start is forgotten is left out: it takes more than 100,000 matches"
+        slow = "how long the start matters is not shown: it is more than 100,000 matches"
         return self._unless_missing(lambda: ladder_mixing(self.ladder, self.question.start), slow)
 
     def _unless_missing(self, part: Callable[[], Part], why: str = "") -> Part | None:
@@ -134,5 +134,5 @@ class LadderFindings:
         try:
             return part()
         except (AccuracyError, InputError) as error:
-            self.missing.append(why or f"how soon a rating settles is left out: {error}")
+            self.missing.append(why or f"how soon a rating settles is not shown: {error}")
         return None

@@ -95,9 +95,9 @@ def _now(now: Standing, players: TwoPlayers) -> Quantities:
             Quantity(
                 "p_win_a_if_b", other, f"{a} wins the match if {b} wins the next game", chance
             ),
-            Quantity("leverage", now.leverage, "leverage of the next game: the difference", chance),
+            Quantity("leverage", now.leverage, "what the next game is worth (leverage)", chance),
             Quantity("mean_racks_left", now.mean_racks, "games left, on average", games),
-            Quantity("racks_left_p90", now.racks_p90, "9 of 10 matches end within", games),
+            Quantity("racks_left_p90", now.racks_p90, "9 out of 10 matches end within", games),
         ],
         in_json=False,
     )

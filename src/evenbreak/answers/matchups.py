@@ -45,7 +45,8 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
     >>> asked = {"scale": SCALES["npl"], "chart": chart("npl_10")}
     >>> tonight = Round(file=file, roster=club, pairs=all_pairs(club), **asked)
     >>> matchups_answer(tonight).sentences[0]
-    'Races by the chart npl_10. The race is 6:4 for Ann against Bo: Ann wins 53% of the time.'
+    'The races come from the chart npl_10. The race is 6:4 for Ann against Bo: Ann wins 53% of
+    the time.'
     """
     at_once = len(tonight.pairs) <= AT_A_TIME
     frame = tonight.matchups.frame if at_once else None
@@ -58,7 +59,7 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
         parts.append("\n".join(map(evening_words, tonight.evening)))
     parts.append(table)
     if doubtful(tonight):
-        parts.append("A wins: the chance, averaged over how far the ratings may be off.")
+        parts.append("'A wins' is averaged over how far the ratings may be off.")
     remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
     parts += ["\n".join(f"- {remark}" for remark in remarks)] if remarks else []
     return Answer(

@@ -142,7 +142,7 @@ def read_table(
     lines, first = next(parts)
     if not first:
         _add_unreadable(unreadable, problems)
-        problems.add(None, "holds no rows; write a header line, then one line for each row")
+        problems.add(None, "has no rows; write a header line, then one line for each row")
         problems.raise_any()
     titles = first[0]
     places, unused = header.places(titles, lines[0], problems)
@@ -168,7 +168,7 @@ def read_table(
 def _add_unreadable(lines: list[int], problems: Problems) -> None:
     for line in lines:
         problems.add(
-            line, 'cannot be split into cells; close every " and write "" for one in a cell'
+            line, 'has a stray quotation mark; close every " and write "" for one in a cell'
         )
 
 

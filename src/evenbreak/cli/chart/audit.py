@@ -37,7 +37,7 @@ def command(chart: str, scale: Scale | None, beside: str | None, plot: str | Non
     """Check how fair a chart is, race by race, and which ratings it was made for.
 
     NAME_OR_FILE is a chart from `evenbreak chart list` or a CSV file, which may have gaps
-    and overlaps. The plot shows the stronger player's chance over the rating difference.
+    and overlaps. The plot shows the stronger player's chance by rating difference.
     """
     from evenbreak.answers.chart_audit import chart_audit_answer, level_audit_answer
     from evenbreak.files.chart import find_chart_file

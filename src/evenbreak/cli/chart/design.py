@@ -35,8 +35,8 @@ Examples:
 def command(pareto: bool, plot: str | None, **wishes: Any) -> Answer:
     """Design the fairest chart for given ratings, within limits on its races.
 
-    Unfairness is how far the stronger player's chance is from the target. In a pipe or a
-    file the chart is a CSV file that the other commands read.
+    Unfairness is how far the stronger player's chance is from the target. Into a pipe or
+    a file the chart is written as a CSV file that the other commands read.
     """
     from evenbreak.answers.chart_design import chart_design_answer
 

@@ -38,14 +38,14 @@ def design_options(command: Command) -> Command:
             "--beside",
             metavar="NAME_OR_FILE",
             multiple=True,
-            help="A chart to compare with; may be given several times.",
+            help="A chart to compare with; can be repeated.",
         ),
         click.option(
             "--up-to",
             type=Whole(1, MOST),
             metavar="D",
-            help="The last difference that counts.  [default: where the last race of every chart "
-            "beside, or the hardest race allowed, is even]",
+            help="The last difference that counts.  [default: where the last race of each --beside "
+            "chart is even, or else the hardest race allowed]",
         ),
         click.option(
             "--rule",
@@ -109,7 +109,7 @@ def design_options(command: Command) -> Command:
             "--games-p90",
             type=Whole(1, MOST),
             metavar="K",
-            help="9 of 10 matches must end within K games, at every difference.",
+            help="9 out of 10 matches must end within K games, at every difference.",
         ),
         click.option(
             "--rows", type=Whole(1, MOST), metavar="N", help="The chart may have at most N rows."

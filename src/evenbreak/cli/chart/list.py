@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def command() -> Answer:
     """List the charts that come with evenbreak.
 
-    Each with the number of its different races, and the games of its longest match.
+    Each is shown with its number of different races and the length of its longest match.
     """
     from evenbreak.answers.chart_list import chart_list_answer
 

@@ -61,7 +61,7 @@ def _options(*, page: bool, csv: bool) -> list[Callable[[Any], Any]]:
     options = [face("text", "Print text, even into a pipe.")]
     if csv:
         options.append(face("csv", "Print CSV, even on a terminal."))
-    options.append(face("json", "Print JSON, with floats in full precision."))
+    options.append(face("json", "Print JSON, with numbers in full precision."))
     if page:
         options.append(
             click.option(
@@ -69,7 +69,7 @@ def _options(*, page: bool, csv: bool) -> list[Callable[[Any], Any]]:
                 "page_file",
                 metavar="FILE",
                 callback=page_name,
-                help="Also write the answer to FILE as a page.",
+                help="Also write the answer to FILE as a web page.",
             )
         )
     more = click.option("-v", "--verbose", is_flag=True, help="Add the statistical details.")

@@ -75,7 +75,7 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
         type=ScaleName(),
         default=without if fixed else None,
         metavar="npl|fargo|elo|POINTS",
-        help="What ratings mean: POINTS of difference double the odds of winning a game.  "
+        help="The scale of the ratings: POINTS double the odds of winning a game.  "
         f"[default: {without}]",
     )
 
@@ -102,7 +102,7 @@ def chart_option(
 aliases_option = click.option(
     "--aliases",
     metavar="ALIASES.csv",
-    help="Which names mean the same player: a file with the columns name and means.",
+    help="Names that mean the same player: a file with the columns name and means.",
 )
 """The option --aliases of every command that reads results."""
 
@@ -137,4 +137,4 @@ def which_races(command: Command) -> Command:
 def refuse_both(games: tuple[int, int] | None, race_to: int | None) -> None:
     """Refuse --games together with --race-to."""
     if games is not None and race_to is not None:
-        refuse("--games and --race-to exclude each other; leave one out")
+        refuse("--games and --race-to cannot be combined; leave one out")

@@ -30,7 +30,7 @@ def players_of(
     if ways != 1:
         refuse(("the players are given twice; " if ways else "the players are missing; ") + REMEDY)
     if scale is not None and not ratings:
-        refuse("--scale says what ratings mean, but none are given; leave it out")
+        refuse("--scale is for ratings, but none are given; leave it out")
     if by_break:
         if p1 is None or p2 is None or breaks is None:
             refuse("--p1, --p2 and --breaks go together; give all three")
@@ -57,7 +57,11 @@ def player_options(command: Command) -> Command:
             type=click.Choice(["a", "b"]),
             help="Who breaks the next game.  [default: a; b with --breaks b]",
         ),
-        click.option("--breaks", type=click.Choice(list(FORMATS)), help="Who breaks."),
+        click.option(
+            "--breaks",
+            type=click.Choice(list(FORMATS)),
+            help="Who breaks: winner, loser, in turn, or always A or B.",
+        ),
         click.option(
             "--p2", metavar="P", type=CHANCE, help="Chance that B wins a game that B breaks."
         ),

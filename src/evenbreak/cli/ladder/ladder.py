@@ -115,7 +115,7 @@ Examples:
     help="How near to the skill a rating counts as settled.  [default: a sixth of a doubling of "
     "the odds]",
 )
-@click.option("--newcomer", is_flag=True, help="Move that player by the system's newcomer steps.")
+@click.option("--newcomer", is_flag=True, help="Use the system's longer steps for newcomers.")
 @click.option("--compare", is_flag=True, help="Compare systems, charts and step sizes.")
 @plot_option
 @faces()
@@ -148,7 +148,7 @@ def _ladder(chart_name: str | None, asked: dict[str, Any]) -> tuple[Ladder, str,
     from evenbreak.handicaps.systems.catalogue import system_of
 
     if asked["system"] is not None and asked["step"] is not None:
-        refuse(f"--step {asked['step']} is a system of its own; leave --system out, or --step")
+        refuse(f"--step {asked['step']} is a system of its own; leave out --system or --step")
     if asked["matches_a_night"] is not None and not asked["day_sd"]:
         refuse("--matches-a-night is how long a night's form lasts; give --day-sd, or leave it out")
     step = asked["step"]

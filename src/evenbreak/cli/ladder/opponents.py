@@ -30,7 +30,7 @@ def opponents_of_options(asked: dict[str, Any], scale: Scale) -> Chosen:
     given = [name for name in ("autocorrelated", "equal_skill", "league") if asked[name]]
     if len(given) > 1:
         *before, last = (f"--{name.replace('_', '-')}" for name in given)
-        refuse(f"{', '.join(before)} and {last} exclude each other; keep one")
+        refuse(f"{', '.join(before)} and {last} cannot be combined; keep one")
     if asked["skill"] is not None and asked["league"] is None:
         refuse("--skill is the player's own in a league; give --league ROSTER.csv, or leave it out")
     if asked["league"] is not None:

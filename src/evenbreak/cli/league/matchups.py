@@ -63,7 +63,7 @@ Examples:
     "--starter-sd",
     metavar="POINTS",
     type=SPREAD,
-    help="How far off that may be: one standard deviation.  [default: what doubles the odds]",
+    help="How far off that may be (standard deviation).  [default: what doubles the odds]",
 )
 @click.option(
     "--minutes-per-game", metavar="MINUTES", type=MINUTES, help="Give the lengths in minutes."
@@ -94,12 +94,12 @@ def command(
     seed: int,
     html: str | None,
 ) -> Answer:
-    """Find the race for each pair of players tonight, and what it is worth.
+    """Find the race for each pair of players tonight, and who wins it how often.
 
     ROSTER.csv has a row for each player, with the columns player and rating and, if you
-    have them, standard_error and games; - is stdin. Races come from --chart, or are the
-    fairest ones with --games or --race-to, or both. Where standard errors are given, the
-    chances are averaged over what the ratings may be.
+    have them, standard_error and games; - reads standard input. Races come from --chart, are
+    the fairest ones with --games or --race-to, or both side by side. Where standard errors are
+    given, the chances are averaged over how far the ratings may be off.
     """
     from evenbreak.answers.matchups import matchups_answer
     from evenbreak.answers.offered_races import OfferedRaces
@@ -114,14 +114,14 @@ def command(
     if tables is not None and minutes_per_game is None:
         refuse("--tables needs to know how long a game takes; add --minutes-per-game, such as 8")
     if [roster, pairs, chart].count("-") > 1:
-        refuse("only one list can be on stdin; name a file for the other")
+        refuse("only one list can come from standard input; name a file for the other")
     of_league, warnings = (None, []) if chart is None else _chart(chart)
     points = _scale(chart, of_league) if scale is None else scale
     file = read_roster(roster)
     players = _with_starters(file.roster, points, starter, starter_sd)
     check_roster(file, players, of_league, points)
     if scale is None:
-        remedy = "if they are on another scale, say which with --scale"
+        remedy = "if they are on another scale, name it with --scale"
         warnings += league_doubts(points, file.roster.rating, remedy)
     if starter is None:
         warnings += starter_doubts(points, file.roster.rating)
@@ -174,11 +174,13 @@ def _with_starters(roster: Roster, scale: Scale, starter: float | None, sd: floa
     unrated = np.isnan(roster.rating)
     if unrated.any() and starter is None and scale.name not in SCALES:
         name = roster.players[int(unrated.argmax())]
-        refuse(f"{name!r} has no rating; say with --starter RATING what a new player starts with")
+        refuse(f"{name!r} has no rating; give the rating of a new player with --starter RATING")
     spread = scale.points_per_doubling if sd is None else sd
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
     if spread > most:
-        refuse(f"--starter-sd is {spread:g}, which says nothing about a player; {most:g} at most")
+        refuse(
+            f"--starter-sd is {spread:g}, which says nothing about a player; give {most:g} at most"
+        )
     return roster.with_starters(scale.centre if starter is None else starter, spread)
 
 

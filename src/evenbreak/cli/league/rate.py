@@ -48,16 +48,16 @@ Examples:
     "anchors",
     multiple=True,
     metavar="POINTS|NAME=POINTS",
-    help="The mean rating; or the rating of a named player, which may be given for several: they "
-    "then have these ratings on average.  [default: the middle of the scale]",
+    help="The mean rating, or the rating of a named player; can be repeated for several players, "
+    "who then have these ratings on average.  [default: the middle of the scale]",
 )
 @how_to_rate
 @click.option(
     "--break-advantage",
     metavar="POINTS|fit",
     type=PointsOr("fit", -1e6),
-    help="By how much the breaker of a rack plays better; fit: estimate it, where the file says "
-    "who broke.  [default: the break does not matter]",
+    help="How many points better the breaker plays; fit: estimate this, where the file says who "
+    "broke.  [default: the break does not matter]",
 )
 @click.option(
     "--pair",
@@ -65,7 +65,7 @@ Examples:
     nargs=2,
     multiple=True,
     metavar="A B",
-    help="Show how far apart two players are, and how certain that is; may be given again.",
+    help="Show how far apart two players are, and how certain that is; can be repeated.",
 )
 @click.option(
     "--system",
@@ -94,8 +94,8 @@ def command(
     """Rate players from their results, and show how certain each rating is.
 
     RESULTS.csv has one match a row, with the columns player_a, player_b, score_a and
-    score_b; or race_a, race_b and winner where no more is known; or racks. - reads
-    standard input.
+    score_b. Where the score is not known, race_a, race_b and winner will do; racks (who
+    won each rack, such as abba) can replace the score. - reads standard input.
     """
     if system is not None:
         given = [FIT_ONLY[name] for name, value in options.items() if value not in (None, ())]
@@ -157,7 +157,7 @@ def _anchor(file: ResultsFile, texts: Sequence[str]) -> float | dict[str, float]
         else:
             means.append(float(number))
     if len(means) + bool(named) > 1:
-        refuse("--anchor gives the mean once, or ratings of named players; not both")
+        refuse("--anchor gives either one mean or the ratings of named players, not both")
     return named or (means[0] if means else None)
 
 

@@ -54,8 +54,8 @@ def prior_option(default: str) -> Decorator[Any]:
         "--prior",
         metavar="POINTS|best",
         type=PointsOr("best", 0.0),
-        help="How far apart players are assumed to be before any result: the standard deviation; "
-        f"best: the one that predicts best.  [default: {default}]",
+        help="How far apart players are assumed to be before any result (standard deviation); "
+        f"best: the value that predicts best.  [default: {default}]",
     )
 
 
@@ -63,7 +63,7 @@ half_life_option = click.option(
     "--half-life",
     metavar="DAYS",
     type=DAYS,
-    help="A match counts half after so many days.  [default: it always counts in full]",
+    help="After this many days a match counts half.  [default: it always counts in full]",
 )
 
 
@@ -74,7 +74,7 @@ def how_to_rate(command: Command) -> Command:
             "--as-of",
             metavar="DATE",
             type=Day(),
-            help="Rate as of this day: leave later matches out.  [default: the last date]",
+            help="Rate as of this day, without later matches.  [default: the last date]",
         ),
         half_life_option,
         prior_option("what doubles the odds"),

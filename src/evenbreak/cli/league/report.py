@@ -50,7 +50,7 @@ Examples:
     "--players",
     multiple=True,
     metavar="NAMES",
-    help="The players to pair: names separated by commas; may be given again.",
+    help="The players to pair, separated by commas; can be repeated.",
 )
 @click.option(
     "--top",
@@ -63,9 +63,7 @@ Examples:
     "--html", is_flag=True, help="Also write sheet.html, one file for phones, screens and printers."
 )
 @click.option("--excel", is_flag=True, help="Also write sheet.xlsx, a workbook of all tables.")
-@click.option(
-    "--excel-csv", is_flag=True, help="Write the CSV files as Excel likes them: BOM and CRLF."
-)
+@click.option("--excel-csv", is_flag=True, help="Write the CSV files for Excel, with BOM and CRLF.")
 @faces(page=False, always_text=True)
 def command(
     results: str,
@@ -86,15 +84,15 @@ def command(
     """Make the fair-race sheet of a league from its results file.
 
     RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a,
-    score_b and, if you like, date, race_a, race_b, winner, first_break, break_format,
-    racks, event and forfeit; - reads standard input. The sheet says how strong each
-    player is and which race is nearest to even for each pair: races to 7, unless --games
-    or --race-to says otherwise. The sheet is printed, and sheet.pdf has it for the wall;
+    score_b and, if known, date, race_a, race_b, winner, first_break, break_format,
+    racks, event and forfeit; - reads standard input. The sheet gives the rating
+    of each player and the race nearest to even for each pair, a race to 7 unless --games
+    or --race-to says otherwise. The sheet is printed here, and sheet.pdf is for the wall;
     --html adds a page to hand out, --excel a workbook.
     """
     refuse_both(games, race_to)
     if players and top is not None:
-        refuse("--players and --top exclude each other; leave one out")
+        refuse("--players and --top cannot be combined; leave one out")
     if not out.strip():
         refuse("--out is empty; name a folder, or . for this one")
     if excel:

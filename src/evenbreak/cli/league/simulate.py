@@ -50,7 +50,7 @@ Examples:
     required=True,
     metavar="DIR",
     type=click.Path(file_okay=False),
-    help="The folder for the tables and pictures; it is made if it does not exist.",
+    help="The folder for the tables and pictures; created if needed.",
 )
 @system_option()
 @scale_option("the system's", fixed=False)
@@ -106,13 +106,13 @@ Examples:
     default=1,
     show_default=True,
     metavar="J",
-    help="How many processes work at a time; the answer does not depend on it.",
+    help="How many processes work at a time; the answer is the same.",
 )
 @click.option(
     "--dask",
     "cluster",
     metavar="ADDRESS",
-    help="Work on the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
+    help="Use the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
 )
 @click.option("--no-matches", is_flag=True, help="Do not write matches.csv and truth.csv.")
 @faces()
@@ -126,7 +126,7 @@ def command(
     no_matches: bool,
     **played: Any,
 ) -> Answer:
-    """Simulate a league's season many times: how accurate, how fair, who gains.
+    """Simulate a season many times: how accurate ratings are, how fair matches, who gains.
 
     ROSTER.csv has one player per row, with the columns player and rating and, optionally,
     standard_error, matches, skill, day_sd, drift, joins, leaves and absence; - reads standard

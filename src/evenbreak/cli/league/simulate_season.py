@@ -27,11 +27,11 @@ def refuse_contradictions(
     }
     chosen = [name for name, given in ways.items() if given]
     if len(chosen) > 1:
-        refuse(f"{' and '.join(chosen)} exclude each other; leave all but one out")
+        refuse(f"{' and '.join(chosen)} cannot be combined; leave all but one out")
     if ways["--schedule"] and played["matches"] is not None:
-        refuse("--schedule and --matches exclude each other; the schedule sets the matches")
+        refuse("--schedule and --matches cannot be combined; the schedule sets the matches")
     if cluster is not None and jobs > 1:
-        refuse("--dask and --jobs exclude each other; the cluster has workers of its own")
+        refuse("--dask and --jobs cannot be combined; the cluster has workers of its own")
     if cluster is not None and not cluster.strip():
         refuse("--dask is empty; give the scheduler's address, such as tcp://10.0.0.5:8786")
     if not out.strip():

@@ -43,7 +43,7 @@ def command(
 ) -> Answer:
     """Find out whether the ratings of a league can be trusted.
 
-    RESULTS.csv is a file as for rate, with dates; - reads standard input. Each date is
+    RESULTS.csv is a file as for `rate`, with dates; - reads standard input. Each date is
     predicted from the results of earlier dates alone, and then compared with what happened.
     """
     from evenbreak.answers.validate import validate_answer

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 HIGHEST = 1_000_000
 """The highest stake."""
 
-STAKE = Number(0, HIGHEST, f" is no stake; give a number from 0 to {HIGHEST}")
+STAKE = Number(0, HIGHEST, f" is not a stake; give a number from 0 to {HIGHEST}")
 
 EXAMPLES = """\b
 Examples:
@@ -37,7 +37,7 @@ Examples:
     type=STAKE,
     default="1",
     show_default=True,
-    help="The points that A gains with each rack won.",
+    help="What A wins for each rack won.",
 )
 @click.option(
     "--lose",
@@ -45,7 +45,7 @@ Examples:
     type=STAKE,
     default="1",
     show_default=True,
-    help="The points that A loses with each rack lost.",
+    help="What A pays for each rack lost.",
 )
 @click.option(
     "--first-break",

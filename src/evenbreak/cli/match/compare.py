@@ -66,11 +66,11 @@ class CompareCommand(PlainCommand):
 @plot_option
 @faces()
 def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) -> Answer:
-    """Compare match formats for two players: which is better for whom, and at what strength.
+    """Compare match formats for two players: which is better for whom.
 
     A FORMAT is 9:5 (A needs 9 games, B needs 5), "7:7 win by 2", "ahead 5:3" or
-    "3:1 of 3:3" (sets), and may end in a break format, such as "winner breaks". The
-    players: two ratings A B; or --p; or --p1, --p2 and --breaks.
+    "3:1 of 3:3" (sets), and may end in a break format, such as "winner breaks".
+    Describe the players by two ratings A B, by --p, or by --p1, --p2 and --breaks.
     """
     from evenbreak.answers.compare import Compared, compare_answer
     from evenbreak.matches.crossings import crossings, even_probability
@@ -114,7 +114,7 @@ def _read(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
     if not texts:
         refuse('the formats are missing; give some, such as 9:5 "3:1 of 3:3" "ahead 5:3"')
     if len(texts) > MOST_FORMATS:
-        refuse(f"{len(texts)} formats are given; compare {MOST_FORMATS} at the most")
+        refuse(f"{len(texts)} formats are given; compare {MOST_FORMATS} at most")
     read = [match_format(text) for text in texts]
     for played in read:
         kinds = [played]
@@ -133,8 +133,8 @@ def _read(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
             scores = kind.scores // (kind.set_.scores if kind.set_ else 1)
             if scores > most:
                 refuse(
-                    f"{str(played)!r} has a part with about {scores:,} scores; compare such "
-                    f"matches with {most:,} at the most, or ask evenbreak odds for one"
+                    f"{str(played)!r} has a part with about {scores:,} scores, and {most:,} are "
+                    "the most that can be compared here; use evenbreak odds for such a match"
                 )
     return read
 

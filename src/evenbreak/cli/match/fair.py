@@ -34,7 +34,7 @@ Examples:
     type=CHANCE,
     default=0.5,
     show_default=True,
-    help="The chance that A should have to win the match.",
+    help="The chance of winning that A should have.",
 )
 @click.option(
     "--top",

@@ -66,10 +66,10 @@ def command(
     plot: str | None,
     **who: Any,
 ) -> Answer:
-    """Follow a match under way: the odds now, what the next game is worth, how it went.
+    """Follow a match under way: the odds now, the worth of the next game, the turning point.
 
-    The players and the match: as for odds. The score: --racks, or --score, or both, the
-    racks then being those played since that score.
+    Describe the players and the match as for `odds`, and the score by --racks, by --score,
+    or by both: the racks are then those played since that score.
     """
     from evenbreak.answers.live import live_answer
     from evenbreak.matches.live import live_odds
@@ -77,7 +77,7 @@ def command(
     players = players_of(**who)
     match = match_of(players, race=race, ahead=ahead, set_=set_, score=score, win_by=win_by)
     if set_score is not None and set_ is None:
-        refuse("--set-score is the score of a set, and there is no --set; leave it out")
+        refuse("--set-score is the score of a set, but there is no --set; leave it out")
     if plot is not None and not racks:
         refuse("--plot draws the match as it went; give --racks, such as abbab")
     refuse_giants(match)

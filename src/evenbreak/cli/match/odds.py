@@ -37,8 +37,8 @@ def command(
 ) -> Answer:
     """Give the odds of a match, and how long it lasts.
 
-    The players: two ratings A B; or --p; or --p1, --p2 and --breaks. The match: --race or
-    --ahead, perhaps in sets.
+    Describe the players by two ratings A B, by --p, or by --p1, --p2 and --breaks; the match
+    by --race or --ahead, perhaps in sets.
     """
     from evenbreak.answers.odds import odds_answer
 

@@ -51,7 +51,7 @@ class TwoChances(click.ParamType):  # type: ignore[type-arg]
     metavar="P1:P2",
     multiple=True,
     type=TwoChances(),
-    help="Another shot to choose from; may be given more than once.",
+    help="Another shot to choose from; can be repeated.",
 )
 @click.option(
     "--look-ahead",

@@ -15,7 +15,7 @@ from evenbreak.cli.kit.values import CHANCE, MOST_BALLS, PAIR, Number, refuse
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
 
-AVERAGE = Number(0, MOST_BALLS, f" is no average; give balls an inning from 0 to {MOST_BALLS}")
+AVERAGE = Number(0, MOST_BALLS, f" is not an average; give balls an inning from 0 to {MOST_BALLS}")
 REMEDY = "give two averages A B, or --p1 and --p2"
 
 EXAMPLES = """\b
@@ -59,7 +59,7 @@ def command(
 ) -> Answer:
     """Give the odds of a match of 14.1 straight pool, and the spot that makes it even.
 
-    The players: the balls that A and B average an inning; or --p1 and --p2.
+    Describe the players by the balls that A and B average an inning, or by --p1 and --p2.
     """
     from evenbreak.answers.straight import straight_answer
     from evenbreak.matches.straight_pool import StraightPool

@@ -65,9 +65,9 @@ def match_of(
 ) -> Match:
     """Return the match that the options describe, or refuse what contradicts itself."""
     if race is not None and ahead is not None:
-        refuse("--race and --ahead exclude each other; leave one out")
+        refuse("--race and --ahead cannot be combined; leave one out")
     if win_by is not None and (ahead or set_):
-        refuse(f"--win-by does not combine with {'--ahead' if ahead else '--set'}; leave it out")
+        refuse(f"--win-by cannot be combined with {'--ahead' if ahead else '--set'}; leave it out")
     rack: Any = players.rack
     breaks, first = players.break_format, players.first_breaker
     start = score or (0, 0)

@@ -35,7 +35,7 @@ Examples:
 @metric_option
 @faces()
 def command(forearm: float, ball: float | None, stick: float | None, units: Units) -> Answer:
-    """Find which cue breaks best for an arm.
+    """Find the weight of the cue that breaks best.
 
     The best cue passes the largest share of the stroke's energy, that of arm and cue
     together, on to the cue ball. The forearm is taken as a uniform rod swinging from the elbow.

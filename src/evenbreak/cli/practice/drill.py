@@ -56,7 +56,10 @@ def _chances(numbers: tuple[float, ...]) -> bool:
 
 @click.command("drill", epilog=EXAMPLES)
 @click.option(
-    "--p", metavar="P", type=CHANCE, help="The chance of a shot; level i takes i - 1 of them."
+    "--p",
+    metavar="P",
+    type=CHANCE,
+    help="The chance of making a shot; level i takes i - 1 in a row.",
 )
 @click.option(
     "--success",
@@ -64,7 +67,7 @@ def _chances(numbers: tuple[float, ...]) -> bool:
     type=Chances(),
     help="Or the chance of success at each level.",
 )
-@click.option("--log", metavar="LOG.csv", help="Or a log of attempts; - is stdin.")
+@click.option("--log", metavar="LOG.csv", help="Or a log of attempts; - reads standard input.")
 @click.option(
     "--levels",
     type=Whole(1, MOST_LEVELS),
@@ -94,7 +97,7 @@ def command(
     if there are several sessions.
     """
     if sum(which is not None for which in (p, success, log)) != 1:
-        refuse("give one of --p, --success and --log")
+        refuse("give exactly one of --p, --success and --log")
     if success is not None and levels is not None:
         refuse("--success already says how many levels there are; leave --levels out")
     if log is None and seed is not None:

@@ -53,7 +53,7 @@ Examples:
 
 @click.command("runs", epilog=EXAMPLES)
 @click.option(
-    "--mean", metavar="BALLS", type=AVERAGE, help="The player's average, balls an inning."
+    "--mean", metavar="BALLS", type=AVERAGE, help="The player's average, in balls an inning."
 )
 @click.option("--p", metavar="P", type=CHANCE, help="Or the chance that the player makes a shot.")
 @safety_option
@@ -63,7 +63,7 @@ Examples:
     metavar="M",
     default=1,
     show_default=True,
-    help="The score of M innings instead of the run of one.",
+    help="Give the score of M innings instead of the run in one.",
 )
 @click.option("--at-least", type=Whole(0, MOST_BALLS), metavar="N", help="The chance of N or more.")
 @click.option("--between", metavar="LO..HI", type=BallRange(), help="The chance of LO to HI.")
@@ -80,14 +80,14 @@ def command(
     over: float | None,
     plot: str | None,
 ) -> Answer:
-    """Find how long a player's runs are, and what the innings of a match bring.
+    """Find how long a player's runs are, and what several innings score.
 
-    The player: --mean, or --p.
+    Describe the player by --mean or by --p.
     """
     from evenbreak.answers.runs import Asked, runs_answer
 
     if (mean is None) == (p is None):
-        refuse("give one of --mean and --p, and not both")
+        refuse("give either --mean or --p")
     law, asked = _law(mean, p, safety, innings), Asked(at_least, between, over)
     if plot is not None:
         from evenbreak.plots.runs import plot_score

@@ -58,7 +58,7 @@ Examples:
     default="10",
     show_default=True,
     metavar="X",
-    help="What a match won in earnest is worth more than one lost.",
+    help="What winning a match in earnest is worth.",
 )
 @click.option(
     "--dumped-stake",
@@ -66,7 +66,7 @@ Examples:
     default="1",
     show_default=True,
     metavar="X",
-    help="The same for the matches that are dumped.",
+    help="What winning one of the dumped matches would be worth.",
 )
 @click.option(
     "--in-a-row",
@@ -91,7 +91,7 @@ Examples:
     default=0,
     show_default=True,
     metavar="ERROR",
-    help="The rating less the skill before, in points.",
+    help="How far the rating is above the skill at first, in points.",
 )
 @click.option("--compare", is_flag=True, help="Compare the charts of the system.")
 @plot_option
@@ -102,7 +102,7 @@ def command(
     """Show what it pays to lose matches on purpose.
 
     Opponents are as good as the player and correctly rated. The player loses up to D matches
-    on purpose, then plays E in earnest while the rating climbs back. All of it is exact.
+    on purpose, then plays E in earnest while the rating climbs back. Nothing is simulated.
     """
     from evenbreak.answers.sandbag_pay import (
         PayQuestion,

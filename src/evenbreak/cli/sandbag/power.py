@@ -54,8 +54,8 @@ Examples:
     "--points",
     type=Whole(1, 500),
     metavar="D",
-    help="With --share: how far below their skill players play those.  [default: they lose them "
-    "all, with scores of honest defeats]",
+    help="With --share: how far below their skill they play in the dumped matches.  [default: they "
+    "lose them all, with the scores of honest defeats]",
 )
 @click.option(
     "--matches",
@@ -69,7 +69,7 @@ Examples:
     "--marked",
     metavar="P",
     type=between(0.01, 1.0),
-    help="The share of the matches known to be those that may be dumped; S is then a share of "
+    help="The share of the matches that count for little and may be dumped; S is then a share of "
     "these.  [default: any match may be]",
 )
 @watch_options
@@ -95,8 +95,8 @@ def command(
 ) -> Answer:
     """Show how soon the watch flags a sandbagger.
 
-    Players who sandbag more or less are simulated and watched. At the start their ratings are
-    as far off as the ladder's are in the long run.
+    Players who dump different shares of their matches are simulated and watched. At the start
+    their ratings are as far off as ratings are in the long run.
     """
     from evenbreak.answers.sandbag_power import sandbag_power_answer
     from evenbreak.league.sandbag_power import watch_power

@@ -41,9 +41,11 @@ Examples:
     "events",
     multiple=True,
     metavar="EVENT",
-    help="An event that counts for little: only its matches may be dumped. Can be repeated.",
+    help="An event that counts for little: only in it are matches dumped. Can be repeated.",
 )
-@click.option("--player", metavar="NAME", help="Show what each match of one player weighs.")
+@click.option(
+    "--player", metavar="NAME", help="Show what each match of one player adds to the evidence."
+)
 @aliases_option
 @plot_option
 @faces()
@@ -63,10 +65,10 @@ def command(
 ) -> Answer:
     """Check the results of a league for sandbagging.
 
-    RESULTS.csv is the file that `report` reads; - is stdin. The ratings of ROSTER.csv are
-    moved night by night. The evidence against a player grows with results that are likelier
-    from a sandbagger than from an honest player; at 1 / alpha the player is flagged. It is
-    evidence, not a verdict.
+    RESULTS.csv is a file as for `report`; - reads standard input. The ratings of ROSTER.csv
+    are updated night by night. The evidence against a player grows with results that are
+    likelier from a sandbagger than from an honest player; at 1 / alpha the player is flagged.
+    It is evidence, not a verdict.
     """
     from evenbreak.answers.sandbag_watch import sandbag_player_answer, sandbag_watch_answer
     from evenbreak.answers.scale_doubts import league_doubts
