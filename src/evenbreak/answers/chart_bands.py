@@ -1,7 +1,5 @@
 """The chart by rating difference that the fairest races come to."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 

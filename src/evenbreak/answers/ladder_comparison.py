@@ -1,19 +1,15 @@
 """Handicap systems side by side: how accurate, how fast, how fair, and which step is worth it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from evenbreak.answers.answer import Answer, Column, Part, Table
 from evenbreak.answers.ladder import OPPONENTS
 from evenbreak.answers.wording import decimals, listed
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.ladders.comparison import SystemRow
-    from evenbreak.handicaps.ladders.opponents import Opponents
-    from evenbreak.league.reestimate import Reestimated
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.ladders.comparison import SystemRow
+from evenbreak.handicaps.ladders.opponents import Opponents
+from evenbreak.league.reestimate import Reestimated
 
 OTHERS = ("margin 2", "elo 4", "elo 16", "fixed 9")
 """The other systems; those without a printed chart are played by a chart of their own."""

@@ -1,19 +1,14 @@
 """What one ladder says, each quantity worked out once, when it is first needed."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 from evenbreak.errors import AccuracyError, InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from evenbreak.handicaps.ladders.inflation import NewcomerInflation
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.ladders.settling import Settling
-    from evenbreak.stats.summary import Distribution
+from evenbreak.handicaps.ladders.inflation import NewcomerInflation
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.settling import Settling
+from evenbreak.stats.summary import Distribution
 
 Part = TypeVar("Part")
 

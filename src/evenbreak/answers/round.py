@@ -1,7 +1,5 @@
 """The races of a round: who meets whom, what they may play, and when it is all over."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property

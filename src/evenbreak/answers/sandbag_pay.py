@@ -1,19 +1,15 @@
 """What it pays to lose matches on purpose: by matches dumped, in cycles, and by chart."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.wording import chance, count_of, decimals, percent
 from evenbreak.errors import InputError
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.league.dump_cycle import DumpCycle
-    from evenbreak.league.sandbag_pay import DumpRow, Sandbagging
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.league.dump_cycle import DumpCycle
+from evenbreak.league.sandbag_pay import DumpRow, Sandbagging
 
 CYCLE = 10
 """The matches of the cycles of dumping and playing in earnest that are looked at."""

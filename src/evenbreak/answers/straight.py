@@ -1,17 +1,9 @@
 """A match of straight pool: who wins it, how long it takes, and the spot that makes it even."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from evenbreak.answers.answer import Answer, Quantities, Quantity
 from evenbreak.answers.wording import chance, count_of, games, percent
-from evenbreak.matches.straight_pool import straight_pool_odds
-from evenbreak.matches.straight_pool_spot import even_spot
-
-if TYPE_CHECKING:
-    from evenbreak.matches.straight_pool import StraightPool, StraightPoolOdds
-    from evenbreak.matches.straight_pool_spot import Spot
+from evenbreak.matches.straight_pool import StraightPool, StraightPoolOdds, straight_pool_odds
+from evenbreak.matches.straight_pool_spot import Spot, even_spot
 
 
 def straight_answer(match: StraightPool, averages: tuple[float, float] | None = None) -> Answer:

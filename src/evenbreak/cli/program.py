@@ -1,7 +1,5 @@
 """The program `evenbreak`: its list of commands, and how one of them is run."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from typing import Any

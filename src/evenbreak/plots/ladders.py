@@ -1,21 +1,16 @@
 """Pictures of a ladder: how far off ratings are, how fast they settle, what a step costs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from evenbreak.plots.style import LINES, new_axes, unit_axis
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from evenbreak.stats.summary import Distribution
+from evenbreak.stats.summary import Distribution
 
 _SHOWN = 1e-3
 """Errors rarer than this share of the most frequent one are beyond the edge of the picture."""
@@ -100,8 +95,6 @@ def ladder_figure(
     >>> figure.axes[0].get_xlabel()
     'rating error: rating less skill (points)'
     """
-    from matplotlib.figure import Figure
-
     width = 6.4 if curve is None else 10.6
     figure = Figure(figsize=(width, 4.4), layout="constrained")
     panels = figure.subplots(1, 1 if curve is None else 2, squeeze=False)[0]

@@ -1,22 +1,16 @@
 """Plots of practice scores: one list over time, or two side by side."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
+from evenbreak.files.scores import ScoresFile
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from numpy.typing import NDArray
-
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.confidence import MeanInterval
+from evenbreak.stats.confidence import MeanInterval
 
 BAND = "0.85"
 STEP = 0.08

@@ -1,19 +1,15 @@
 """Pictures of a score, with its mean, median and mode, and of the spot in straight pool."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
+import numpy as np
+from matplotlib.figure import Figure
+
+from evenbreak.matches.straight_pool import StraightPool
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.matches.straight_pool import StraightPool
-    from evenbreak.stats.innings import InningsScore
-    from evenbreak.stats.runs import RunLength
+from evenbreak.stats.innings import InningsScore
+from evenbreak.stats.runs import RunLength
 
 _SHOWN = (0.001, 0.995)
 """The quantiles between which scores are drawn."""
@@ -48,8 +44,6 @@ def plot_score(
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     ['mean 9', 'median 6', 'mode 0']
     """
-    import numpy as np
-
     low, high = (law.quantile(q) for q in _SHOWN)
     scores = np.arange(low, high + 1)
     chances = law.probability(scores)
@@ -96,8 +90,6 @@ def plot_spot(match: StraightPool) -> Figure:
     >>> figure.axes[0].get_xlabel()
     'points that B needs'
     """
-    import numpy as np
-
     from evenbreak.matches.straight_pool import straight_pool_odds
     from evenbreak.matches.straight_pool_spot import even_spot
 

@@ -1,17 +1,11 @@
 """Pictures of simulated seasons: ratings by week, wins by gap of skill, spread of the standings."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
 
 from evenbreak.files.problems import printable
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    import pandas as pd
-    from matplotlib.figure import Figure
 
 MOST_PLAYERS = 40
 """How many players of the standings are drawn: the first half and the last half of them."""

@@ -1,11 +1,10 @@
 """The races of a round as one HTML file: for the wall, a phone and a screen reader."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from evenbreak.answers.remarks import warnings_of
 from evenbreak.answers.report_frames import file_name
@@ -28,9 +27,6 @@ from evenbreak.files.csv_writer import rows_of
 from evenbreak.sheets.html_page import html_page
 from evenbreak.sheets.race_blocks import Block, RaceCard, race_blocks, race_cards
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, player_lines
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MOST_ACROSS = 48
 """The most players whose races against each other stand on a page."""
@@ -142,8 +138,6 @@ def _check(tonight: Round, players: int) -> None:
 
 def _rated(tonight: Round) -> pd.DataFrame:
     """Return the players who are on the page, the strongest first."""
-    import pandas as pd
-
     roster = tonight.roster
     here = np.unique(tonight.pairs)
     order = here[np.argsort(-roster.rating[here], kind="stable")]

@@ -6,15 +6,16 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import scale_option
 from evenbreak.cli.kit.plot import plot_option_for, write_plot
 from evenbreak.cli.kit.values import refuse
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.handicaps.charts.audit import ChartAudit
-    from evenbreak.ratings.scale import Scale
+
 
 SAME_SCALE = 0.1
 """Charts whose scales differ by a smaller share are drawn on the same scale."""

@@ -12,11 +12,12 @@ import click
 from evenbreak.cli.kit.options import Command, scale_option
 from evenbreak.cli.kit.values import CHANCE, PAIR, SPAN, Number, Whole, refuse
 from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     from evenbreak.answers.chart_design import DesignTask
     from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.ratings.scale import Scale
+
 
 MOST = 1_000_000
 """The largest number of rows, games or points that an option can have."""

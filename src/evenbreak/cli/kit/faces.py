@@ -1,18 +1,14 @@
 """How a command's answer is printed: text on a terminal, CSV into a pipe, JSON or HTML if asked."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import update_wrapper
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.terminal import say, to_terminal, write
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 Function = Callable[..., "Answer"]
 

@@ -1,17 +1,13 @@
 """Options shared by several commands, each declared once, and commands that take ratings."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import click
 
 from evenbreak.cli.kit.values import CHANCE, LONGEST, NUMBER, SPAN, Whole, meant, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import Scale
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Decorator = Callable[[Command], Command]

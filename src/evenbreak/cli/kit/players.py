@@ -1,7 +1,5 @@
 """Who plays: two ratings, one game probability, or one for each breaker with a break format."""
 
-from __future__ import annotations
-
 import math
 
 import click

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.cli.kit.options import Command
 from evenbreak.cli.kit.terminal import say
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from evenbreak.cli.kit.options import Command
 
 KINDS = (".png", ".svg")
 

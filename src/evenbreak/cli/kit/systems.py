@@ -8,11 +8,12 @@ import click
 
 from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.values import refuse
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.charts.chart import Chart
     from evenbreak.handicaps.systems.system import System
-    from evenbreak.ratings.scale import Scale
+
 
 SCALE_OFF = 0.25
 """How much the scale that a chart fits best may differ from the system's without a warning."""

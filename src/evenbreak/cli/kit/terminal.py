@@ -1,7 +1,5 @@
 """The two streams of a command: the answer on stdout, everything else on stderr."""
 
-from __future__ import annotations
-
 import sys
 
 import click

@@ -3,8 +3,6 @@
 Each is a click type: it returns the value of a text, or says how to write it.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from typing import Any, NoReturn

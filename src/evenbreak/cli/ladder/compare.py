@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.plot import write_plot
 from evenbreak.cli.kit.systems import chart_for
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.ladder.opponents import opponents_of_options, why_no_long_run
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.answers.ladder_comparison import LadderComparison
+
 
 ALLOWED = ("autocorrelated", "equal_skill", "league", "skill")
 """The options that --compare goes with, besides --chart and --plot."""

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.ladder_findings import LadderFindings, LadderQuestion
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -16,10 +18,9 @@ from evenbreak.cli.kit.values import Number, Whole, refuse
 from evenbreak.cli.ladder.opponents import opponents_of_options, why_no_long_run
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.ladder_findings import LadderFindings, LadderQuestion
     from evenbreak.handicaps.ladders.ladder import Ladder
     from evenbreak.handicaps.systems.system import System
+
 
 LARGEST = 10_000
 """The largest error that can be typed, in points; a ladder says where it ends itself."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from evenbreak.cli.kit.values import refuse
+from evenbreak.errors import AccuracyError
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.errors import AccuracyError
     from evenbreak.handicaps.ladders.opponents import Opponents
-    from evenbreak.ratings.scale import Scale
+
 
 MOST_APART = 20.0
 """Doublings of the odds that an opponent may be from the player: a game in a million."""

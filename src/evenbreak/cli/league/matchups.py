@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.scale_doubts import league_doubts
 from evenbreak.cli.kit.faces import faces, page_name
 from evenbreak.cli.kit.options import (
@@ -17,14 +18,14 @@ from evenbreak.cli.kit.options import (
 )
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import Number, Whole, refuse
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.answers.answer import Answer
     from evenbreak.answers.round import AnyChart, Round
     from evenbreak.ratings.roster import Roster
-    from evenbreak.ratings.scale import Scale
+
 
 MOST_PAIRS = 1_000_000
 """The most pairs that are written to a file: about a minute and 200 MB."""

@@ -8,17 +8,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, chart_option, scale_option
 from evenbreak.cli.kit.values import NUMBER, refuse
 from evenbreak.cli.league.rate_options import PointsOr, how_to_rate, rated
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.results import Results
-    from evenbreak.ratings.scale import Scale
+
 
 FIT_ONLY = {
     "anchors": "--anchor",

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.cli.kit.options import Command, Decorator
 from evenbreak.cli.kit.values import Number, refuse
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.cli.kit.options import Command, Decorator
     from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
-    from evenbreak.ratings.scale import Scale
 
 
 class PointsOr(Number):

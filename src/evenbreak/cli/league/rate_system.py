@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import DataError, InputError
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.handicaps.charts.chart import Chart
 
 

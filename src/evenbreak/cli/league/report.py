@@ -9,17 +9,18 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, refuse_both, scale_option, which_races
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.league.rate_options import how_to_rate, rated
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.answers.sheet import Sheet
     from evenbreak.files.results import ResultsFile
-    from evenbreak.ratings.scale import Scale
+
 
 TOP, MOST_PAIRED = 10, 1000
 RACE_TO = 7

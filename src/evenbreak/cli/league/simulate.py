@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option, seed_option
 from evenbreak.cli.kit.progress import Progress
@@ -22,10 +23,10 @@ from evenbreak.cli.league.simulate_season import (
 )
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.answers.season_tables import SeasonTables
     from evenbreak.league.season import Season
     from evenbreak.league.tally import Tally
+
 
 MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
 

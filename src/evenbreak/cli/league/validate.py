@@ -1,19 +1,13 @@
 """`evenbreak validate`: whether a league can trust its ratings."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, scale_option, seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.league.rate_options import half_life_option, prior_in_log_odds, prior_option
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import Scale
 
 EXAMPLES = """\b
 Examples:

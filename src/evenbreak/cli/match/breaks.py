@@ -1,19 +1,13 @@
 """`evenbreak breaks`: what each break format is worth to two players in the long run."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, Number
 from evenbreak.games.rack import Rack
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 HIGHEST = 1_000_000
 """The highest stake."""

@@ -1,23 +1,19 @@
 """`evenbreak compare`: match formats side by side, for the same two players."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.players import player_options, players_of
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import NUMBER, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.matches.formats import MatchFormat
+from evenbreak.matches.formats import MatchFormat
 
 MOST_FORMATS = 7
 """As many formats as a picture has lines for."""

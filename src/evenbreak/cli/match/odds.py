@@ -1,18 +1,14 @@
 """`evenbreak odds`: the odds of a match, and how long it lasts."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.players import player_options, players_of
 from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 EXAMPLES = """\b
 Examples:

@@ -1,19 +1,15 @@
 """`evenbreak oneball`: which shot to take."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, NUMBER
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 LOOK_AHEADS = {"infinite": "infinite", "two": "two shots"}
 

@@ -1,19 +1,14 @@
 """`evenbreak straight`: a match of 14.1 straight pool, and its spot."""
 
-from __future__ import annotations
-
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand, safety_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, MOST_BALLS, PAIR, Number, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 AVERAGE = Number(0, MOST_BALLS, f" is no average; give balls an inning from 0 to {MOST_BALLS}")
 REMEDY = "give two averages A B, or --p1 and --p2"

@@ -1,18 +1,14 @@
 """The match: a race or n-ahead, perhaps in sets, perhaps from a score on."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.two_players import TwoPlayers
+from evenbreak.cli.kit.options import Command
 from evenbreak.cli.kit.values import LONGEST, PAIR, SCORE, Whole, refuse
+from evenbreak.games.match import Match
 from evenbreak.games.race import Race
-
-if TYPE_CHECKING:
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.cli.kit.options import Command
-    from evenbreak.games.match import Match
 
 MOST_SCORES = 10_000
 """The most scores that a match may still come to, so that every answer takes seconds."""

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.shot_units import Units
+from evenbreak.cli.kit.options import Command
 from evenbreak.cli.physics.measures import WEIGHT, Measure
 
 if TYPE_CHECKING:
-    from evenbreak.answers.shot_units import Units
-    from evenbreak.cli.kit.options import Command
     from evenbreak.physics import Ball, Cue
 
 ball_option = click.option("--ball", type=WEIGHT, help="Weight of a ball.  [default: 6 ounces]")

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.cli.kit.options import Command
 from evenbreak.cli.physics.measures import CUT, FRICTION, OFFSET, SPIN
 
 if TYPE_CHECKING:
     from evenbreak.answers.hit import Hit
-    from evenbreak.cli.kit.options import Command
+
 
 _FRICTION = (
     click.option(

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.values import refuse
 
 if TYPE_CHECKING:
-    from evenbreak.answers.shot_units import Units
     from evenbreak.physics import AimedShot, Pocket, PoolTable, Shot, Strike
 
 Place = tuple[float, float]

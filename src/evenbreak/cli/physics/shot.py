@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import NUMBER, refuse
@@ -18,8 +20,6 @@ from evenbreak.cli.physics.layout import layout_of, traced_shot
 from evenbreak.cli.physics.measures import LENGTH, Measure, metric_option
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.shot_units import Units
     from evenbreak.physics import Strike
 
 EXAMPLES = """\b

@@ -1,17 +1,13 @@
 """`evenbreak drill`: where a progressive drill settles, and what to practise."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, NUMBER, Whole, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 MOST_LEVELS = 100
 LEVELS = 9

@@ -7,15 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import safety_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, LONGEST, MOST_BALLS, Number, Whole, refuse
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.stats.innings import InningsScore
     from evenbreak.stats.runs import RunLength
+
 
 AVERAGE = Number(0, MOST_BALLS, f"; give a number of balls an inning from 0 to {MOST_BALLS}")
 LINE = Number(0, MOST_BALLS, f"; give a number of balls from 0 to {MOST_BALLS}, such as 20 or 20.5")

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.cli.kit.options import Command
 from evenbreak.cli.kit.systems import chart_for
 from evenbreak.cli.kit.values import Number, refuse
 
 if TYPE_CHECKING:
-    from evenbreak.cli.kit.options import Command
     from evenbreak.handicaps.ladders.ladder import Ladder
     from evenbreak.handicaps.systems.system import System
 

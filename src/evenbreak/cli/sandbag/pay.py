@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -14,10 +15,10 @@ from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.sandbag.options import between
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.handicaps.charts.chart import Chart
     from evenbreak.handicaps.ladders.ladder import Ladder
     from evenbreak.handicaps.systems.system import System
+
 
 DOUBLINGS = 4
 """How far off a rating may be: to where the odds of a game are 16 to 1."""

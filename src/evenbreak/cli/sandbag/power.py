@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, seed_option
 from evenbreak.cli.kit.progress import Progress
@@ -14,8 +15,8 @@ from evenbreak.cli.kit.values import CHANCE, Whole, refuse
 from evenbreak.cli.sandbag.options import between, watch_options, watched_ladder
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.handicaps.systems.system import System
+
 
 Kind = tuple[float, int | None]
 

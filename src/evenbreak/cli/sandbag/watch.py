@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, chart_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -14,8 +15,8 @@ from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.sandbag.options import watch_options, watched_ladder
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.handicaps.systems.system import System
+
 
 EXAMPLES = """\b
 Examples:
