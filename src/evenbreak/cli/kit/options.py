@@ -7,7 +7,8 @@ from typing import Any, TypeVar
 import click
 
 from evenbreak.cli.kit.values import CHANCE, LONGEST, NUMBER, SPAN, Whole, meant, refuse
-from evenbreak.ratings.scale import Scale
+from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale, scale_of
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Decorator = Callable[[Command], Command]
@@ -36,23 +37,12 @@ class PlainCommand(click.Command):
         return rest
 
 
-class ScaleName(click.ParamType):  # type: ignore[type-arg]
-    """A scale, by its name or by the points that double the odds."""
-
-    name = "scale"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Scale:
-        """Return the scale."""
-        from evenbreak.errors import InputError
-        from evenbreak.ratings.scale import scale_of
-
-        try:
-            scale: Scale = scale_of(value)
-        except InputError as error:
-            self.fail(str(error), param, ctx)
-        return scale
+def _scale(name: str) -> Scale:
+    try:
+        scale: Scale = scale_of(name)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+    return scale
 
 
 def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
@@ -68,7 +58,7 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
     """
     return click.option(
         "--scale",
-        type=ScaleName(),
+        type=_scale,
         default=without if fixed else None,
         metavar="npl|fargo|elo|POINTS",
         help="What ratings mean: POINTS of difference double the odds of winning a game.  "

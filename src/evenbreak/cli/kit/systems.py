@@ -8,6 +8,7 @@ import click
 
 from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.values import refuse
+from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
@@ -19,29 +20,20 @@ SCALE_OFF = 0.25
 """How much the scale that a chart fits best may differ from the system's without a warning."""
 
 
-class SystemName(click.ParamType):  # type: ignore[type-arg]
-    """A handicap system by its name."""
+def _system(name: str) -> System:
+    from evenbreak.handicaps.systems.catalogue import system_of
 
-    name = "system"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> System:
-        """Return the system."""
-        from evenbreak.errors import InputError
-        from evenbreak.handicaps.systems.catalogue import system_of
-
-        try:
-            return system_of(value)
-        except InputError as error:
-            self.fail(str(error), param, ctx)
+    try:
+        return system_of(name)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
 
 
 def system_option(default: str | None = "npl") -> Decorator[Any]:
     """Return the option --system; without a default, a command gets None for npl."""
     return click.option(
         "--system",
-        type=SystemName(),
+        type=_system,
         metavar="NAME",
         default=default,
         help="How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].  "

@@ -1,15 +1,12 @@
 """`evenbreak oneball`: which shot to take."""
 
-import math
-from typing import Any
-
 import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.values import CHANCE, NUMBER
+from evenbreak.cli.kit.values import CHANCE, numbers
 
 LOOK_AHEADS = {"infinite": "infinite", "two": "two shots"}
 
@@ -21,21 +18,13 @@ Examples:
 """
 
 
-class TwoChances(click.ParamType):  # type: ignore[type-arg]
-    """The two chances of a shot, such as 0.3:0.3."""
-
-    name = "shot"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, float]:
-        """Return the chances that were typed."""
-        parts = [part.strip() for part in value.split(":")]
-        numbers = [float(part) if NUMBER.fullmatch(part) else math.nan for part in parts]
-        if len(numbers) != 2 or not all(0.0 <= number <= 1.0 for number in numbers):
-            wanted = "give two numbers from 0 to 1 with a colon between them, such as 0.3:0.3"
-            self.fail(f"{value!r}; {wanted}", param, ctx)
-        return numbers[0], numbers[1]
+_chances = numbers(
+    ":",
+    range(2, 3),
+    0.0,
+    1.0,
+    "give two numbers from 0 to 1 with a colon between them, such as 0.3:0.3",
+)
 
 
 @click.command("oneball", cls=PlainCommand, epilog=EXAMPLES)
@@ -46,7 +35,7 @@ class TwoChances(click.ParamType):  # type: ignore[type-arg]
     "others",
     metavar="P1:P2",
     multiple=True,
-    type=TwoChances(),
+    type=_chances,
     help="Another shot to choose from; may be given more than once.",
 )
 @click.option(

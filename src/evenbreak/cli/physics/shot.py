@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +12,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.values import NUMBER, refuse
+from evenbreak.cli.kit.values import numbers, refuse
 from evenbreak.cli.physics.equipment_options import ball_of, cue_of, equipment_options
 from evenbreak.cli.physics.hit_options import friction_options, tip_options
 from evenbreak.cli.physics.layout import layout_of, traced_shot
@@ -33,24 +32,14 @@ Examples:
 PACE = Measure("speed", 0.0, 1e4, "80")
 
 
-class Place(click.ParamType):  # type: ignore[type-arg]
-    """A place on the table: two numbers with a comma between them."""
-
-    name = "place"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, float]:
-        """Return the two numbers that were typed."""
-        parts = [part.strip() for part in re.split(r"[,;]", value)]
-        if len(parts) != 2 or not all(NUMBER.fullmatch(part) for part in parts):
-            self.fail(
-                f"{value!r}; give two numbers with a comma between them, such as 25,16: along "
-                "the table from the head cushion, and across it from the right cushion",
-                param,
-                ctx,
-            )
-        return float(parts[0]), float(parts[1])
+PLACE = numbers(
+    "[,;]",
+    range(2, 3),
+    -math.inf,
+    math.inf,
+    "give two numbers with a comma between them, such as 25,16: along "
+    "the table from the head cushion, and across it from the right cushion",
+)
 
 
 @click.command("shot", epilog=EXAMPLES)
@@ -61,10 +50,10 @@ class Place(click.ParamType):  # type: ignore[type-arg]
 @click.option(
     "--cue-ball",
     metavar="X,Y",
-    type=Place(),
+    type=PLACE,
     help="Where it is: X from the head cushion, Y from the right one.  [default: 25,25 inches]",
 )
-@click.option("--object-ball", metavar="X,Y", type=Place(), help="Where it is, in place of --cut.")
+@click.option("--object-ball", metavar="X,Y", type=PLACE, help="Where it is, in place of --cut.")
 @click.option(
     "--pocket",
     metavar="NAME",

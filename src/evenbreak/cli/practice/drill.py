@@ -1,13 +1,11 @@
 """`evenbreak drill`: where a progressive drill settles, and what to practise."""
 
-from typing import Any
-
 import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.values import CHANCE, NUMBER, Whole, refuse
+from evenbreak.cli.kit.values import CHANCE, Whole, numbers, refuse
 
 MOST_LEVELS = 100
 LEVELS = 9
@@ -25,29 +23,13 @@ Examples:
 """
 
 
-class Chances(click.ParamType):  # type: ignore[type-arg]
-    """Chances with commas between them, such as 0.9,0.8,0.5."""
-
-    name = "chances"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, ...]:
-        """Return the chances that were typed."""
-        parts = [part.strip() for part in value.split(",")]
-        numbers = tuple(float(part) for part in parts if NUMBER.fullmatch(part))
-        if len(parts) > MOST_LEVELS or len(numbers) < len(parts) or not _chances(numbers):
-            self.fail(
-                f"{value!r}; give up to {MOST_LEVELS} numbers from 0 to 1 with commas between "
-                "them, such as 0.9,0.8,0.5",
-                param,
-                ctx,
-            )
-        return numbers
-
-
-def _chances(numbers: tuple[float, ...]) -> bool:
-    return all(0.0 <= number <= 1.0 for number in numbers)
+_chances = numbers(
+    ",",
+    range(1, MOST_LEVELS + 1),
+    0.0,
+    1.0,
+    f"give up to {MOST_LEVELS} numbers from 0 to 1 with commas between them, such as 0.9,0.8,0.5",
+)
 
 
 @click.command("drill", epilog=EXAMPLES)
@@ -57,7 +39,7 @@ def _chances(numbers: tuple[float, ...]) -> bool:
 @click.option(
     "--success",
     metavar="P,P,...",
-    type=Chances(),
+    type=_chances,
     help="Or the chance of success at each level.",
 )
 @click.option("--log", metavar="LOG.csv", help="Or a log of attempts; - is stdin.")
