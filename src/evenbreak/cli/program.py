@@ -83,7 +83,7 @@ class Program(LazyGroup):
     "evenbreak",
     cls=Program,
     table=COMMANDS,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
     epilog="evenbreak COMMAND --help shows the options of a command, with examples.",
 )
 @click.version_option(__version__, prog_name="evenbreak", message="%(prog)s %(version)s")

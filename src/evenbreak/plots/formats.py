@@ -56,9 +56,8 @@ def plot_formats(
         axes.plot(
             chances,
             win_probability(match),
-            color=style.color,
-            linestyle=style.linestyle,
             label=str(played),
+            **style._asdict(),
         )
     points = [point for found in pairs for point in found.points]
     if points:

@@ -132,8 +132,7 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
         axes.plot(
             values[p > 0.0],
             p[p > 0.0],
-            color=style.color,
-            linestyle=style.linestyle,
+            **style._asdict(),
             label=f"correctly rated opponents, sd {natural.sd:.2f}",
         )
     shown = errors[chance > _SHOWN * chance.max()]
@@ -145,8 +144,7 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
         axes.plot(
             x,
             spacing * bell,
-            color=style.color,
-            linestyle=style.linestyle,
+            **style._asdict(),
             linewidth=1.2,
             label="normal distribution, same sd",
         )

@@ -60,18 +60,10 @@ def plot_scores(
         share = f"{100 * interval.confidence:g}% interval of the true mean"
         axes.axhspan(interval.low, interval.high, color=BAND, linewidth=0, label=share, zorder=0)
     axes.plot(when, file.scores, "o", color=LINES[0].color, label="scores")
-    axes.axhline(
-        mean, color=LINES[1].color, linestyle=LINES[1].linestyle, label=f"mean {mean:.2f}", zorder=1
-    )
+    axes.axhline(mean, **LINES[1]._asdict(), label=f"mean {mean:.2f}", zorder=1)
     if new is not None:
-        axes.plot(
-            np.array([later]),
-            [new],
-            "D",
-            color=LINES[2].color,
-            markersize=8,
-            label=f"new score {new:g}",
-        )
+        label = f"new score {new:g}"
+        axes.plot(np.array([later]), [new], "D", color=LINES[2].color, markersize=8, label=label)
     figure.legend(frameon=False, loc="outside lower center", ncols=2)
     return figure
 

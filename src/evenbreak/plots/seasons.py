@@ -41,10 +41,8 @@ def errors_figure(weeks: pd.DataFrame) -> Figure:
         )
     axes.axhline(0.0, color="0.5", linewidth=0.8)
     mean, sd = weeks["error_mean"].to_numpy(), weeks["error_sd"].to_numpy()
-    axes.plot(week, mean, color=LINES[0].color, linestyle=LINES[0].linestyle, label="mean")
-    axes.plot(
-        week, sd, color=LINES[1].color, linestyle=LINES[1].linestyle, label="standard deviation"
-    )
+    axes.plot(week, mean, **LINES[0]._asdict(), label="mean")
+    axes.plot(week, sd, **LINES[1]._asdict(), label="standard deviation")
     axes.set_xlim(float(week[0]), float(week[-1]))
     axes.locator_params(axis="x", integer=True)
     axes.legend(loc="upper right", frameon=False, ncols=2)

@@ -52,7 +52,6 @@ def design_options(command: Command) -> Command:
             "--rule",
             type=click.Choice(["mean", "worst", "nearest"]),
             default="mean",
-            show_default=True,
             help="Minimise the mean unfairness over all whole-point differences, or the largest; "
             "or take the nearest race at each difference by itself.",
         ),
@@ -61,7 +60,6 @@ def design_options(command: Command) -> Command:
             metavar="T",
             type=CHANCE,
             default=0.5,
-            show_default=True,
             help="Where in its band a race should be on target: 0 at the start (the stronger "
             "player is never the underdog), 1 at the end.",
         ),
@@ -70,7 +68,6 @@ def design_options(command: Command) -> Command:
             metavar="P",
             type=CHANCE,
             default=0.5,
-            show_default=True,
             help="The chance that the stronger player should have.",
         ),
         scale_option(),
@@ -79,6 +76,7 @@ def design_options(command: Command) -> Command:
             type=POINTS,
             metavar="B",
             default=0.0,
+            show_default=False,
             help="What the break is worth in rating points; goes with --breaks.",
         ),
         click.option(
@@ -91,7 +89,6 @@ def design_options(command: Command) -> Command:
             type=Whole(1, 20),
             metavar="K",
             default=1,
-            show_default=True,
             help="By how many games a race must be won.",
         ),
         click.option(
@@ -126,7 +123,6 @@ def design_options(command: Command) -> Command:
             metavar="M:N",
             type=PAIR,
             default="1:1",
-            show_default=True,
             help="The fewest games that the stronger and the weaker player may need.",
         ),
         click.option(

@@ -60,6 +60,7 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
         "--scale",
         type=_scale,
         default=without if fixed else None,
+        show_default=False,
         metavar="npl|fargo|elo|POINTS",
         help="What ratings mean: POINTS of difference double the odds of winning a game.  "
         f"[default: {without}]",
@@ -72,7 +73,6 @@ def seed_option(what: str = "The seed of all random draws.", *, default: int = 1
         "--seed",
         type=Whole(0, HIGHEST_SEED),
         default=default,
-        show_default=True,
         metavar="N",
         help=what,
     )
@@ -83,6 +83,20 @@ def chart_option(
 ) -> Decorator[Any]:
     """Return the option --chart; `what` says what the chart is for."""
     return click.option("--chart", metavar="NAME|FILE", help=what)
+
+
+def _folder(ctx: click.Context, param: click.Parameter, value: str) -> str:
+    if not value.strip():
+        raise click.BadParameter("it is empty; name a folder, or . for this one", ctx, param)
+    return value
+
+
+def out_option(what: str) -> Decorator[Any]:
+    """Return the option --out; `what` says what is written to the folder."""
+    kind = click.Path(file_okay=False)
+    return click.option(
+        "--out", required=True, metavar="DIR", type=kind, callback=_folder, help=what
+    )
 
 
 aliases_option = click.option(
@@ -98,7 +112,6 @@ safety_option = click.option(
     metavar="ALPHA",
     type=CHANCE,
     default="1",
-    show_default=True,
     help="The first shot of an inning goes in ALPHA times as often as the others.",
 )
 """The option --safety of the commands about straight pool."""

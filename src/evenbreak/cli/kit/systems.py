@@ -36,6 +36,7 @@ def system_option(default: str | None = "npl") -> Decorator[Any]:
         type=_system,
         metavar="NAME",
         default=default,
+        show_default=False,
         help="How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].  "
         "[default: npl]",
     )

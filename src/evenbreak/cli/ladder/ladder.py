@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.ladder_findings import LadderFindings, LadderQuestion
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -18,6 +17,7 @@ from evenbreak.cli.kit.values import Number, Whole, refuse
 from evenbreak.cli.ladder.opponents import opponents_of_options, why_no_long_run
 
 if TYPE_CHECKING:
+    from evenbreak.answers.ladder_findings import LadderFindings, LadderQuestion
     from evenbreak.handicaps.ladders.ladder import Ladder
     from evenbreak.handicaps.systems.system import System
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.scale_doubts import league_doubts
+from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name
 from evenbreak.cli.kit.options import (
     chart_option,
@@ -16,14 +16,14 @@ from evenbreak.cli.kit.options import (
     seed_option,
     which_races,
 )
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.kit.values import Number, Whole, refuse
-from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import SCALES, Scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.answers.round import AnyChart, Round
+    from evenbreak.answers.round import AnyChart
     from evenbreak.ratings.roster import Roster
 
 
@@ -106,7 +106,6 @@ def command(
     from evenbreak.answers.offered_races import OfferedRaces
     from evenbreak.answers.roster_matchups import check_roster
     from evenbreak.answers.round import Round
-    from evenbreak.answers.scale_doubts import starter_doubts
     from evenbreak.files.roster import read_roster
 
     refuse_both(games, race_to)
@@ -140,7 +139,9 @@ def command(
         listed=pairs is not None,
     )
     if html is not None:
-        _write_page(html, tonight)
+        from evenbreak.sheets.round_page import round_html
+
+        write_file(html, round_html(tonight))
     return matchups_answer(tonight, warnings=[*warnings, *more])
 
 
@@ -154,7 +155,6 @@ def _chart(name: str) -> tuple[AnyChart, list[str]]:
 def _scale(name: str | None, chart: AnyChart | None) -> Scale:
     """Return the scale of the chart, else the NPL's."""
     from evenbreak.handicaps.charts.level_chart import LevelChart
-    from evenbreak.ratings.scale import SCALES
 
     if isinstance(chart, LevelChart):
         refuse(
@@ -170,7 +170,6 @@ def _with_starters(roster: Roster, scale: Scale, starter: float | None, sd: floa
     import numpy as np
 
     from evenbreak.handicaps.charts.given_ratings import MOST_DOUBLINGS
-    from evenbreak.ratings.scale import SCALES
 
     unrated = np.isnan(roster.rating)
     if unrated.any() and starter is None and scale.name not in SCALES:
@@ -209,25 +208,3 @@ def _refuse_too_many(found: str, many: int, tables: int | None, face: str) -> No
         refuse(f"{found}, and {MOST_PAIRS:,} are the most; {meet}")
     if many > MOST_SHOWN and face != "csv":
         refuse(f"{found}, too many for {face}; write them with --csv > pairs.csv, or {meet}")
-
-
-def _write_page(path: str, tonight: Round) -> None:
-    from pathlib import PurePath
-
-    from evenbreak.files.folder import write_files
-    from evenbreak.sheets.round_page import MOST_ACROSS, MOST_MATCHES, round_html
-
-    players, matches = len(tonight.roster), len(tonight.pairs)
-    if not tonight.listed and players > MOST_ACROSS:
-        refuse(
-            f"{players:,} players are too many for --html, which holds all pairs of {MOST_ACROSS} "
-            "at most; name those who meet with --pairs PAIRS.csv"
-        )
-    if tonight.listed and matches > MOST_MATCHES:
-        refuse(
-            f"{matches:,} matches are too many for --html, which holds {MOST_MATCHES} at most; "
-            "make a list and a page for each part of the round"
-        )
-    place = PurePath(path)
-    write_files(str(place.parent), {place.name: round_html(tonight)})
-    say(f"Wrote {path}")

@@ -11,7 +11,13 @@ import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import aliases_option, refuse_both, scale_option, which_races
+from evenbreak.cli.kit.options import (
+    aliases_option,
+    out_option,
+    refuse_both,
+    scale_option,
+    which_races,
+)
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.league.rate_options import how_to_rate, rated
@@ -37,12 +43,8 @@ Examples:
 
 @click.command("report", epilog=EXAMPLES)
 @click.argument("results", metavar="RESULTS.csv")
-@click.option(
-    "--out",
-    required=True,
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="The folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if needed.",
+@out_option(
+    "The folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if needed."
 )
 @scale_option()
 @how_to_rate
@@ -96,8 +98,6 @@ def command(
     refuse_both(games, race_to)
     if players and top is not None:
         refuse("--players and --top exclude each other; leave one out")
-    if not out.strip():
-        refuse("--out is empty; name a folder, or . for this one")
     if excel:
         from evenbreak.sheets.workbook import check_workbook
 

@@ -10,7 +10,7 @@ import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import chart_option, scale_option, seed_option
+from evenbreak.cli.kit.options import chart_option, out_option, scale_option, seed_option
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.systems import system_option
 from evenbreak.cli.kit.terminal import say
@@ -21,6 +21,7 @@ from evenbreak.cli.league.simulate_season import (
     refuse_contradictions,
     season_of_options,
 )
+from evenbreak.files.csv_writer import to_csv
 
 if TYPE_CHECKING:
     from evenbreak.answers.season_tables import SeasonTables
@@ -46,13 +47,7 @@ Examples:
 
 @click.command("simulate", epilog=EXAMPLES)
 @click.argument("roster", metavar="ROSTER.csv")
-@click.option(
-    "--out",
-    required=True,
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="The folder for the tables and pictures; it is made if it does not exist.",
-)
+@out_option("The folder for the tables and pictures; it is made if it does not exist.")
 @system_option()
 @scale_option("the system's", fixed=False)
 @chart_option()
@@ -84,7 +79,6 @@ Examples:
     "--day-sd",
     type=Number(0.0, 1000.0, "; give points from 0 to 1,000"),
     default="0",
-    show_default=True,
     metavar="POINTS",
     help="How much a player's form varies from day to day (standard deviation), where the roster "
     "does not say.",
@@ -96,7 +90,6 @@ Examples:
     "--replicas",
     type=Whole(1, MOST_REPLICAS),
     default=1000,
-    show_default=True,
     metavar="R",
     help="How many seasons are simulated.",
 )
@@ -105,7 +98,6 @@ Examples:
     "--jobs",
     type=Whole(1, MOST_JOBS),
     default=1,
-    show_default=True,
     metavar="J",
     help="How many processes work at a time; the answer does not depend on it.",
 )
@@ -140,7 +132,7 @@ def command(
     from evenbreak.files.folder import check_folder, write_files
     from evenbreak.files.league import read_league
 
-    refuse_contradictions(roster, out, jobs, cluster, played)
+    refuse_contradictions(roster, jobs, cluster, played)
     file = read_league(roster, day_sd=played["day_sd"])
     season, warnings = season_of_options(file, played)
     check_folder(out)
@@ -181,8 +173,6 @@ def _simulated(season: Season, replicas: int, seed: int, jobs: int, cluster: str
 
 
 def _tables(tables: SeasonTables) -> dict[str, bytes]:
-    from evenbreak.files.csv_writer import to_csv
-
     return {
         "standings.csv": to_csv(tables.standings),
         "ratings_by_week.csv": to_csv(tables.weeks),
@@ -192,7 +182,6 @@ def _tables(tables: SeasonTables) -> dict[str, bytes]:
 
 def _one_season(season: Season, seed: int) -> dict[str, bytes]:
     from evenbreak.answers.one_season_tables import matches_frame, truth_frame
-    from evenbreak.files.csv_writer import to_csv
     from evenbreak.league.one_season import season_matches
 
     if len(season.players) * season.weeks > MANY:

@@ -17,7 +17,7 @@ WEEKS = 30
 
 
 def refuse_contradictions(
-    roster: str, out: str, jobs: int, cluster: str | None, played: dict[str, Any]
+    roster: str, jobs: int, cluster: str | None, played: dict[str, Any]
 ) -> None:
     """Refuse options that exclude each other or are empty."""
     ways = {
@@ -34,8 +34,6 @@ def refuse_contradictions(
         refuse("--dask and --jobs exclude each other; the cluster has workers of its own")
     if cluster is not None and not cluster.strip():
         refuse("--dask is empty; give the scheduler's address, such as tcp://10.0.0.5:8786")
-    if not out.strip():
-        refuse("--out is empty; name a folder, or . for this one")
     if [roster, played["schedule_path"], played["chart"]].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
 

@@ -30,7 +30,6 @@ Examples:
     metavar="X",
     type=STAKE,
     default="1",
-    show_default=True,
     help="The points that A gains with each rack won.",
 )
 @click.option(
@@ -38,14 +37,12 @@ Examples:
     metavar="Y",
     type=STAKE,
     default="1",
-    show_default=True,
     help="The points that A loses with each rack lost.",
 )
 @click.option(
     "--first-break",
     type=click.Choice(["a", "b"]),
     default="a",
-    show_default=True,
     help="Who breaks the first rack; it matters only if the break never passes on.",
 )
 @plot_option

@@ -29,7 +29,6 @@ Examples:
     metavar="P",
     type=CHANCE,
     default=0.5,
-    show_default=True,
     help="The chance that A should have to win the match.",
 )
 @click.option(
@@ -37,7 +36,6 @@ Examples:
     type=Whole(1, MOST),
     metavar="K",
     default=5,
-    show_default=True,
     help="How many races to list.",
 )
 @faces()

@@ -7,7 +7,7 @@ import click
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
-from evenbreak.cli.kit.players import player_options, players_of
+from evenbreak.cli.kit.players import player_options
 from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
 
 EXAMPLES = """\b
@@ -23,14 +23,7 @@ Examples:
 @player_options
 @match_options
 @faces()
-def command(
-    race: tuple[int, int] | None,
-    ahead: tuple[int, int] | None,
-    set_: tuple[int, int] | None,
-    score: tuple[int, int] | None,
-    win_by: int | None,
-    **who: Any,
-) -> Answer:
+def command(**asked: Any) -> Answer:
     """Give the odds of a match, and how long it lasts.
 
     The players: two ratings A B; or --p; or --p1, --p2 and --breaks. The match: --race or
@@ -38,8 +31,7 @@ def command(
     """
     from evenbreak.answers.odds import odds_answer
 
-    players = players_of(**who)
-    match = match_of(players, race=race, ahead=ahead, set_=set_, score=score, win_by=win_by)
+    players, match = match_of(**asked)
     if getattr(match, "win_by", 0) != 1 or match.rack is not players.rack:  # no plain race
         refuse_giants(match)
     return odds_answer(players, match)

@@ -42,7 +42,6 @@ _chances = numbers(
     "--look-ahead",
     type=click.Choice(list(LOOK_AHEADS)),
     default="infinite",
-    show_default=True,
     help="Rank by the two shots repeated until one is made, or by two shots and then an even game.",
 )
 @plot_option

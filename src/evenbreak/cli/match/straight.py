@@ -38,7 +38,6 @@ Examples:
     "--first",
     type=click.Choice(["a", "b"]),
     default="a",
-    show_default=True,
     help="Who has the first inning.",
 )
 @plot_option

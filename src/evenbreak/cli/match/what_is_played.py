@@ -6,6 +6,7 @@ import click
 
 from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.cli.kit.options import Command
+from evenbreak.cli.kit.players import players_of
 from evenbreak.cli.kit.values import LONGEST, PAIR, SCORE, Whole, refuse
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
@@ -51,15 +52,16 @@ def match_options(command: Command) -> Command:
 
 
 def match_of(
-    players: TwoPlayers,
     *,
     race: tuple[int, int] | None,
     ahead: tuple[int, int] | None,
     set_: tuple[int, int] | None,
     score: tuple[int, int] | None,
     win_by: int | None,
-) -> Match:
-    """Return the match that the options describe, or refuse what contradicts itself."""
+    **who: Any,
+) -> tuple[TwoPlayers, Match]:
+    """Return the players and the match of the options, or refuse what contradicts itself."""
+    players = players_of(**who)
     if race is not None and ahead is not None:
         refuse("--race and --ahead exclude each other; leave one out")
     if win_by is not None and (ahead or set_):
@@ -73,11 +75,12 @@ def match_of(
     if ahead is not None:
         from evenbreak.games.ahead import Ahead
 
-        return Ahead(ahead[0], ahead[1], rack, breaks=breaks, first_breaker=first, score=start)
+        return players, Ahead(*ahead, rack, breaks=breaks, first_breaker=first, score=start)
     if race is None:
         refuse("the match is missing; give --race M:N or --ahead M:N")
-    m, n = race
-    return Race(m, n, rack, breaks=breaks, first_breaker=first, score=start, win_by=win_by or 1)
+    return players, Race(
+        *race, rack, breaks=breaks, first_breaker=first, score=start, win_by=win_by or 1
+    )
 
 
 def refuse_giants(match: Match) -> None:

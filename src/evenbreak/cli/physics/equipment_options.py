@@ -22,6 +22,7 @@ _OPTIONS = (
         "--tip-mu",
         type=Measure("mu", 0.01, 10.0, "0.6"),
         default=1.0 / math.sqrt(3.0),
+        show_default=False,
         help="Static friction between tip and ball.  "
         "[default: 0.577, a miscue beyond half the radius]",
     ),
@@ -29,7 +30,6 @@ _OPTIONS = (
         "--cloth-mu",
         type=Measure("mu", 0.01, 1.0, "0.2"),
         default=0.2,
-        show_default=True,
         help="Sliding friction between ball and cloth.",
     ),
     ball_option,

@@ -19,7 +19,6 @@ _FRICTION = (
         "--friction",
         type=click.Choice(["limited", "shepard"]),
         default="limited",
-        show_default=True,
         help="limited: it ends when the balls no longer slip; shepard: the law of the source "
         "text, without that limit.",
     ),
@@ -27,6 +26,7 @@ _FRICTION = (
         "--mu",
         type=FRICTION,
         default=4.0 / 72.0,
+        show_default=False,
         help="Friction between the two balls.  [default: 4/72 = 0.0556]",
     ),
 )
@@ -36,14 +36,12 @@ _HIT = (
         "--side",
         type=SPIN,
         default=0.0,
-        show_default=True,
         help="Sidespin: right english above 0, left english below.",
     ),
     click.option(
         "--topspin",
         type=SPIN,
         default=1.0,
-        show_default=True,
         help="1 is natural roll, 0 stun, below 0 draw.",
     ),
     click.option(
@@ -77,7 +75,7 @@ def tip_options(**offset: Any) -> Callable[[Command], Command]:
     side = "How far the tip hits to the right of the centre; below 0 to the left."
     up = "How far the tip hits above the centre, in ball radii; below 0 for draw."
     options = (
-        click.option("--side-offset", type=OFFSET, default=0.0, show_default=True, help=side),
+        click.option("--side-offset", type=OFFSET, default=0.0, help=side),
         click.option("--offset", type=OFFSET, help=up, **offset),
     )
     return lambda command: _with(options, command)

@@ -61,12 +61,11 @@ PLACE = numbers(
 )
 @click.option("--speed", type=PACE, help="Speed of the cue ball just after the tip.")
 @click.option("--stick-speed", type=PACE, help="Speed of the cue, in place of --speed.")
-@tip_options(default=0.0, show_default=True)
+@tip_options(default=0.0)
 @click.option(
     "--table-speed",
     type=Measure("number", 5.0, 1000.0, "100"),
     default=100.0,
-    show_default=True,
     help="How fast the table is, as found by `physics speed`.",
 )
 @click.option(

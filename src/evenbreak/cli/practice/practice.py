@@ -40,7 +40,6 @@ Examples:
     metavar="C",
     type=CONFIDENCE,
     default=0.95,
-    show_default=True,
     help="The share of such intervals that contain the true value.",
 )
 @plot_option

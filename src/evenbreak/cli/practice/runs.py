@@ -50,7 +50,6 @@ Examples:
     type=Whole(1, LONGEST),
     metavar="M",
     default=1,
-    show_default=True,
     help="The score of M innings instead of the run of one.",
 )
 @click.option("--at-least", type=Whole(0, MOST_BALLS), metavar="N", help="The chance of N or more.")

@@ -26,7 +26,6 @@ def watch_options(command: Command) -> Command:
         click.option(
             "--day-sd",
             default="0",
-            show_default=True,
             metavar="POINTS",
             type=between(0.0, 10_000.0),
             help="How much the form of honest players varies from day to day (standard deviation).",
@@ -35,14 +34,12 @@ def watch_options(command: Command) -> Command:
             "--honest",
             type=click.Choice(["any", "established"]),
             default="any",
-            show_default=True,
             help="Who counts as honest: players of any skill, or players whose ratings are as "
             "accurate as ratings are in the long run.",
         ),
         click.option(
             "--alpha",
             default="0.01",
-            show_default=True,
             metavar="P",
             type=between(1e-9, 0.5),
             help="The largest chance that an honest player is ever flagged.",

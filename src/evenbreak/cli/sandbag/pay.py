@@ -41,7 +41,6 @@ Examples:
     "--dumped",
     type=Whole(1, 100),
     default=12,
-    show_default=True,
     metavar="D",
     help="The most matches that are lost on purpose.",
 )
@@ -49,7 +48,6 @@ Examples:
     "--earnest",
     type=Whole(1, 500),
     default=20,
-    show_default=True,
     metavar="E",
     help="How many matches are then played in earnest.",
 )
@@ -57,7 +55,6 @@ Examples:
     "--stake",
     type=MONEY,
     default="10",
-    show_default=True,
     metavar="X",
     help="What a match won in earnest is worth more than one lost.",
 )
@@ -65,7 +62,6 @@ Examples:
     "--dumped-stake",
     type=MONEY,
     default="1",
-    show_default=True,
     metavar="X",
     help="The same for the matches that are dumped.",
 )
@@ -73,7 +69,6 @@ Examples:
     "--in-a-row",
     type=Whole(1, 50),
     default=3,
-    show_default=True,
     metavar="K",
     help="How many matches in a row win a tournament.",
 )
@@ -81,7 +76,6 @@ Examples:
     "--prize",
     type=MONEY,
     default="0",
-    show_default=True,
     metavar="X",
     help="What the tournament pays.",
 )
@@ -90,7 +84,6 @@ Examples:
     "start",
     type=Whole(-100, 100),
     default=0,
-    show_default=True,
     metavar="ERROR",
     help="The rating less the skill before, in points.",
 )

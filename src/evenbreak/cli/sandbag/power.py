@@ -62,7 +62,6 @@ Examples:
     "--matches",
     type=Whole(1, 500),
     default=80,
-    show_default=True,
     metavar="N",
     help="How many matches each player plays.",
 )
@@ -78,7 +77,6 @@ Examples:
     "--replicas",
     type=Whole(2, 100_000),
     default=250,
-    show_default=True,
     metavar="R",
     help="How many players of each kind are simulated.",
 )
