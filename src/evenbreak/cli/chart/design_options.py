@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak import files, handicaps
 from evenbreak.cli.kit.options import Command, scale_option
 from evenbreak.cli.kit.values import CHANCE, PAIR, SPAN, Number, Whole, refuse
 from evenbreak.errors import InputError
@@ -16,7 +17,6 @@ from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     from evenbreak.answers.chart_design import DesignTask
-    from evenbreak.handicaps.charts.chart import Chart
 
 
 MOST = 1_000_000
@@ -171,8 +171,6 @@ def task_of(
     """Return what is asked for, or refuse options that contradict each other."""
     from evenbreak.answers.chart_design import DesignTask
     from evenbreak.games.breaks import BREAK_FORMATS
-    from evenbreak.handicaps.charts.match_rules import MatchRules
-    from evenbreak.handicaps.charts.race_limits import RaceLimits
 
     if (minutes is None) != (minutes_per_game is None):
         refuse("--minutes and --minutes-per-game go together; give both")
@@ -191,16 +189,14 @@ def task_of(
             "--tilt out"
         )
     breaking = None if breaks is None else BREAK_FORMATS[breaks]
-    rules = MatchRules(scale, win_by, breaking, break_points)
-    limits = RaceLimits(games, *least, games_p90)
+    rules = handicaps.MatchRules(scale, win_by, breaking, break_points)
+    limits = handicaps.RaceLimits(games, *least, games_p90)
     return DesignTask(rules, limits, beside=tuple(map(_chart_beside, beside)), **others)
 
 
-def _chart_beside(name: str) -> Chart:
-    from evenbreak.files.chart import find_chart
-    from evenbreak.handicaps.charts.chart import Chart
+def _chart_beside(name: str) -> handicaps.Chart:
 
-    found = find_chart(name)
-    if not isinstance(found, Chart):
+    found = files.find_chart(name)
+    if not isinstance(found, handicaps.Chart):
         refuse("--beside names a chart by skill level; name one by rating difference")
     return found

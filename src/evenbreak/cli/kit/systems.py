@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak import handicaps
 from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
 
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.system import System
-
-
 SCALE_OFF = 0.25
 """How much the scale that a chart fits best may differ from the system's without a warning."""
 
 
-def _system(name: str) -> System:
-    from evenbreak.handicaps.systems.catalogue import system_of
+def _system(name: str) -> handicaps.System:
 
     try:
-        return system_of(name)
+        return handicaps.system_of(name)
     except InputError as error:
         raise click.BadParameter(str(error)) from None
 
@@ -42,7 +37,7 @@ def system_option(default: str | None = "npl") -> Decorator[Any]:
     )
 
 
-def on_scale(system: System, scale: Scale | None) -> System:
+def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:
     """Return a system on another scale (None: its own), or refuse what does not go together."""
     from dataclasses import replace
 
@@ -58,11 +53,9 @@ def on_scale(system: System, scale: Scale | None) -> System:
     return replace(system, scale=scale)
 
 
-def chart_for(system: System, name: str | None) -> tuple[Chart, list[str]]:
+def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Chart, list[str]]:
     """Return the chart of --chart (None: the system's own), and warnings about it."""
     from evenbreak.files.chart import find_chart_file
-    from evenbreak.handicaps.charts.audit import audit
-    from evenbreak.handicaps.charts.chart import Chart
 
     if name is None:
         chart: Any = system.usual_chart()
@@ -70,12 +63,15 @@ def chart_for(system: System, name: str | None) -> tuple[Chart, list[str]]:
     else:
         file = find_chart_file(name)
         chart, warnings = file.chart, list(file.warnings)
-    if not isinstance(chart, Chart):
+    if not isinstance(chart, handicaps.Chart):
         refuse(
             f"--chart {name!r} is a chart of skill levels, which do not change match by match; "
             "give a chart of rating differences"
         )
-    best, own = audit(chart, scale=system.scale).best_fit, system.scale.points_per_doubling
+    best, own = (
+        handicaps.audit(chart, scale=system.scale).best_fit,
+        system.scale.points_per_doubling,
+    )
     if best is not None and abs(best.points_per_doubling / own - 1.0) > SCALE_OFF:
         warnings.append(
             f"the races of {chart.name} fit a scale on which about "

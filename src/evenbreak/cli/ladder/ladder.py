@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak import handicaps
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option
@@ -18,8 +19,6 @@ from evenbreak.cli.ladder.opponents import opponents_of_options, why_no_long_run
 
 if TYPE_CHECKING:
     from evenbreak.answers.ladder_findings import LadderFindings, LadderQuestion
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.systems.system import System
 
 
 LARGEST = 10_000
@@ -142,25 +141,25 @@ def command(chart: str | None, *, compare: bool, plot: str | None, **asked: Any)
     return ladder_answer(found, warnings)
 
 
-def _ladder(chart_name: str | None, asked: dict[str, Any]) -> tuple[Ladder, str, list[str]]:
+def _ladder(
+    chart_name: str | None, asked: dict[str, Any]
+) -> tuple[handicaps.Ladder, str, list[str]]:
     """Return the ladder that is asked for, the word for its opponents, and warnings."""
     from evenbreak.errors import AccuracyError
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.systems.catalogue import system_of
 
     if asked["system"] is not None and asked["step"] is not None:
         refuse(f"--step {asked['step']} is a system of its own; leave --system out, or --step")
     if asked["matches_a_night"] is not None and not asked["day_sd"]:
         refuse("--matches-a-night is how long a night's form lasts; give --day-sd, or leave it out")
     step = asked["step"]
-    system = asked["system"] or system_of("npl" if step is None else f"step {step}")
+    system = asked["system"] or handicaps.system_of("npl" if step is None else f"step {step}")
     system = on_scale(system, asked["scale"])
     chart, warnings = chart_for(system, chart_name)
     chosen = opponents_of_options(asked, system.scale)
     _refuse_much(asked, system)
     matches = asked["matches_a_night"] or 1
     try:
-        built = Ladder(
+        built = handicaps.Ladder(
             system,
             chart,
             opponents=chosen.opponents,
@@ -176,7 +175,7 @@ def _ladder(chart_name: str | None, asked: dict[str, Any]) -> tuple[Ladder, str,
     return built, chosen.name, [*warnings, *chosen.warnings]
 
 
-def _refuse_much(asked: dict[str, Any], system: System) -> None:
+def _refuse_much(asked: dict[str, Any], system: handicaps.System) -> None:
     """Refuse form that varies by more than a ladder of this scale can hold."""
     most = MOST_SD * system.scale.points_per_doubling
     for name in ("day_sd", "match_sd"):
@@ -187,11 +186,9 @@ def _refuse_much(asked: dict[str, Any], system: System) -> None:
             )
 
 
-def say_if_long(ladder: Ladder) -> None:
+def say_if_long(ladder: handicaps.Ladder) -> None:
     """Say beforehand that nights of several matches take long where moves differ much."""
-    from evenbreak.handicaps.systems.match_table import match_table
-
-    moves = len(set(match_table(ladder.system, ladder.chart).moves.ravel().tolist()))
+    moves = len(set(handicaps.match_table(ladder.system, ladder.chart).moves.ravel().tolist()))
     if ladder.matches_a_night > 1 and moves > MANY_MOVES:
         say(
             f"The system {ladder.system.name} has {moves} different moves, so nights of three "
@@ -199,7 +196,7 @@ def say_if_long(ladder: Ladder) -> None:
         )
 
 
-def _question(ladder: Ladder, asked: dict[str, Any], opponents: str) -> LadderQuestion:
+def _question(ladder: handicaps.Ladder, asked: dict[str, Any], opponents: str) -> LadderQuestion:
     """Return what is asked of the ladder, or refuse what it cannot answer."""
     from evenbreak.answers.ladder_findings import LadderQuestion
 

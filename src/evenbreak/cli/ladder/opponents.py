@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
+from evenbreak import files, handicaps
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.scale import Scale
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.opponents import Opponents
-
 
 MOST_APART = 20.0
 """Doublings of the odds that an opponent may be from the player: a game in a million."""
@@ -19,15 +16,13 @@ MOST_APART = 20.0
 class Chosen(NamedTuple):
     """The opponents that are asked for, the word for them, and warnings about their list."""
 
-    opponents: Opponents
+    opponents: handicaps.Opponents
     name: str
     warnings: list[str]
 
 
 def opponents_of_options(asked: dict[str, Any], scale: Scale) -> Chosen:
     """Return the opponents that are asked for, or refuse options that exclude each other."""
-    from evenbreak.handicaps.ladders.opponents import AUTOCORRELATED, EQUAL_SKILL, NATURAL
-
     given = [name for name in ("autocorrelated", "equal_skill", "league") if asked[name]]
     if len(given) > 1:
         *before, last = (f"--{name.replace('_', '-')}" for name in given)
@@ -38,22 +33,20 @@ def opponents_of_options(asked: dict[str, Any], scale: Scale) -> Chosen:
         opponents, warnings = _of_league(asked["league"], asked["skill"], scale)
         return Chosen(opponents, "league", warnings)
     if asked["autocorrelated"]:
-        return Chosen(AUTOCORRELATED, "autocorrelated", [])
+        return Chosen(handicaps.AUTOCORRELATED, "autocorrelated", [])
     if asked["equal_skill"]:
-        return Chosen(EQUAL_SKILL, "equal skill", [])
-    return Chosen(NATURAL, "natural", [])
+        return Chosen(handicaps.EQUAL_SKILL, "equal skill", [])
+    return Chosen(handicaps.NATURAL, "natural", [])
 
 
-def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[Opponents, list[str]]:
+def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[handicaps.Opponents, list[str]]:
     """Return opponents drawn from the rated players of a list, or refuse a skill far from them."""
     import numpy as np
 
     from evenbreak.answers.scale_doubts import league_doubts
     from evenbreak.errors import DataError
-    from evenbreak.files.roster import read_roster
-    from evenbreak.handicaps.ladders.opponents import opponents_of
 
-    file = read_roster(path)
+    file = files.read_roster(path)
     ratings = file.roster.rating[~np.isnan(file.roster.rating)]
     if not len(ratings):
         raise DataError([f"{file.source}: no player has a rating; write one for each player"])
@@ -67,10 +60,10 @@ def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[Opponents, l
             f"{file.source} are from {low:g} to {high:g}; no opponent may be more than {most:.0f} "
             "points from the player, so give a --skill nearer to all of them"
         )
-    return opponents_of(ratings, about=about), warnings
+    return handicaps.opponents_of(ratings, about=about), warnings
 
 
-def why_no_long_run(error: AccuracyError, opponents: Opponents) -> str:
+def why_no_long_run(error: AccuracyError, opponents: handicaps.Opponents) -> str:
     """Return why a ladder does not settle, and what to do about it on the command line."""
     if "at every difference" in str(error):
         return str(error)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak import answers, files, handicaps, ratings, sheets
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.answers.round import AnyChart
-    from evenbreak.ratings.roster import Roster
 
 
 MOST_PAIRS = 1_000_000
@@ -102,11 +102,7 @@ def command(
     fairest ones with --games or --race-to, or both. Where standard errors are given, the
     chances are averaged over what the ratings may be.
     """
-    from evenbreak.answers.matchups import matchups_answer
-    from evenbreak.answers.offered_races import OfferedRaces
     from evenbreak.answers.roster_matchups import check_roster
-    from evenbreak.answers.round import Round
-    from evenbreak.files.roster import read_roster
 
     refuse_both(games, race_to)
     if chart is None and games is None and race_to is None:
@@ -117,7 +113,7 @@ def command(
         refuse("only one list can be on stdin; name a file for the other")
     of_league, warnings = (None, []) if chart is None else _chart(chart)
     points = _scale(chart, of_league) if scale is None else scale
-    file = read_roster(roster)
+    file = files.read_roster(roster)
     players = _with_starters(file.roster, points, starter, starter_sd)
     check_roster(file, players, of_league, points)
     if scale is None:
@@ -126,23 +122,21 @@ def command(
     if starter is None:
         warnings += starter_doubts(points, file.roster.rating)
     meet, more = _pairs(pairs, file.source, players, tables, face)
-    tonight = Round(
+    tonight = answers.Round(
         file=file,
         roster=players,
         pairs=meet,
         scale=points,
         chart=of_league,
-        offered=None if games is None and race_to is None else OfferedRaces(games, race_to),
+        offered=None if games is None and race_to is None else answers.OfferedRaces(games, race_to),
         minutes_per_game=minutes_per_game,
         tables=tables,
         seed=seed,
         listed=pairs is not None,
     )
     if html is not None:
-        from evenbreak.sheets.round_page import round_html
-
-        write_file(html, round_html(tonight))
-    return matchups_answer(tonight, warnings=[*warnings, *more])
+        write_file(html, sheets.round_html(tonight))
+    return answers.matchups_answer(tonight, warnings=[*warnings, *more])
 
 
 def _chart(name: str) -> tuple[AnyChart, list[str]]:
@@ -154,9 +148,7 @@ def _chart(name: str) -> tuple[AnyChart, list[str]]:
 
 def _scale(name: str | None, chart: AnyChart | None) -> Scale:
     """Return the scale of the chart, else the NPL's."""
-    from evenbreak.handicaps.charts.level_chart import LevelChart
-
-    if isinstance(chart, LevelChart):
+    if isinstance(chart, handicaps.LevelChart):
         refuse(
             f"{name} is a chart of skill levels, which have no scale of their own; say how many "
             "levels double the odds of winning a game, such as --scale 2"
@@ -165,7 +157,9 @@ def _scale(name: str | None, chart: AnyChart | None) -> Scale:
     return SCALES.get(of_chart, SCALES["npl"])
 
 
-def _with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float | None) -> Roster:
+def _with_starters(
+    roster: ratings.Roster, scale: Scale, starter: float | None, sd: float | None
+) -> ratings.Roster:
     """Return the roster with new players filled in."""
     import numpy as np
 
@@ -183,7 +177,7 @@ def _with_starters(roster: Roster, scale: Scale, starter: float | None, sd: floa
 
 
 def _pairs(
-    path: str | None, source: str, roster: Roster, tables: int | None, face: str
+    path: str | None, source: str, roster: ratings.Roster, tables: int | None, face: str
 ) -> tuple[NDArray[Any], tuple[str, ...]]:
     """Return who meets whom, and the warnings of the list; refuse too many."""
     from evenbreak.answers.roster_matchups import all_pairs

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak import answers, files
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, chart_option, scale_option
@@ -16,7 +17,6 @@ from evenbreak.cli.league.rate_options import PointsOr, how_to_rate, rated
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.results import Results
 
@@ -123,11 +123,9 @@ def _rate(
     break_advantage: float | str | None,
     **how: Any,
 ) -> Answer:
-    from evenbreak.answers.rate import rate_answer
-    from evenbreak.files.results import read_results
     from evenbreak.ratings.scale import scale_of
 
-    file = read_results(path, aliases=aliases)
+    file = files.read_results(path, aliases=aliases)
     ratings, choice = rated(
         file,
         scale or scale_of("npl"),
@@ -142,10 +140,10 @@ def _rate(
             "nothing; add break_format and first_break, with races or racks"
         )
     chosen = [_pair(ratings, pair) for pair in pairs]
-    return rate_answer(file, ratings, choice, pairs=chosen, warnings=warnings)
+    return answers.rate_answer(file, ratings, choice, pairs=chosen, warnings=warnings)
 
 
-def _anchor(file: ResultsFile, texts: Sequence[str]) -> float | dict[str, float] | None:
+def _anchor(file: files.ResultsFile, texts: Sequence[str]) -> float | dict[str, float] | None:
     """Return the mean, or the ratings of named players, that --anchor gives."""
     means, named = [], {}
     for text in texts:
@@ -170,6 +168,5 @@ def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
 
 
 def _places(players: Ratings | Results, names: Sequence[str], option: str) -> list[int]:
-    from evenbreak.answers.chosen_players import find_players
 
-    return find_players(players, names, said=option)
+    return answers.find_players(players, names, said=option)

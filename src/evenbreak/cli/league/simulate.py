@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak import league, plots
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, out_option, scale_option, seed_option
@@ -25,8 +26,6 @@ from evenbreak.files.csv_writer import to_csv
 
 if TYPE_CHECKING:
     from evenbreak.answers.season_tables import SeasonTables
-    from evenbreak.league.season import Season
-    from evenbreak.league.tally import Tally
 
 
 MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
@@ -159,15 +158,16 @@ def command(
     return answer
 
 
-def _simulated(season: Season, replicas: int, seed: int, jobs: int, cluster: str | None) -> Tally:
+def _simulated(
+    season: league.Season, replicas: int, seed: int, jobs: int, cluster: str | None
+) -> league.Tally:
     from evenbreak.cli.league.cluster import cluster_at
-    from evenbreak.league.simulate import simulate
 
     with (
         nullcontext() if cluster is None else cluster_at(cluster) as client,
         Progress("seasons") as progress,
     ):
-        return simulate(
+        return league.simulate(
             season, replicas=replicas, seed=seed, executor=client, jobs=jobs, progress=progress
         )
 
@@ -180,13 +180,12 @@ def _tables(tables: SeasonTables) -> dict[str, bytes]:
     }
 
 
-def _one_season(season: Season, seed: int) -> dict[str, bytes]:
+def _one_season(season: league.Season, seed: int) -> dict[str, bytes]:
     from evenbreak.answers.one_season_tables import matches_frame, truth_frame
-    from evenbreak.league.one_season import season_matches
 
     if len(season.players) * season.weeks > MANY:
         say("Playing one season rack by rack; --no-matches leaves it out")
-    played = season_matches(season, seed)
+    played = league.season_matches(season, seed)
     return {
         "matches.csv": to_csv(matches_frame(played)),
         "truth.csv": to_csv(truth_frame(season, played)),
@@ -194,7 +193,6 @@ def _one_season(season: Season, seed: int) -> dict[str, bytes]:
 
 
 def _pictures(tables: SeasonTables) -> dict[str, bytes]:
-    from evenbreak.plots.diagram import image_bytes
     from evenbreak.plots.seasons import errors_figure, gaps_figure, standings_figure
 
     figures = {
@@ -203,7 +201,7 @@ def _pictures(tables: SeasonTables) -> dict[str, bytes]:
         "standings": standings_figure(tables.standings),
     }
     return {
-        f"{name}.{kind}": image_bytes(figure, kind)
+        f"{name}.{kind}": plots.image_bytes(figure, kind)
         for name, figure in figures.items()
         for kind in ("png", "svg")
     }

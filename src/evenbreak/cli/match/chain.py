@@ -1,7 +1,10 @@
 """`evenbreak chain`: the stochastic limit of any chain, from a file of arcs."""
 
+from __future__ import annotations
+
 import click
 
+from evenbreak import chains, files
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.errors import DataError
@@ -31,16 +34,14 @@ def command(arcs: str, start: str | None, steps: int | None) -> Answer:
     The arcs out of each state sum to 1; a state that is only a target absorbs.
     """
     from evenbreak.answers.chain import chain_answer
-    from evenbreak.chains.explore import chain_from_arrays
-    from evenbreak.files.arcs import read_arcs
 
-    file = read_arcs(arcs)
+    file = files.read_arcs(arcs)
     if start is None:
         start = file.states[file.sources[0]]
     elif start not in file.states:
         known = ", ".join(repr(state) for state in file.states[:5])
         raise DataError([f"{file.source}: start {start!r} is no state; its states begin {known}"])
-    chain = chain_from_arrays(
+    chain = chains.chain_from_arrays(
         file.states, file.sources, file.targets, file.probabilities, start=start
     )
     return chain_answer(chain, steps=steps, warnings=file.warnings)

@@ -1,7 +1,10 @@
 """`evenbreak oneball`: which shot to take."""
 
+from __future__ import annotations
+
 import click
 
+from evenbreak import plots, practice
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
@@ -59,15 +62,12 @@ def command(
     miss leaves. Each --or is another shot that you could take instead.
     """
     from evenbreak.answers.oneball import oneball_answer
-    from evenbreak.practice.shots import ShotChoice
 
     shots = [
-        ShotChoice(str(number), *chances)
+        practice.ShotChoice(str(number), *chances)
         for number, chances in enumerate([(p1, p2), *others], start=1)
     ]
     ahead = LOOK_AHEADS[look_ahead]
     if plot is not None:
-        from evenbreak.plots.shot_choice import shots_figure
-
-        write_plot(shots_figure(shots, look_ahead=ahead), plot)
+        write_plot(plots.shots_figure(shots, look_ahead=ahead), plot)
     return oneball_answer(shots, look_ahead=ahead)

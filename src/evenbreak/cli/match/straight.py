@@ -1,9 +1,12 @@
 """`evenbreak straight`: a match of 14.1 straight pool, and its spot."""
 
+from __future__ import annotations
+
 from fractions import Fraction
 
 import click
 
+from evenbreak import matches, stats
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand, safety_option
@@ -56,8 +59,6 @@ def command(
     The players: the balls that A and B average an inning; or --p1 and --p2.
     """
     from evenbreak.answers.straight import straight_answer
-    from evenbreak.matches.straight_pool import StraightPool
-    from evenbreak.stats.runs import shot_chance
 
     shots: list[Fraction | float]
     if averages and (p1 is not None or p2 is not None):
@@ -66,12 +67,12 @@ def command(
         if len(averages) != 2:
             given = " ".join(f"{average:g}" for average in averages)
             refuse(f"the averages are {given}; {REMEDY}")
-        shots = [shot_chance(average, safety) for average in averages]
+        shots = [stats.shot_chance(average, safety) for average in averages]
     elif p1 is None or p2 is None:
         refuse(f"the players are missing; {REMEDY}")
     else:
         shots = [p1, p2]
-    match = StraightPool(
+    match = matches.StraightPool(
         *points,
         *shots,
         safety_1=safety,

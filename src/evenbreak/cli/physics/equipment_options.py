@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak import physics
 from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.options import Command
 from evenbreak.cli.physics.measures import WEIGHT, Measure
-
-if TYPE_CHECKING:
-    from evenbreak.physics import Ball, Cue
 
 ball_option = click.option("--ball", type=WEIGHT, help="Weight of a ball.  [default: 6 ounces]")
 """The option --ball."""
@@ -44,17 +41,13 @@ def equipment_options(command: Command) -> Command:
     return command
 
 
-def ball_of(weight: float | None, units: Units) -> Ball:
+def ball_of(weight: float | None, units: Units) -> physics.Ball:
     """Return a pool ball, of another weight if one was typed."""
-    from evenbreak.physics import Ball
-
-    return Ball() if weight is None else Ball(mass=weight * units.mass.size)
+    return physics.Ball() if weight is None else physics.Ball(mass=weight * units.mass.size)
 
 
-def cue_of(weight: float | None, tip_mu: float, units: Units) -> Cue:
+def cue_of(weight: float | None, tip_mu: float, units: Units) -> physics.Cue:
     """Return a cue with such a tip, of another weight if one was typed."""
-    from evenbreak.physics import Cue
-
     if weight is None:
-        return Cue(tip_friction=tip_mu)
-    return Cue(mass=weight * units.mass.size, tip_friction=tip_mu)
+        return physics.Cue(tip_friction=tip_mu)
+    return physics.Cue(mass=weight * units.mass.size, tip_friction=tip_mu)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak import physics, plots
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
@@ -17,9 +18,6 @@ from evenbreak.cli.physics.equipment_options import ball_of, cue_of, equipment_o
 from evenbreak.cli.physics.hit_options import friction_options, tip_options
 from evenbreak.cli.physics.layout import layout_of, traced_shot
 from evenbreak.cli.physics.measures import LENGTH, Measure, metric_option
-
-if TYPE_CHECKING:
-    from evenbreak.physics import Strike
 
 EXAMPLES = """\b
 Examples:
@@ -87,29 +85,24 @@ def command(units: Units, plot: str | None, **how: Any) -> Answer:
     """
     from evenbreak.answers.shot import shot_answer
     from evenbreak.answers.shot_units import unit_doubts
-    from evenbreak.physics import Cloth
 
     places = ("cut", "distance", "cue_ball", "object_ball", "pocket", "table_length")
     layout = layout_of(units, **{name: how[name] for name in places})
-    cloth = Cloth(mu_slide=how["cloth_mu"], mu_roll=1.0 / how["table_speed"])
+    cloth = physics.Cloth(mu_slide=how["cloth_mu"], mu_roll=1.0 / how["table_speed"])
     friction = {"mu": how["mu"], "friction": how["friction"]}
     traced = traced_shot(_strike(how, units), layout, cloth=cloth, **friction)
     if plot is not None:
-        from evenbreak.plots.traced_shot import shot_on_table
-
-        write_plot(shot_on_table(traced), plot)
+        write_plot(plots.shot_on_table(traced), plot)
     typed = {name: how[name] for name in ("stick", "ball", "speed", "stick_speed")}
     return replace(shot_answer(traced, units, layout.pocket), warnings=unit_doubts(units, **typed))
 
 
-def _strike(how: dict[str, Any], units: Units) -> Strike:
+def _strike(how: dict[str, Any], units: Units) -> physics.Strike:
     """Return the hit of the tip, or refuse it."""
-    from evenbreak.physics import miscue_offset, strike, strike_for_speed
-
     if (how["speed"] is None) == (how["stick_speed"] is None):
         refuse("give either --speed, that of the cue ball, or --stick-speed, that of the cue")
     up, right = how["offset"], how["side_offset"]
-    most = miscue_offset(how["tip_mu"])
+    most = physics.miscue_offset(how["tip_mu"])
     if math.hypot(up, right) > most:
         refuse(
             f"--offset {up:g} with --side-offset {right:g} is a miscue: the tip slips beyond "
@@ -117,5 +110,7 @@ def _strike(how: dict[str, Any], units: Units) -> Strike:
         )
     ball, cue = ball_of(how["ball"], units), cue_of(how["stick"], how["tip_mu"], units)
     if how["speed"] is not None:
-        return strike_for_speed(how["speed"] * units.speed.size, up, right, ball=ball, cue=cue)
-    return strike(how["stick_speed"] * units.speed.size, up, right, ball=ball, cue=cue)
+        return physics.strike_for_speed(
+            how["speed"] * units.speed.size, up, right, ball=ball, cue=cue
+        )
+    return physics.strike(how["stick_speed"] * units.speed.size, up, right, ball=ball, cue=cue)

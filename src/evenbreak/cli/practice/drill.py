@@ -1,7 +1,10 @@
 """`evenbreak drill`: where a progressive drill settles, and what to practise."""
 
+from __future__ import annotations
+
 import click
 
+from evenbreak import files, games, practice
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -80,16 +83,14 @@ def command(
     if log is not None:
         return _log(log, levels, SEED if seed is None else seed, plot)
     from evenbreak.answers.drill import drill_answer
-    from evenbreak.games.drill import Drill
-    from evenbreak.practice.drills import drill_statistics
 
     if p is None:
-        drill = Drill(success or ())
+        drill = games.Drill(success or ())
         description = "A drill with the given chance of success at each level"
     else:
-        drill = Drill.progressive(p, LEVELS if levels is None else levels)
+        drill = games.Drill.progressive(p, LEVELS if levels is None else levels)
         description = f"A drill in which level i takes i - 1 good shots, each with chance {p:g}"
-    statistics = drill_statistics(drill)
+    statistics = practice.drill_statistics(drill)
     if plot is not None:
         from evenbreak.plots.drills import drill_figure
 
@@ -101,12 +102,10 @@ def _log(path: str, levels: int | None, seed: int, plot: str | None) -> Answer:
     import numpy as np
 
     from evenbreak.answers.drill_log import drill_log_answer
-    from evenbreak.files.drill_log import read_drill_log
-    from evenbreak.practice.log_analysis import analyse_log
 
-    file = read_drill_log(path, levels=levels)
+    file = files.read_drill_log(path, levels=levels)
     replicas = min(1999, max(199, MOST_DRAWS // len(file.log)))
-    analysis = analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
+    analysis = practice.analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
     if plot is not None:
         from evenbreak.plots.drills import log_figure
 

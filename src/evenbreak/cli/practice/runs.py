@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak import stats
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import safety_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, LONGEST, MOST_BALLS, Number, TwoWhole, Whole, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.stats.innings import InningsScore
-    from evenbreak.stats.runs import RunLength
-
 
 AVERAGE = Number(0, MOST_BALLS, f"; give a number of balls an inning from 0 to {MOST_BALLS}")
 LINE = Number(0, MOST_BALLS, f"; give a number of balls from 0 to {MOST_BALLS}, such as 20 or 20.5")
@@ -85,9 +79,11 @@ def command(
 
 def _law(
     mean: float | None, p: float | None, safety: float, innings: int
-) -> RunLength | InningsScore:
-    from evenbreak.stats.innings import InningsScore
-    from evenbreak.stats.runs import RunLength, shot_chance
+) -> stats.RunLength | stats.InningsScore:
 
-    chance = shot_chance(mean, safety) if p is None else p
-    return RunLength(chance, safety) if innings == 1 else InningsScore(chance, innings, safety)
+    chance = stats.shot_chance(mean, safety) if p is None else p
+    return (
+        stats.RunLength(chance, safety)
+        if innings == 1
+        else stats.InningsScore(chance, innings, safety)
+    )

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak import handicaps
 from evenbreak.cli.kit.options import Command
 from evenbreak.cli.kit.systems import chart_for
 from evenbreak.cli.kit.values import Number, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.systems.system import System
 
 
 def between(low: float, high: float) -> Number:
@@ -50,14 +45,13 @@ def watch_options(command: Command) -> Command:
 
 
 def watched_ladder(
-    system: System, chart_name: str | None, day_sd: float
-) -> tuple[Ladder, list[str]]:
+    system: handicaps.System, chart_name: str | None, day_sd: float
+) -> tuple[handicaps.Ladder, list[str]]:
     """Return the ladder whose rating errors the watch assumes, and warnings about its chart."""
     from evenbreak.errors import InputError
-    from evenbreak.handicaps.ladders.ladder import Ladder
 
     chart, warnings = chart_for(system, chart_name)
     try:
-        return Ladder(system, chart, day_sd=day_sd), warnings
+        return handicaps.Ladder(system, chart, day_sd=day_sd), warnings
     except InputError as error:
         refuse(f"--{str(error).replace('_', '-', 1)}")

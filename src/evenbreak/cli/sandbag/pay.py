@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak import handicaps
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option
@@ -13,12 +14,6 @@ from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.systems import chart_for, system_option
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.sandbag.options import between
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.systems.system import System
-
 
 DOUBLINGS = 4
 """How far off a rating may be: to where the odds of a game are 16 to 1."""
@@ -91,7 +86,7 @@ Examples:
 @plot_option
 @faces()
 def command(
-    chart: str | None, system: System, *, compare: bool, plot: str | None, **asked: Any
+    chart: str | None, system: handicaps.System, *, compare: bool, plot: str | None, **asked: Any
 ) -> Answer:
     """Show what it pays to lose matches on purpose.
 
@@ -122,8 +117,8 @@ def command(
     return sandbag_pay_answer(found, question, warnings)
 
 
-def _wide(system: System, chart: Chart) -> Ladder:
+def _wide(system: handicaps.System, chart: handicaps.Chart) -> handicaps.Ladder:
     """Return a wide ladder against opponents who are correctly rated."""
-    from evenbreak.handicaps.ladders.ladder import Ladder
-
-    return Ladder(system, chart, widest=round(DOUBLINGS * system.scale.points_per_doubling))
+    return handicaps.Ladder(
+        system, chart, widest=round(DOUBLINGS * system.scale.points_per_doubling)
+    )
