@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from evenbreak.handicaps.ladders.settling import Settling
 from evenbreak.plots.style import LINES, new_axes, unit_axis
 from evenbreak.stats.summary import Distribution
 
@@ -22,24 +23,6 @@ _PANEL = (450.0, 300.0)
 """The approximate width and height of the axes of the systems, in points."""
 
 _Box = tuple[float, float, float, float]
-
-
-class SettlingCurve(NamedTuple):
-    """How many players have settled after so many matches.
-
-    Parameters
-    ----------
-    start
-        the rating error at the start, in points.
-    within
-        the largest error that counts as settled, in points.
-    settled
-        P(settled within n matches | error `start` at the start), for n = 0, 1, 2, ...
-    """
-
-    start: int
-    within: int
-    settled: Sequence[float]
 
 
 class SystemPoint(NamedTuple):
@@ -70,7 +53,7 @@ def ladder_figure(
     *,
     natural: Distribution | None = None,
     within: int = 5,
-    curve: SettlingCurve | None = None,
+    curve: Settling | None = None,
     title: str | None = None,
 ) -> Figure:
     """Draw the distribution of the rating error, and beside it how fast newcomers settle.
@@ -155,8 +138,8 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.5)
 
 
-def _draw_settling(axes: Axes, curve: SettlingCurve) -> None:
-    settled = np.asarray(curve.settled, dtype=float)
+def _draw_settling(axes: Axes, curve: Settling) -> None:
+    settled = np.cumsum(curve.chances)
     # Nothing happens after nearly all have settled.
     last = min(int(np.searchsorted(settled, 0.995)) + 1, len(settled))
     matches = np.arange(last)

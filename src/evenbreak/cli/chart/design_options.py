@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak import files, handicaps
+from evenbreak import handicaps
 from evenbreak.cli.kit.options import Command, scale_option
+from evenbreak.cli.kit.systems import chart_by_difference
 from evenbreak.cli.kit.values import CHANCE, PAIR, SPAN, Number, Whole, refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
@@ -191,12 +192,9 @@ def task_of(
     breaking = None if breaks is None else BREAK_FORMATS[breaks]
     rules = handicaps.MatchRules(scale, win_by, breaking, break_points)
     limits = handicaps.RaceLimits(games, *least, games_p90)
-    return DesignTask(rules, limits, beside=tuple(map(_chart_beside, beside)), **others)
-
-
-def _chart_beside(name: str) -> handicaps.Chart:
-
-    found = files.find_chart(name)
-    if not isinstance(found, handicaps.Chart):
-        refuse("--beside names a chart by skill level; name one by rating difference")
-    return found
+    return DesignTask(
+        rules,
+        limits,
+        beside=tuple(chart_by_difference("--beside", name) for name in beside),
+        **others,
+    )

@@ -67,7 +67,9 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
     )
 
 
-def seed_option(what: str = "The seed of all random draws.", *, default: int = 1) -> Decorator[Any]:
+def seed_option(
+    what: str = "The seed of all random draws.", *, default: int | None = 1
+) -> Decorator[Any]:
     """Return the option --seed; `what` says what is drawn."""
     return click.option(
         "--seed",

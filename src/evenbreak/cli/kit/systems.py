@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from evenbreak import handicaps
+from evenbreak import files, handicaps
 from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import InputError
@@ -16,8 +16,8 @@ SCALE_OFF = 0.25
 """How much the scale that a chart fits best may differ from the system's without a warning."""
 
 
-def _system(name: str) -> handicaps.System:
-
+def read_system(name: str) -> handicaps.System:
+    """Return the system of this name, as a type of an option does."""
     try:
         return handicaps.system_of(name)
     except InputError as error:
@@ -28,7 +28,7 @@ def system_option(default: str | None = "npl") -> Decorator[Any]:
     """Return the option --system; without a default, a command gets None for npl."""
     return click.option(
         "--system",
-        type=_system,
+        type=read_system,
         metavar="NAME",
         default=default,
         show_default=False,
@@ -51,6 +51,14 @@ def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:
     if system.scale.name != "npl" and scale != system.scale:
         refuse(f"the system {system.name} has a scale of its own; leave --scale out")
     return replace(system, scale=scale)
+
+
+def chart_by_difference(option: str, name: str) -> handicaps.Chart:
+    """Return a chart of rating differences, or refuse one of skill levels."""
+    found = files.find_chart(name)
+    if not isinstance(found, handicaps.Chart):
+        refuse(f"{option} {name!r} is a chart of skill levels; give one of rating differences")
+    return found
 
 
 def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Chart, list[str]]:

@@ -217,15 +217,10 @@ def _question(ladder: handicaps.Ladder, asked: dict[str, Any], opponents: str) -
 
 
 def _draw(found: LadderFindings, title: str, path: str) -> None:
-    from itertools import accumulate
+    from evenbreak.plots.ladders import ladder_figure
 
-    from evenbreak.plots.ladders import SettlingCurve, ladder_figure
-
-    asked, curve = found.question, None
-    if found.settling is not None:
-        settled = [*accumulate(found.settling.chances)]
-        curve = SettlingCurve(asked.start, asked.within, settled)
+    within, curve = found.question.within, found.settling
     figure = ladder_figure(
-        found.law, natural=found.natural, within=asked.within, curve=curve, title=title
+        found.law, natural=found.natural, within=within, curve=curve, title=title
     )
     write_plot(figure, path)

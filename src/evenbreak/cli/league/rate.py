@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak import answers, files
+from evenbreak import answers, files, handicaps
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, chart_option, scale_option
+from evenbreak.cli.kit.systems import read_system
 from evenbreak.cli.kit.values import NUMBER, refuse
 from evenbreak.cli.league.rate_options import PointsOr, how_to_rate, rated
 from evenbreak.ratings.scale import Scale
@@ -70,6 +71,7 @@ Examples:
 )
 @click.option(
     "--system",
+    type=read_system,
     metavar="NAME",
     help="Apply a league's own rule to --roster instead, such as npl or 'step 2'.",
 )
@@ -86,7 +88,7 @@ Examples:
 @faces()
 def command(
     results: str,
-    system: str | None,
+    system: handicaps.System | None,
     roster: str | None,
     chart: str | None,
     aliases: str | None,
@@ -168,5 +170,4 @@ def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
 
 
 def _places(players: Ratings | Results, names: Sequence[str], option: str) -> list[int]:
-
     return answers.find_players(players, names, said=option)

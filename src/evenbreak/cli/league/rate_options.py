@@ -30,7 +30,7 @@ class PointsOr(Number):
         return super().convert(value, param, ctx)
 
 
-def _day(text: str) -> str:
+def read_day(text: str) -> str:
     """Return a day, written in any way that a cell of a results file may have, as 2026-01-31."""
     from evenbreak.files.cells import read_date
 
@@ -68,7 +68,7 @@ def how_to_rate(command: Command) -> Command:
         click.option(
             "--as-of",
             metavar="DATE",
-            type=_day,
+            type=read_day,
             help="Rate as of this day: leave later matches out.  [default: the last date]",
         ),
         half_life_option,

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.systems import chart_by_difference
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import refuse
-from evenbreak.errors import DataError, InputError
+from evenbreak.errors import DataError
 
 
 def rate_by_system(
-    path: str, *, system: str, roster: str, chart: str | None, aliases: str | None
+    path: str, *, system: handicaps.System, roster: str, chart: str | None, aliases: str | None
 ) -> Answer:
     """Return the list of ratings after a night.
 
@@ -19,7 +20,7 @@ def rate_by_system(
     path
         the results of the night.
     system
-        the name of the league's system.
+        the league's system.
     roster
         the list before the night.
     chart
@@ -30,17 +31,13 @@ def rate_by_system(
     """
     if [path, roster, chart, aliases].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
-    try:
-        rule = handicaps.system_of(system)
-    except InputError as error:
-        refuse(f"--{error}")
-    by_chart = None if chart is None else _chart(chart)
+    by_chart = None if chart is None else chart_by_difference("--chart", chart)
     last = files.read_roster(roster)
     tonight = files.read_results(path, aliases=aliases)
     if by_chart is None:
-        by_chart = handicaps.chart_of_night(rule, last.roster, tonight.results)
+        by_chart = handicaps.chart_of_night(system, last.roster, tonight.results)
     try:
-        moves = answers.moves_of_files(rule, last, tonight, chart=by_chart)
+        moves = answers.moves_of_files(system, last, tonight, chart=by_chart)
     except DataError:
         for warning in (*last.warnings, *tonight.warnings):  # they may explain it
             say(f"Warning: {warning}")
@@ -48,11 +45,3 @@ def rate_by_system(
     return answers.rating_changes_answer(
         moves, last, tonight, chart=by_chart, found_chart=chart is None
     )
-
-
-def _chart(name: str) -> handicaps.Chart:
-
-    found = files.find_chart(name)
-    if not isinstance(found, handicaps.Chart):
-        refuse(f"--chart {name!r} is a chart of skill levels; give one of rating differences")
-    return found

@@ -7,13 +7,13 @@ import click
 from evenbreak import files, games, practice
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, Whole, numbers, refuse
 
 MOST_LEVELS = 100
 LEVELS = 9
 SEED = 1
-HIGHEST_SEED = 2**32 - 1
 
 MOST_DRAWS = 20_000_000
 """The most attempts simulated for a test, so that a long log takes seconds."""
@@ -52,12 +52,7 @@ _chances = numbers(
     metavar="N",
     help="How many levels there are.  [default: 9 with --p, the highest in the log with --log]",
 )
-@click.option(
-    "--seed",
-    type=Whole(0, HIGHEST_SEED),
-    metavar="N",
-    help=f"The seed of the simulations that test a log.  [default: {SEED}]",
-)
+@seed_option(f"The seed of the simulations that test a log.  [default: {SEED}]", default=None)
 @plot_option
 @faces()
 def command(

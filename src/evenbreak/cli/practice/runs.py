@@ -80,7 +80,6 @@ def command(
 def _law(
     mean: float | None, p: float | None, safety: float, innings: int
 ) -> stats.RunLength | stats.InningsScore:
-
     chance = stats.shot_chance(mean, safety) if p is None else p
     return (
         stats.RunLength(chance, safety)
