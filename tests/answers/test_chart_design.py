@@ -31,7 +31,7 @@ def test_the_rule_decides_which_chart_is_made():
 def test_the_last_difference_comes_from_the_charts_beside():
     beside = (chart("npl_8"), chart("npl_12"))
     made = DesignTask(NPL, LIMITS, beside=beside).design()
-    assert made.up_to == min(last_difference(one, NPL) for one in beside)
+    assert made[1] == min(last_difference(one, NPL) for one in beside)
     assert DesignTask(NPL, LIMITS, up_to=30, beside=beside).design()[1] == 30
 
 

@@ -81,11 +81,6 @@ class Round:
             by_chart["chart_"] = self.chart
         return by_chart if self.offered is None else {**by_chart, "": self.offered}
 
-    @property
-    def names(self) -> set[str]:
-        """The players who meet somebody."""
-        return {self.roster.players[place] for place in np.unique(self.pairs).tolist()}
-
     def in_parts(self) -> Iterator[RosterMatchups]:
         """Yield the races, so many pairs at a time that memory is no concern."""
         for first in range(0, len(self.pairs), AT_A_TIME):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak import handicaps
-from evenbreak.cli.kit.options import Command, scale_option
+from evenbreak.cli.kit.options import Command, scale_option, with_options
 from evenbreak.cli.kit.systems import chart_by_difference
 from evenbreak.cli.kit.values import CHANCE, PAIR, SPAN, Number, Whole, refuse
 from evenbreak.errors import InputError
@@ -35,7 +35,8 @@ _PARAMETER = re.compile(
 
 def design_options(command: Command) -> Command:
     """Add the options that describe the chart to be designed."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--beside",
             metavar="NAME_OR_FILE",
@@ -133,9 +134,7 @@ def design_options(command: Command) -> Command:
             required=True,
             help="Races whose longest possible match has LO to HI games.",
         ),
-    ):
-        command = add(command)
-    return command
+    )
 
 
 @contextmanager

@@ -13,6 +13,14 @@ from evenbreak.ratings.scale import Scale, scale_of
 Command = TypeVar("Command", bound=Callable[..., Any])
 Decorator = Callable[[Command], Command]
 
+
+def with_options(command: Command, *options: Decorator[Any]) -> Command:
+    """Return a command with more options, the last of them first in its help."""
+    for option in options:
+        command = option(command)
+    return command
+
+
 HIGHEST_SEED = 2**32 - 1
 
 
@@ -121,18 +129,21 @@ safety_option = click.option(
 
 def which_races(command: Command) -> Command:
     """Add the options that limit the races: --games or --race-to."""
-    command = click.option(
-        "--race-to",
-        type=Whole(1, LONGEST),
-        metavar="N",
-        help="Races in which the stronger player needs N games.",
-    )(command)
-    return click.option(
-        "--games",
-        metavar="LO..HI",
-        type=SPAN,
-        help="Races whose longest possible match has LO to HI games.",
-    )(command)
+    return with_options(
+        command,
+        click.option(
+            "--race-to",
+            type=Whole(1, LONGEST),
+            metavar="N",
+            help="Races in which the stronger player needs N games.",
+        ),
+        click.option(
+            "--games",
+            metavar="LO..HI",
+            type=SPAN,
+            help="Races whose longest possible match has LO to HI games.",
+        ),
+    )
 
 
 def refuse_both(games: tuple[int, int] | None, race_to: int | None) -> None:

@@ -30,14 +30,14 @@ def comparison(chart_name: str | None, asked: dict[str, Any], plot: str | None) 
             refuse(f"--compare goes through several systems; leave --{option} out")
     npl = system_of("npl")
     chart, warnings = chart_for(npl, chart_name)
-    chosen = opponents_of_options(asked, npl.scale)
+    opponents, name, doubts = opponents_of_options(asked, npl.scale)
     try:
-        found = compare_ladders(chart, chosen.opponents, chosen.name)
+        found = compare_ladders(chart, opponents, name)
     except AccuracyError as error:
-        raise AccuracyError(why_no_long_run(error, chosen.opponents)) from None
+        raise AccuracyError(why_no_long_run(error, opponents)) from None
     if plot is not None:
         _draw(found, plot)
-    return ladder_comparison_answer(found, [*warnings, *chosen.warnings])
+    return ladder_comparison_answer(found, [*warnings, *doubts])
 
 
 def _draw(found: LadderComparison, path: str) -> None:

@@ -155,14 +155,14 @@ def _ladder(
     system = asked["system"] or handicaps.system_of("npl" if step is None else f"step {step}")
     system = on_scale(system, asked["scale"])
     chart, warnings = chart_for(system, chart_name)
-    chosen = opponents_of_options(asked, system.scale)
+    opponents, name, doubts = opponents_of_options(asked, system.scale)
     _refuse_much(asked, system)
     matches = asked["matches_a_night"] or 1
     try:
         built = handicaps.Ladder(
             system,
             chart,
-            opponents=chosen.opponents,
+            opponents=opponents,
             day_sd=asked["day_sd"] or 0.0,
             match_sd=asked["match_sd"] or 0.0,
             matches_a_night=matches,
@@ -171,8 +171,8 @@ def _ladder(
         say_if_long(built)
         built.law()
     except AccuracyError as error:
-        raise AccuracyError(why_no_long_run(error, chosen.opponents)) from None
-    return built, chosen.name, [*warnings, *chosen.warnings]
+        raise AccuracyError(why_no_long_run(error, opponents)) from None
+    return built, name, [*warnings, *doubts]
 
 
 def _refuse_much(asked: dict[str, Any], system: handicaps.System) -> None:

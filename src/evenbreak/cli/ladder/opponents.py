@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 from evenbreak import files, handicaps
 from evenbreak.cli.kit.values import refuse
@@ -13,16 +13,10 @@ MOST_APART = 20.0
 """Doublings of the odds that an opponent may be from the player: a game in a million."""
 
 
-class Chosen(NamedTuple):
-    """The opponents that are asked for, the word for them, and warnings about their list."""
-
-    opponents: handicaps.Opponents
-    name: str
-    warnings: list[str]
-
-
-def opponents_of_options(asked: dict[str, Any], scale: Scale) -> Chosen:
-    """Return the opponents that are asked for, or refuse options that exclude each other."""
+def opponents_of_options(
+    asked: dict[str, Any], scale: Scale
+) -> tuple[handicaps.Opponents, str, list[str]]:
+    """Return the opponents asked for, the word for them, and warnings about their list."""
     given = [name for name in ("autocorrelated", "equal_skill", "league") if asked[name]]
     if len(given) > 1:
         *before, last = (f"--{name.replace('_', '-')}" for name in given)
@@ -31,12 +25,12 @@ def opponents_of_options(asked: dict[str, Any], scale: Scale) -> Chosen:
         refuse("--skill is the player's own in a league; give --league ROSTER.csv, or leave it out")
     if asked["league"] is not None:
         opponents, warnings = _of_league(asked["league"], asked["skill"], scale)
-        return Chosen(opponents, "league", warnings)
+        return opponents, "league", warnings
     if asked["autocorrelated"]:
-        return Chosen(handicaps.AUTOCORRELATED, "autocorrelated", [])
+        return handicaps.AUTOCORRELATED, "autocorrelated", []
     if asked["equal_skill"]:
-        return Chosen(handicaps.EQUAL_SKILL, "equal skill", [])
-    return Chosen(handicaps.NATURAL, "natural", [])
+        return handicaps.EQUAL_SKILL, "equal skill", []
+    return handicaps.NATURAL, "natural", []
 
 
 def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[handicaps.Opponents, list[str]]:

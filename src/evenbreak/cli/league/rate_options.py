@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import Command, Decorator
+from evenbreak.cli.kit.options import Command, Decorator, with_options
 from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.ratings.scale import Scale
 
@@ -64,7 +64,8 @@ half_life_option = click.option(
 
 def how_to_rate(command: Command) -> Command:
     """Add the options --prior, --half-life and --as-of."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--as-of",
             metavar="DATE",
@@ -73,9 +74,7 @@ def how_to_rate(command: Command) -> Command:
         ),
         half_life_option,
         prior_option("what doubles the odds"),
-    ):
-        command = add(command)
-    return command
+    )
 
 
 def rated(

@@ -5,7 +5,7 @@ from typing import Any
 import click
 
 from evenbreak.answers.two_players import TwoPlayers
-from evenbreak.cli.kit.options import Command
+from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.kit.players import players_of
 from evenbreak.cli.kit.values import LONGEST, PAIR, SCORE, Whole, refuse
 from evenbreak.games.match import Match
@@ -17,7 +17,8 @@ MOST_SCORES = 10_000
 
 def match_options(command: Command) -> Command:
     """Add the options that describe the match."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--win-by",
             type=Whole(1, LONGEST),
@@ -46,9 +47,7 @@ def match_options(command: Command) -> Command:
             type=PAIR,
             help="A needs M games, B needs N; 7 means 7:7.",
         ),
-    ):
-        command = add(command)
-    return command
+    )
 
 
 def match_of(

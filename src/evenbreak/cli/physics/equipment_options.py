@@ -8,7 +8,7 @@ import click
 
 from evenbreak import physics
 from evenbreak.answers.shot_units import Units
-from evenbreak.cli.kit.options import Command
+from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.physics.measures import WEIGHT, Measure
 
 ball_option = click.option("--ball", type=WEIGHT, help="Weight of a ball.  [default: 6 ounces]")
@@ -36,9 +36,7 @@ _OPTIONS = (
 
 def equipment_options(command: Command) -> Command:
     """Add the options --stick, --ball, --cloth-mu and --tip-mu."""
-    for option in _OPTIONS:
-        command = option(command)
-    return command
+    return with_options(command, *_OPTIONS)
 
 
 def ball_of(weight: float | None, units: Units) -> physics.Ball:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import Command
+from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.physics.measures import CUT, FRICTION, OFFSET, SPIN
 
 if TYPE_CHECKING:
@@ -55,12 +55,12 @@ _HIT = (
 
 def friction_options(command: Command) -> Command:
     """Add the options --mu and --friction."""
-    return _with(_FRICTION, command)
+    return with_options(command, *_FRICTION)
 
 
 def hit_options(command: Command) -> Command:
     """Add the options --cut, --topspin, --side, --mu and --friction; see `hit_of`."""
-    return _with(_HIT, command)
+    return with_options(command, *_HIT)
 
 
 def hit_of(*, cut: float, topspin: float, side: float, mu: float, friction: str) -> Hit:
@@ -78,10 +78,4 @@ def tip_options(**offset: Any) -> Callable[[Command], Command]:
         click.option("--side-offset", type=OFFSET, default=0.0, help=side),
         click.option("--offset", type=OFFSET, help=up, **offset),
     )
-    return lambda command: _with(options, command)
-
-
-def _with(options: tuple[Callable[[Any], Any], ...], command: Command) -> Command:
-    for option in options:
-        command = option(command)
-    return command
+    return lambda command: with_options(command, *options)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from evenbreak import handicaps
-from evenbreak.cli.kit.options import Command
+from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.kit.systems import chart_for
 from evenbreak.cli.kit.values import Number, refuse
 
@@ -17,7 +17,8 @@ def between(low: float, high: float) -> Number:
 
 def watch_options(command: Command) -> Command:
     """Add the options that say how the watch judges players."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--day-sd",
             default="0",
@@ -39,9 +40,7 @@ def watch_options(command: Command) -> Command:
             type=between(1e-9, 0.5),
             help="The largest chance that an honest player is ever flagged.",
         ),
-    ):
-        command = add(command)
-    return command
+    )
 
 
 def watched_ladder(
