@@ -95,9 +95,9 @@ def chart_option(
     return click.option("--chart", metavar="NAME|FILE", help=what)
 
 
-def _folder(ctx: click.Context, param: click.Parameter, value: str) -> str:
+def _folder(ctx: click.Context, param: click.Parameter, value: str) -> str:  # noqa: ARG001
     if not value.strip():
-        raise click.BadParameter("it is empty; name a folder, or . for this one", ctx, param)
+        refuse("--out is empty; name a folder, or . for this one")
     return value
 
 
