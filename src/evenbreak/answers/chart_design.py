@@ -40,7 +40,7 @@ class DesignTask:
         is the smallest `last_difference` of these.
 
     >>> task = DesignTask(MatchRules("npl"), RaceLimits((5, 7), weaker_least=2))
-    >>> task.design().chart.race(12)
+    >>> task.design()[0].race(12)
     (4, 3)
     """
 
