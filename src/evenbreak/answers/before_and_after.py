@@ -1,16 +1,11 @@
 """Whether scores have changed: two lists of them, before and after."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
-
-if TYPE_CHECKING:
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.compare import Comparison, Scores
+from evenbreak.files.scores import ScoresFile
+from evenbreak.stats.compare import Comparison, Scores
 
 TWO = decimals(2)
 

@@ -1,7 +1,5 @@
 """Which cue gives an arm the fastest break."""
 
-from __future__ import annotations
-
 import math
 
 from evenbreak.answers.answer import Answer, Quantities

@@ -1,18 +1,13 @@
 """What each break format is worth to two players in the long run."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.wording import chance, count_of, decimals, listed, percent
-from evenbreak.practice.breaks import compare_break_formats
-
-if TYPE_CHECKING:
-    from evenbreak.games.rack import Rack
-    from evenbreak.practice.breaks import BreakFormatValue
+from evenbreak.games.rack import Rack
+from evenbreak.practice.breaks import BreakFormatValue, compare_break_formats
 
 USUAL = ("winner", "loser", "alternate")
 

@@ -1,7 +1,5 @@
 """How fair a chart is, and which ratings it was made for."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, astuple
 from typing import Any

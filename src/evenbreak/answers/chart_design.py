@@ -1,7 +1,5 @@
 """The fairest chart within limits, and other charts beside it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from itertools import groupby
@@ -42,7 +40,7 @@ class DesignTask:
         is the smallest `last_difference` of these.
 
     >>> task = DesignTask(MatchRules("npl"), RaceLimits((5, 7), weaker_least=2))
-    >>> task.design().chart.race(12)
+    >>> task.design()[0].race(12)
     (4, 3)
     """
 
@@ -56,7 +54,7 @@ class DesignTask:
     rows: int | None = None
     beside: tuple[Chart, ...] = ()
 
-    def design(self) -> Design:
+    def design(self) -> tuple[Chart, int]:
         """Return the chart that fulfils the task."""
         up_to = self.up_to
         if up_to is None and self.beside:
@@ -72,7 +70,7 @@ class DesignTask:
                 mean_games=self.mean_games,
                 rows=self.rows,
             )
-        return Design(made, int(candidates.points[-1]))
+        return made, int(candidates.points[-1])
 
     def heading(self, up_to: int) -> str:
         """Return what is asked for, in two lines."""
@@ -99,14 +97,7 @@ class DesignTask:
         )
 
 
-class Design(NamedTuple):
-    """A designed chart, and the last difference that counted."""
-
-    chart: Chart
-    up_to: int
-
-
-def chart_design_answer(task: DesignTask, design: Design) -> Answer:
+def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
     """Return a designed chart beside other charts; as CSV it is a chart file.
 
     >>> task = DesignTask(MatchRules("npl"), RaceLimits((7, 9), 5, 2), up_to=59)

@@ -1,7 +1,5 @@
 """The charts that come with the package."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Table

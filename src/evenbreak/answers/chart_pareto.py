@@ -1,16 +1,11 @@
 """What fairness costs in length: the fairest charts for every length."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.chart_design import DesignTask
 from evenbreak.answers.wording import decimals, listed
-
-if TYPE_CHECKING:
-    from evenbreak.answers.chart_design import DesignTask
-    from evenbreak.handicaps.charts.pareto import ParetoChart
+from evenbreak.handicaps.charts.pareto import ParetoChart
 
 
 def chart_pareto_answer(task: DesignTask, charts: Sequence[ParetoChart]) -> Answer:

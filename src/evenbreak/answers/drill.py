@@ -1,16 +1,10 @@
 """Where a progressive drill settles, and which level to practise."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.wording import chance, decimals
+from evenbreak.practice.drills import DrillStatistics
 from evenbreak.practice.levels import MORE
-
-if TYPE_CHECKING:
-    from evenbreak.practice.drills import DrillStatistics
-    from evenbreak.stats.summary import Distribution
+from evenbreak.stats.summary import Distribution
 
 MUCH = 1e6
 """From here on a gain is shown with three digits."""

@@ -1,19 +1,14 @@
 """What a drill log says: which level to practise, and whether anything stands out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.drill import GAIN_WORDS, amount, better, spread
 from evenbreak.answers.wording import chance, count_of, decimals
-
-if TYPE_CHECKING:
-    from evenbreak.files.drill_log import DrillLogFile
-    from evenbreak.practice.log_analysis import LogAnalysis
-    from evenbreak.practice.log_tests import PlayedAgainTest
+from evenbreak.files.drill_log import DrillLogFile
+from evenbreak.practice.log_analysis import LogAnalysis
+from evenbreak.practice.log_tests import PlayedAgainTest
 
 UNLIKELY = 0.05
 """A p-value below which chance is no longer taken for the explanation."""

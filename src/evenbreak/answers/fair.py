@@ -1,16 +1,11 @@
 """The races that are nearest to an even chance."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, percent
-
-if TYPE_CHECKING:
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.handicaps.charts.fair import FairRace
+from evenbreak.handicaps.charts.fair import FairRace
 
 
 def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float = 0.5) -> Answer:

@@ -1,17 +1,10 @@
 """Whether a player is getting better: the scores of a drill over time."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from evenbreak.answers.answer import Answer, Part, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, luck_words, percent
+from evenbreak.files.scores import ScoresFile
 from evenbreak.stats.confidence import MeanInterval, mean_interval, sd_of
-from evenbreak.stats.trend import trend
-
-if TYPE_CHECKING:
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.trend import Trend
+from evenbreak.stats.trend import Trend, trend
 
 TWO = decimals(2)
 DAYS_A_WEEK = 7.0

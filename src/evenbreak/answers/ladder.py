@@ -1,20 +1,16 @@
 """How far off ratings are in the long run, and what that does to matches and newcomers."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
 from evenbreak.answers.ladder_findings import LadderFindings
 from evenbreak.answers.wording import count_of, decimals
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.settling import Settling
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.ladders.settling import Settling
-    from evenbreak.stats.summary import Distribution
+from evenbreak.stats.summary import Distribution
 
 QUANTILES = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 AFTER = (10, 20, 50, 100, 200)

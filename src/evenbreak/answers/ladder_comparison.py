@@ -1,19 +1,19 @@
 """Handicap systems side by side: how accurate, how fast, how fair, and which step is worth it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.answer import Answer, Column, Part, Show, Table
 from evenbreak.answers.ladder import OPPONENTS
 from evenbreak.answers.wording import decimals, listed
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.ladders.comparison import SystemRow
-    from evenbreak.handicaps.ladders.opponents import Opponents
-    from evenbreak.league.reestimate import Reestimated
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart import chart as printed
+from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow, compare_systems, on_front
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.opponents import Opponents
+from evenbreak.handicaps.ladders.settling import settling
+from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.league.reestimate import Reestimated, reestimate
 
 OTHERS = ("margin 2", "elo 4", "elo 16", "fixed 9")
 """The other systems; those without a printed chart are played by a chart of their own."""
@@ -52,8 +52,6 @@ class LadderComparison(NamedTuple):
 
 def compare_ladders(chart: Chart, opponents: Opponents, name: str) -> LadderComparison:
     """Return systems and steps side by side, against opponents of a kind of `OPPONENTS`."""
-    from evenbreak.handicaps.ladders.comparison import compare_systems, on_front
-
     rows = compare_systems([(f"step {step}", chart) for step in STEPS], opponents=opponents)
     front = on_front([(row.sd, row.settling_mean) for row in rows])
     refitted = _refitted(chart) if name == "equal skill" else None
@@ -63,10 +61,6 @@ def compare_ladders(chart: Chart, opponents: Opponents, name: str) -> LadderComp
 
 def _systems(chart: Chart, opponents: Opponents) -> list[SystemRow]:
     """Return the National Pool League by all of its charts and by `chart`, and other systems."""
-    from evenbreak.handicaps.charts.chart import chart as printed
-    from evenbreak.handicaps.ladders.comparison import compare_systems
-    from evenbreak.handicaps.systems.catalogue import system_of
-
     npl = system_of("npl")
     charts = [printed(name) for name in npl.charts]
     if chart not in charts:
@@ -79,10 +73,6 @@ def _systems(chart: Chart, opponents: Opponents) -> list[SystemRow]:
 
 def _newcomer(row: SystemRow, chart: Chart, opponents: Opponents) -> SystemRow:
     """Return the league's row on this chart if the player moves by its newcomer steps at first."""
-    from evenbreak.handicaps.ladders.comparison import NEAR
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.ladders.settling import settling
-
     ladder = Ladder("npl", chart, opponents=opponents)
     points = ladder.system.scale.points_per_doubling
     sooner = settling(ladder, -round(points), round(NEAR * points), newcomer=True)
@@ -92,8 +82,6 @@ def _newcomer(row: SystemRow, chart: Chart, opponents: Opponents) -> SystemRow:
 
 def _refitted(chart: Chart) -> Reestimated:
     """Return how far off ratings stay that are refitted every week, in simulated leagues."""
-    from evenbreak.league.reestimate import reestimate
-
     return reestimate(
         [0.0] * REFITTED_PLAYERS,
         chart,
@@ -135,9 +123,22 @@ _EXPLANATION = (
     "'Games': the average length of a match."
 )
 
+
+def _per_cent(places: int) -> Show:
+    return lambda share: f"{100.0 * share:.{places}f}"
+
+
 _COLUMNS = [
-    *map(Column, ("system", "chart", "sd", "sd_doublings", "settling_mean", "settling_p90")),
-    *map(Column, ("p_favourite_mean", "favourite_over_60", "games_mean", "inflation")),
+    Column("system", "system", left=True),
+    Column("chart", "chart", left=True),
+    Column("sd", "error,\npoints", decimals(2)),
+    Column("sd_doublings", "% of a\ndoubling", _per_cent(1)),
+    Column("settling_mean", "settles\nin", decimals(1)),
+    Column("settling_p90", "9 of 10\nin"),
+    Column("p_favourite_mean", "favourite\nwins %", _per_cent(1)),
+    Column("favourite_over_60", "60%\nor up", _per_cent(0)),
+    Column("games_mean", "games", decimals(1)),
+    Column("inflation"),
     Column("on_front", cell=lambda best: str(int(best))),
     *map(Column, ("sd_se", "settling_mean_se")),
 ]
@@ -152,23 +153,7 @@ def _rows(found: LadderComparison) -> Iterator[tuple[Any, ...]]:
 
 
 def _view(rows: Sequence[SystemRow], title: str = "") -> Table:
-    """Return systems as people read them."""
-
-    def per_cent(places: int) -> Any:
-        return lambda share: f"{100.0 * share:.{places}f}"
-
-    columns = [
-        Column("system", "system", left=True),
-        Column("chart", "chart", left=True),
-        Column("sd", "error,\npoints", decimals(2)),
-        Column("sd_doublings", "% of a\ndoubling", per_cent(1)),
-        Column("settling_mean", "settles\nin", decimals(1)),
-        Column("settling_p90", "9 of 10\nin"),
-        Column("favourite", "favourite\nwins %", per_cent(1)),
-        Column("clear_favourite", "60%\nor up", per_cent(0)),
-        Column("games", "games", decimals(1)),
-    ]
-    return Table("", columns, [row[: len(columns)] for row in rows], title)
+    return Table("", _COLUMNS, [(*row, None, None, None) for row in rows], title)
 
 
 def _advice(found: LadderComparison) -> str:

@@ -1,7 +1,5 @@
 """What a fair-race sheet does not include, and why."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,20 +1,15 @@
 """A match under way: how it stands, what the next game is worth, how it went."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.comebacks import comeback_tables
 from evenbreak.answers.odds import match_words
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, percent, signed
-
-if TYPE_CHECKING:
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.games.match import Match
-    from evenbreak.matches.live import LiveOdds, Standing
-
+from evenbreak.games.match import Match
+from evenbreak.matches.live import LiveOdds, Standing
 
 _PLACE = ("score_a", "score_b", "set_a", "set_b", "next_break")
 

@@ -1,10 +1,10 @@
 """Which race each pair of a round plays, who wins it how often, and how long it takes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import pandas as pd
 
 from evenbreak.answers.answer import Answer, Column, Part, Table
 from evenbreak.answers.report_frames import file_name
@@ -23,9 +23,6 @@ from evenbreak.answers.round_words import (
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.wording import chance, decimals, race
 from evenbreak.files.csv_writer import rows_of
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:

@@ -1,16 +1,9 @@
 """Whether one new score of a drill was luck."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
-from evenbreak.stats.confidence import mean_interval, was_it_luck
-
-if TYPE_CHECKING:
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.confidence import Luck
+from evenbreak.files.scores import ScoresFile
+from evenbreak.stats.confidence import Luck, mean_interval, was_it_luck
 
 TWO = decimals(2)
 

@@ -1,7 +1,5 @@
 """A night's results applied to a list of ratings, or everything that prevents it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from evenbreak.files.problems import Problems, quoted

@@ -1,19 +1,12 @@
 """The chances of a match, and its length."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.games.ahead import Ahead
+from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack
-from evenbreak.matches.odds import match_odds
-
-if TYPE_CHECKING:
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.games.match import Match
-    from evenbreak.matches.odds import MatchOdds
+from evenbreak.matches.odds import MatchOdds, match_odds
 
 
 def odds_answer(players: TwoPlayers, match: Match) -> Answer:

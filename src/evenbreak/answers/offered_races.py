@@ -1,7 +1,5 @@
 """Which races players are offered, and the fairest of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from evenbreak.answers.wording import count_of

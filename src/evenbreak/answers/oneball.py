@@ -1,16 +1,11 @@
 """Which shot to take in the one-ball game."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.wording import chance, count_of, listed, percent
-from evenbreak.practice.shots import compare_shots, critical_p2
-
-if TYPE_CHECKING:
-    from evenbreak.practice.shots import RankedShot, ShotChoice
+from evenbreak.practice.shots import RankedShot, ShotChoice, compare_shots, critical_p2
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""

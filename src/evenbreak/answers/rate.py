@@ -1,9 +1,7 @@
 """How strong everybody is, and how certain that is; or how far apart two players are."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -11,11 +9,9 @@ from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.chosen_players import by_strength
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
-
-if TYPE_CHECKING:
-    from evenbreak.files.results import ResultsFile
-    from evenbreak.ratings.fitted import Ratings
-    from evenbreak.ratings.prior import PriorChoice
+from evenbreak.files.results import ResultsFile
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.prior import PriorChoice
 
 NOT_LINKED = "no chain of opponents links the two"
 

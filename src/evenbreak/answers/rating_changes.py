@@ -1,25 +1,20 @@
 """How a night changes a league's ratings by its own rule, and the list for next week."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.answers.answer import Answer, Column, Part, Table
 from evenbreak.answers.wording import count_of, some_of
 from evenbreak.files.problems import quoted
+from evenbreak.files.results import ResultsFile
+from evenbreak.files.roster import RosterFile
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.systems.rating_changes import MatchChange, RatingChanges
 from evenbreak.ratings.roster import NOT_STATED
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.files.results import ResultsFile
-    from evenbreak.files.roster import RosterFile
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.rating_changes import MatchChange, RatingChanges
 
 MOST_NAMES = 6
 """How many players who gained, and who lost, the first sentence names."""

@@ -1,11 +1,11 @@
 """The sentences of a round's races, each said once for the terminal and the page."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
 
 from evenbreak.answers.fair_pairs import NOT_LINKED
 from evenbreak.answers.offered_races import OfferedRaces
@@ -14,10 +14,6 @@ from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR
 from evenbreak.answers.round import EveningEnd, Round
 from evenbreak.answers.scale_words import game_chance
 from evenbreak.answers.wording import clock, count_of, percent, race
-
-if TYPE_CHECKING:
-    import pandas as pd
-    from numpy.typing import NDArray
 
 FEW_GAMES = 20
 """A rating that rests on fewer games is no more than a guess."""

@@ -1,7 +1,5 @@
 """What a player runs in an inning, or scores in several."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,19 +1,21 @@
 """What it pays to lose matches on purpose: by matches dumped, in cycles, and by chart."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.wording import chance, count_of, decimals, percent
 from evenbreak.errors import InputError
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.league.dump_cycle import DumpCycle
-    from evenbreak.league.sandbag_pay import DumpRow, Sandbagging
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.league.dump_cycle import DumpCycle, best_cycle
+from evenbreak.league.sandbag_pay import (
+    DumpRow,
+    Sandbagging,
+    entering_low,
+    most_dumped,
+    sandbagging,
+)
 
 CYCLE = 10
 """The matches of the cycles of dumping and playing in earnest that are looked at."""
@@ -81,9 +83,6 @@ def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -
     InputError
         if one match dumped already takes the rating to the ladder's end.
     """
-    from evenbreak.league.dump_cycle import best_cycle
-    from evenbreak.league.sandbag_pay import entering_low, most_dumped, sandbagging
-
     asked = question._asdict()
     most = most_dumped(ladder, question.start)
     if not most:
@@ -228,9 +227,7 @@ def _by_dumped(rows: Sequence[DumpRow], question: PayQuestion) -> Table:
     return Table("", columns, view)
 
 
-def sandbag_charts_answer(
-    found: Sequence[PayFindings], question: PayQuestion, warnings: Sequence[str] = ()
-) -> Answer:
+def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -> Answer:
     """Return what sandbagging pays on each chart of a system; in files, a row for each."""
     columns = [
         Column("chart", "chart", left=True),
@@ -262,7 +259,6 @@ def sandbag_charts_answer(
             f"more of their first {question.earnest} matches a player wins who enters the league "
             f"{found[0].doubling} points under-rated.",
         ],
-        warnings=warnings,
     )
 
 

@@ -1,16 +1,12 @@
 """How soon the watch flags a sandbagger, and how often it flags honest players."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.sandbag_watch import HONEST_PLAYER, evidence
 from evenbreak.answers.wording import decimals, percent
-
-if TYPE_CHECKING:
-    from evenbreak.league.sandbag_power import WatchPower
+from evenbreak.league.sandbag_power import WatchPower
 
 
 def sandbag_power_answer(

@@ -1,20 +1,16 @@
 """Whose results look like sandbagging, and what each match of one player weighs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from evenbreak.answers.answer import Answer, Column, Part, Table
 from evenbreak.answers.wording import count_of, decimals, listed, percent, race
-
-if TYPE_CHECKING:
-    from evenbreak.league.nights import PlayedNight
-    from evenbreak.league.sandbag_watch import Watched
-    from evenbreak.ratings.results import Results
+from evenbreak.league.nights import PlayedNight
+from evenbreak.league.sandbag_watch import Watched
+from evenbreak.ratings.results import Results
 
 SHOWN = 10
 """How many players a terminal shows, if no more are flagged."""

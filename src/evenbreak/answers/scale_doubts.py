@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from evenbreak.ratings.scale import Scale
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from evenbreak.ratings.scale import Scale
 
 USUAL = {"npl": (20, 130), "fargo": (200, 850)}
 """Where most ratings of a scale lie."""

@@ -1,12 +1,8 @@
 """Scales in words: one that ratings come from, and one that a league's own ratings are put on."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import Scale
 
 NAMES = {"npl": "NPL", "fargo": "Fargo", "elo": "Elo"}
 LIKE = {"npl": "an NPL-like scale", "fargo": "a Fargo-like scale", "elo": "an Elo-like scale"}

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import pandas as pd
 
 from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
-from evenbreak.answers.season_summary import summary_rows
-from evenbreak.answers.season_tables import NEAR, weeks_with_players
+from evenbreak.answers.season_summary import Row, summary_rows
+from evenbreak.answers.season_tables import NEAR, SeasonTables, weeks_with_players
 from evenbreak.answers.wording import count_of, decimals
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from evenbreak.answers.season_summary import Row
-    from evenbreak.answers.season_tables import SeasonTables
-    from evenbreak.league.season import Season
-    from evenbreak.league.tally import Tally
+from evenbreak.league.season import Season
+from evenbreak.league.tally import Tally
 
 SHOWN = 12
 """Players of the standings that a terminal shows: the first half and the last half of them."""

@@ -1,17 +1,14 @@
 """The sentences of a fair-race sheet, each said once for text, paper, page and workbook."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import pandas as pd
 
 from evenbreak.answers.report_frames import count_groups, dates_of, file_name
 from evenbreak.answers.scale_words import game_chance, like_scale_words
 from evenbreak.answers.sheet import Sheet
 from evenbreak.answers.wording import count_of, percent, race
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def source_and_dates(sheet: Sheet) -> str:

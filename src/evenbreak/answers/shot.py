@@ -1,7 +1,5 @@
 """A shot traced from the tip until both balls stop: where they go, and how they get there."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

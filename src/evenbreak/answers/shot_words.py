@@ -1,7 +1,5 @@
 """What happens in a shot, in sentences."""
 
-from __future__ import annotations
-
 import math
 
 from evenbreak.answers.hit import cut_words, spin_words

@@ -1,17 +1,9 @@
 """A match of straight pool: who wins it, how long it takes, and the spot that makes it even."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, games, percent
-from evenbreak.matches.straight_pool import straight_pool_odds
-from evenbreak.matches.straight_pool_spot import even_spot
-
-if TYPE_CHECKING:
-    from evenbreak.matches.straight_pool import StraightPool, StraightPoolOdds
-    from evenbreak.matches.straight_pool_spot import Spot
+from evenbreak.matches.straight_pool import StraightPool, StraightPoolOdds, straight_pool_odds
+from evenbreak.matches.straight_pool_spot import Spot, even_spot
 
 
 def straight_answer(match: StraightPool, averages: tuple[float, float] | None = None) -> Answer:
@@ -30,8 +22,10 @@ def straight_answer(match: StraightPool, averages: tuple[float, float] | None = 
     For an even match, B should play to 60 points: A then wins 50% of the time.
     """
     odds, spot = straight_pool_odds(match), even_spot(match)
-    spotted = None if spot.points is None else _with(match, spot.weaker, spot.points)
-    even_a, even_b = spotted or (None, None)
+    even_a = even_b = None
+    if spot.points is not None:
+        even_a, even_b = match.points_1, match.points_2
+        even_a, even_b = (spot.points, even_b) if spot.weaker == 1 else (even_a, spot.points)
     return Answer(
         _heading(match, averages),
         [
@@ -47,13 +41,7 @@ def straight_answer(match: StraightPool, averages: tuple[float, float] | None = 
                     Quantity("p_win_b", odds.p_win_2, "B wins the match", chance),
                     Quantity("p_never_ends", odds.p_never_ends),
                     Quantity("mean_innings", odds.mean_innings, "innings, on average", games),
-                    Quantity(
-                        "sd_innings",
-                        odds.sd_innings,
-                        "innings, standard deviation",
-                        games,
-                        detail=True,
-                    ),
+                    statistic("sd_innings", odds.sd_innings, "innings, standard deviation", games),
                     Quantity("innings_p50", odds.innings_p50, "half of the matches end within"),
                     Quantity("innings_p90", odds.innings_p90, "9 out of 10 matches end within"),
                     Quantity("even_points_a", even_a, "even match: A plays to"),
@@ -63,11 +51,6 @@ def straight_answer(match: StraightPool, averages: tuple[float, float] | None = 
             ),
         ],
     )
-
-
-def _with(match: StraightPool, player: int, points: int) -> tuple[int, int]:
-    """Return what A and B need, one of them other points than now."""
-    return (points, match.points_2) if player == 1 else (match.points_1, points)
 
 
 def _heading(match: StraightPool, averages: tuple[float, float] | None) -> str:

@@ -1,7 +1,5 @@
 """The spin and the speed that a cue ball gets from the tip."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,8 +1,6 @@
 """Whether a league can trust its ratings."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Part, Table
 from evenbreak.answers.validate_details import details
@@ -18,12 +16,10 @@ from evenbreak.answers.validate_judgement import (
 from evenbreak.answers.validate_rows import findings_table
 from evenbreak.answers.validate_verdict import verdict
 from evenbreak.answers.wording import count_of, listed, percent
+from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fit import PRIOR_SD
-
-if TYPE_CHECKING:
-    from evenbreak.files.results import ResultsFile
-    from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.validate import Validation
 
 
 def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed: int = 1) -> Answer:

@@ -1,20 +1,16 @@
 """The statistics of a validated season: how good predictions were, and every test."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Column, Part, Table
 from evenbreak.answers.validate_judgement import at_the_edge, points_text, scored_of
 from evenbreak.answers.wording import count_of, decimals
+from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
-
-if TYPE_CHECKING:
-    from evenbreak.ratings.calibration import Estimate
-    from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.validate import Validation
 
 _EXPLAINED = (
     "How good the predictions were, with 95% intervals. Log-loss is the average of -ln(p), where "

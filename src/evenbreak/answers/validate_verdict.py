@@ -1,9 +1,6 @@
 """Whether a league can trust its ratings, in a sentence or two that say what to do."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
@@ -17,12 +14,10 @@ from evenbreak.answers.validate_judgement import (
     wrong_chances,
 )
 from evenbreak.answers.wording import listed
+from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
-
-if TYPE_CHECKING:
-    from evenbreak.ratings.calibration import Estimate
-    from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.validate import Validation
 
 TOO_SPREAD = 1.5
 """How many times as much as expected scores must vary for chances of matches to be given up."""

@@ -144,7 +144,7 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
         table.problems.add_rows(
             table.lines,
             np.flatnonzero(unrated & (games > 0)),
-            lambda row: f"rating is empty after {games[row]} games; fill it in, or write 0 games if new",
+            lambda row: f"rating is empty after {games[row]} games; fill it in, or write 0 games",
         )
     table.problems.raise_any()
     roster = Roster(names, rating, error, games, component=component, matches=matches)

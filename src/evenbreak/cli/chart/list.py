@@ -1,15 +1,9 @@
 """`evenbreak chart list`: the charts that come with evenbreak."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 
 @click.command("list")

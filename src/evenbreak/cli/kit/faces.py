@@ -1,18 +1,14 @@
 """How a command's answer is printed: text on a terminal, CSV into a pipe, JSON or HTML if asked."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import update_wrapper
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
-from evenbreak.cli.kit.terminal import say, to_terminal, write
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.terminal import say, to_terminal, write, write_file
 
 Function = Callable[..., "Answer"]
 
@@ -44,7 +40,9 @@ def faces(
             answer = function(**options)
             print_answer(answer, chosen, verbose=verbose)
             if page_file is not None:
-                _write_page(answer, page_file)
+                from evenbreak.sheets.answer_page import answer_page
+
+                write_file(page_file, answer_page(answer))
 
         command: Any = update_wrapper(run, function)
         for add in reversed(_options(page=page, csv=not always_text)):
@@ -105,12 +103,3 @@ def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
         write(to_text(answer, verbose=verbose))
     for warning in answer.warnings:
         say(f"Warning: {warning}")
-
-
-def _write_page(answer: Answer, path: str) -> None:
-    from evenbreak.files.folder import write_files
-    from evenbreak.sheets.answer_page import answer_page
-
-    place = PurePath(path)
-    write_files(str(place.parent), {place.name: answer_page(answer)})
-    say(f"Wrote {path}")

@@ -1,13 +1,11 @@
 """Who plays: two ratings, one game probability, or one for each breaker with a break format."""
 
-from __future__ import annotations
-
 import math
 
 import click
 
 from evenbreak.answers.two_players import FORMATS, TwoPlayers
-from evenbreak.cli.kit.options import Command, scale_option
+from evenbreak.cli.kit.options import Command, scale_option, with_options
 from evenbreak.cli.kit.values import CHANCE, refuse
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale, scale_of
@@ -51,7 +49,8 @@ def players_of(
 
 def player_options(command: Command) -> Command:
     """Add the arguments and options that describe the players."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--first-break",
             type=click.Choice(["a", "b"]),
@@ -71,6 +70,4 @@ def player_options(command: Command) -> Command:
         click.option("--p", metavar="P", type=CHANCE, help="Chance that A wins a game."),
         scale_option(fixed=False),
         click.argument("ratings", nargs=-1, metavar="[A B]"),
-    ):
-        command = add(command)
-    return command
+    )

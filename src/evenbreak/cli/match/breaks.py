@@ -1,19 +1,13 @@
 """`evenbreak breaks`: what each break format is worth to two players in the long run."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, Number
 from evenbreak.games.rack import Rack
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 HIGHEST = 1_000_000
 """The highest stake."""
@@ -36,7 +30,6 @@ Examples:
     metavar="X",
     type=STAKE,
     default="1",
-    show_default=True,
     help="What A wins for each rack won.",
 )
 @click.option(
@@ -44,14 +37,12 @@ Examples:
     metavar="Y",
     type=STAKE,
     default="1",
-    show_default=True,
     help="What A pays for each rack lost.",
 )
 @click.option(
     "--first-break",
     type=click.Choice(["a", "b"]),
     default="a",
-    show_default=True,
     help="Who breaks the first rack; it matters only if the break never passes on.",
 )
 @plot_option

@@ -1,7 +1,5 @@
 """`evenbreak physics`: ball, cloth and cue, a command a module."""
 
-from __future__ import annotations
-
 import click
 
 from evenbreak.cli.kit.groups import Entry, LazyGroup

@@ -1,19 +1,14 @@
 """`evenbreak physics breakcue`: which cue breaks best for an arm."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.equipment_options import ball_of, ball_option
 from evenbreak.cli.physics.measures import WEIGHT, Measure, metric_option
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.shot_units import Units
 
 EXAMPLES = """\b
 Examples:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.wording import count_of
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -14,8 +15,8 @@ from evenbreak.errors import DataError
 from evenbreak.stats.confidence import LARGEST
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.files.scores import ScoresFile
+
 
 SCORE = Number(-LARGEST, LARGEST, " is not a score; give a number, such as 53")
 CONFIDENCE = Number(
@@ -39,7 +40,6 @@ Examples:
     metavar="C",
     type=CONFIDENCE,
     default=0.95,
-    show_default=True,
     help="The confidence of the intervals.",
 )
 @plot_option
