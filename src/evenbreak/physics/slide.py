@@ -7,7 +7,7 @@ about a horizontal axis, that point slips over the cloth at
 
 and the cloth decelerates it by mu g against u. The slip u keeps its direction and shrinks at
 7/2 mu g. So the force is constant, the path is a parabola, and natural roll begins after the
-time 2/7 |u| / (mu g), at
+time 2/7 abs(u) / (mu g), at
 
     V_NR = 5/7 V + 2/7 R (omega_y, -omega_x)
 
