@@ -4,19 +4,18 @@ Each is forked from a process that has loaded numpy and the like already, which 
 of the time of a new start.
 """
 
-import fcntl
 import multiprocessing
 import os
-import pty
 import re
 import shlex
 import struct
 import subprocess
 import sys
-import termios
 from collections.abc import Iterator
 from multiprocessing.connection import wait
 from pathlib import Path
+
+import pytest
 
 LOADED = [
     *("evenbreak.cli.program", "jinja2", "networkx", "numpy", "pandas", "rich.console"),
@@ -28,6 +27,10 @@ LINES_AND_COLUMNS = struct.pack("HHHH", 40, 100, 0, 0)
 
 def on_a_terminal(command: str) -> str:
     """Run a command line, which must end well, and return what the screen shows."""
+    pty = pytest.importorskip("pty", reason="a terminal to look at needs a POSIX system")
+    import fcntl
+    import termios
+
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(LOADED)
     ours, theirs = pty.openpty()

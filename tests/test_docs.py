@@ -14,6 +14,7 @@ import pytest
 from evenbreak.cli.program import COMMANDS, program
 from evenbreak.files.results_columns import OPTIONAL, REQUIRED
 from places import ROOT, SRC
+from terminal import on_a_terminal
 
 PAGES = [
     ROOT / "README.md",
@@ -110,13 +111,12 @@ def shortened(text: str) -> str:
 @pytest.mark.usefixtures("desk")
 @pytest.mark.parametrize("page", pages_with("console"), ids=name_of)
 def test_console_examples(page: Path) -> None:
-    terminal = pytest.importorskip("terminal", reason="a terminal to look at needs a POSIX system")
     checker = doctest.OutputChecker()
     for block in blocks(page.read_text(encoding="utf-8")):
         if block.language != "console":
             continue
         for command, wanted in commands_of(block.body):
-            got = terminal.on_a_terminal(command)
+            got = on_a_terminal(command)
             assert checker.check_output(shortened(wanted), shortened(got), FLAGS), (
                 f"{name_of(page)}:{block.line}: $ {command}\n{got}"
             )
