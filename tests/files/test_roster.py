@@ -51,7 +51,7 @@ def test_a_quasi_error_is_taken_where_it_stands(read):
     assert roster.standard_error.tolist() == [6.0, 8.0, 5.0]
     text = "player,rating,quasi_error\nAnn,92,-1\n"
     (problem,) = problems_of(read, text)
-    assert problem.startswith(":2: quasi_error -1 is not from 0")
+    assert problem.startswith(":2: quasi_error '-1' is not a number from 0")
 
 
 def test_a_list_of_ratings_is_a_roster_with_the_errors_of_differences(tmp_path):

@@ -50,7 +50,7 @@ class ChartFile:
     problems
         what keeps those rows from being a chart, such as gaps and overlaps.
     warnings
-        what should be checked although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     found: ChartDraft | LevelChart
