@@ -166,7 +166,7 @@ def test_the_chart_of_a_fixed_length_system_is_taken_by_itself(rate):
     [
         ("fide", "--system is 'fide'; give npl, step UP [DOWN], margin [MOST]"),
         ("step", "--system is 'step'; write it as step UP [DOWN], in whole numbers"),
-        ("elo 0", "--system is 'elo 0': k is 0; give a whole number, 1 or more"),
+        ("elo 0", "--system is 'elo 0': k is 0"),
         ("fixed 8", "--system is 'fixed 8': games is 8"),
     ],
 )
