@@ -42,6 +42,7 @@ def test_drawn_chances_have_the_moments_of_a_dirichlet_law() -> None:
     drawn = np.array([fitted.draw(rng).matrix.toarray()[:, 0] for _ in range(4000)])
     exact = np.array([0.1, 0.6, 0.3])
     variance = exact * (1 - exact) / 11
+    assert (fitted.draw(2).matrix.toarray()[:, 0] == drawn[0]).all()
     assert drawn.sum(axis=1) == pytest.approx(np.ones(4000), abs=1e-15)
     assert (np.abs(drawn.mean(axis=0) - exact) < 5 * np.sqrt(variance / 4000)).all()
     assert drawn.var(axis=0) == pytest.approx(variance, rel=0.12)

@@ -46,6 +46,7 @@ def test_a_density_as_the_start_and_the_same_paths_for_the_same_seed() -> None:
         chain.simulate(2, np.random.default_rng(7), start=start, paths=4000) for _ in "ab"
     )
     assert (one == other).all()
+    assert (one == chain.simulate(2, 7, start=start, paths=4000)).all()
     assert set(one[:, 0]) == {0, 2}
     assert abs((one[:, 0] == 2).mean() - 0.75) < 5 * np.sqrt(0.1875 / 4000)
 

@@ -194,7 +194,7 @@ class Chain:
         return v
 
     def simulate(
-        self, steps: int, rng: np.random.Generator, *, start: Any = None, paths: int = 1
+        self, steps: int, rng: np.random.Generator | int, *, start: Any = None, paths: int = 1
     ) -> NDArray[np.int64]:
         """Return random paths of the chain, as positions in `states`.
 
@@ -203,7 +203,7 @@ class Chain:
         steps
             the number of steps of each path.
         rng
-            the random numbers.
+            the random numbers: a generator or a seed.
         start
             as in `density`; each path draws its own first state from a density.
         paths
@@ -223,12 +223,13 @@ class Chain:
 
         >>> from evenbreak.chains import chain_of
         >>> weather = chain_of({"rain": {"rain": 0.5, "sun": 0.5}, "sun": {"rain": 1}}, start="sun")
-        >>> week = weather.simulate(6, np.random.default_rng(1))[0]
+        >>> week = weather.simulate(6, 1)[0]
         >>> [weather.states[i] for i in week]
         ['sun', 'rain', 'rain', 'sun', 'rain', 'rain', 'sun']
         """
         steps, paths = whole(steps, "steps"), whole(paths, "paths")
-        return random_paths(self.matrix, self.density(start), steps, paths, rng)
+        begin, draw = self.density(start), np.random.default_rng(rng)
+        return random_paths(self.matrix, begin, steps, paths, draw)
 
     def _own_start(self) -> Hashable:
         if self.start is None:

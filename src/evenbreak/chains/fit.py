@@ -49,11 +49,12 @@ class FittedChain:
         p = self.counts.data / seen
         return self._with(np.sqrt(p * (1.0 - p) / seen))
 
-    def draw(self, rng: np.random.Generator) -> Chain:
+    def draw(self, rng: np.random.Generator | int) -> Chain:
         """Return a chain drawn from those that may lie behind the sequences.
 
         Only steps that were seen have a chance. Draw several hundred chains; whatever is
-        calculated from the chain is as uncertain as its values spread over them.
+        calculated from the chain is as uncertain as its values spread over them. `rng` is a
+        generator, or a seed for a single chain.
 
         >>> fitted = fit_chain([["rack", "won"]] * 60 + [["rack", "lost"]] * 40)
         >>> rng = np.random.default_rng(1)
@@ -61,7 +62,8 @@ class FittedChain:
         >>> np.round([np.mean(won), np.std(won)], 2)
         array([0.6 , 0.05])
         """
-        weights = self._with(rng.standard_gamma(self.counts.data))
+        draw = np.random.default_rng(rng)
+        weights = self._with(draw.standard_gamma(self.counts.data))
         total = weights.sum(axis=0)
         left = np.repeat(total, np.diff(self.counts.indptr))
         return Chain(
