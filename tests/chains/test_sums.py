@@ -15,6 +15,7 @@ from evenbreak.chains import (
     expected_visits,
     limit_matrix,
     propagate,
+    sensitivity,
     steps_to_absorption,
     stochastic_limit,
 )
@@ -84,6 +85,26 @@ def test_a_state_with_many_arcs_into_it(count: int, back: float) -> None:
     visits = expected_visits(chain)
     assert visits[:2] == pytest.approx([1 / (1 - back), 1 / count / (1 - back)], rel=2e-15)
     assert steps_to_absorption(chain).mean == pytest.approx(2 / (1 - back), rel=2e-15)
+
+
+def test_many_arcs_into_one_closed_class() -> None:
+    """From s to an end, or to one of 20,000 states that go to the hub of their class and back."""
+    count = 20_000
+    small, hub, end = 0.499975 / count, count + 1, count + 2
+    spoke, s = np.arange(1, count + 1), np.zeros(count, dtype=int)
+    chain = chain_from_arrays(
+        range(count + 3),
+        np.concatenate((s, [0], spoke, s + hub)),
+        np.concatenate((spoke, [end], s + hub, spoke)),
+        np.concatenate((s + small, [0.500025], s + 1.0, s + 1 / count)),
+        0,
+    )
+    total = Fraction(0.500025) + count * Fraction(small)
+    exact = float((1 - Fraction(0.500025) / total) / 2)
+    assert stochastic_limit(chain)[hub] == pytest.approx(exact, rel=1e-15)
+    assert limit_matrix(chain)[hub, 0] == pytest.approx(exact, rel=1e-15)
+    slopes = sensitivity(chain, {end: 1.0, hub: 1.0})
+    assert slopes.value == pytest.approx(1.0 - exact, rel=1e-15)
 
 
 def test_arcs_that_miss_a_sum_of_1_are_scaled() -> None:

@@ -23,6 +23,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
+from evenbreak.chains.arcs import sums
 from evenbreak.chains.chain import labels
 from evenbreak.chains.stationary import laws_of, stationary_laws
 from evenbreak.checks import one_of
@@ -277,7 +278,7 @@ def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
     shape = chain.structure.count, len(chain)
     ends = csc_array((np.ones(len(inside)), (home, inside)), shape=shape)
     part = chain.transient
-    entries = csr_array((ends @ chain.arcs.matrix())[:, part.states])
+    entries = _entries(chain)[:, part.states]
     entered = np.flatnonzero(chain.structure.closed & (np.diff(entries.indptr) > 0))
     for first in range(0, len(entered), _COLUMNS):
         classes = entered[first : first + _COLUMNS]
@@ -286,3 +287,13 @@ def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
         values = chances[row, column]
         ends = ends + csc_array((values, (classes[column], part.states[row])), shape=shape)
     return ends
+
+
+def _entries(chain: Chain) -> csr_array:
+    """Return the chance of entering each closed class, from each state; shape (classes, n)."""
+    n, arcs, structure = len(chain), chain.arcs, chain.structure
+    entering = structure.recurrent[arcs.targets] & ~structure.recurrent[arcs.sources]
+    entered = structure.label[arcs.targets[entering]].astype(np.int64)
+    pairs, place = np.unique(entered * n + arcs.sources[entering], return_inverse=True)
+    chances = sums(place, arcs.chances[entering], len(pairs))
+    return csr_array((chances, (pairs // n, pairs % n)), shape=(structure.count, n))

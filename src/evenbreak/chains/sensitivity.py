@@ -176,7 +176,9 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
 
     mean = sums(structure.label, stationary_laws(chain) * c, structure.count)
     ends = np.where(recurrent, mean[structure.label], 0.0)
-    ends[part.states] = _signed_values(part, (chain.arcs.matrix().T @ ends)[part.states])
+    arcs = chain.arcs
+    entered = sums(arcs.sources, arcs.chances * ends[arcs.targets], len(chain))
+    ends[part.states] = _signed_values(part, entered[part.states])
     forward = limit.probability.copy()
     forward[part.states] = part.visits(chain.density(start)[part.states])
     relative, missed = _relative_values(chain, np.where(recurrent, c - ends, 0.0))
