@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from evenbreak.cli.kit.systems import SystemName, chart_for, on_scale
+from evenbreak.cli.kit.systems import chart_for, on_scale, read_system
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.ratings.scale import SCALES, scale_of
 
@@ -11,9 +11,9 @@ NPL = system_of("npl")
 
 
 def test_a_system_by_its_name():
-    assert SystemName().convert("step 2 1", None, None).name == "step 2 1"
+    assert read_system("step 2 1").name == "step 2 1"
     with pytest.raises(click.UsageError, match="'chess'"):
-        SystemName().convert("chess", None, None)
+        read_system("chess")
 
 
 def test_the_rule_stays_when_the_scale_is_another():

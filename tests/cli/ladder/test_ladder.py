@@ -159,7 +159,7 @@ def test_the_help_names_all_systems(run):
         (("--chart", "npl_9"), 3, "npl_9"),
         (("--system", "chess"), 2, "'chess'"),
         (("--step", "0"), 2, "'0'"),
-        (("--step", "2", "--system", "npl"), 2, "leave --system out"),
+        (("--step", "2", "--system", "npl"), 2, "leave out --system"),
         (("--from", "61"), 2, "from -60 to 60"),
         (("--from", "half"), 2, "'half'"),
         (("--day-sd", "-1"), 2, "'-1'"),

@@ -65,16 +65,15 @@ def test_a_match_is_drawn_at_once_or_rack_by_rack(league):
 @pytest.mark.parametrize(
     ("places", "asked", "named"),
     [
-        (("r", "o", 1, None), {"schedule_path": "s", "by_lot": True}, "--schedule and --random"),
-        (("r", "o", 1, None), {"round_robin": True, "by_lot": True}, "--round-robin and --random"),
-        (("r", "o", 1, None), {"schedule_path": "s", "matches": 2}, "--schedule and --matches"),
-        (("r", "o", 2, "tcp://x"), {}, "--dask and --jobs"),
-        (("r", "o", 1, " "), {}, "--dask"),
-        (("r", " ", 1, None), {}, "--out"),
-        (("-", "o", 1, None), {"chart": "-"}, "standard input"),
+        (("r", 1, None), {"schedule_path": "s", "by_lot": True}, "--schedule and --random"),
+        (("r", 1, None), {"round_robin": True, "by_lot": True}, "--round-robin and --random"),
+        (("r", 1, None), {"schedule_path": "s", "matches": 2}, "--schedule and --matches"),
+        (("r", 2, "tcp://x"), {}, "--dask and --jobs"),
+        (("r", 1, " "), {}, "--dask"),
+        (("-", 1, None), {"chart": "-"}, "standard input"),
     ],
 )
 def test_options_that_exclude_each_other(places, asked, named):
     with pytest.raises(click.UsageError, match=named):
         refuse_contradictions(*places, NOTHING | asked)
-    refuse_contradictions("r", "o", 1, None, NOTHING)
+    refuse_contradictions("r", 1, None, NOTHING)
