@@ -51,7 +51,7 @@ def test_players_who_are_too_alike_are_not_told_apart(play_season):
         results.players, results.player_a, results.player_b, np.where(turned, b, a),
         np.where(turned, a, b), date=results.date,
     )  # fmt: skip
-    assert "too alike" in said(results)
+    assert "too equal" in said(results)
     assert "leave --prior out" in said(results, prior_sd=0.3)
 
 

@@ -92,7 +92,7 @@ def test_a_column_that_is_missing_is_no_further_problem():
     table = table_of("", "")
     table = dataclasses.replace(table, columns={"y": table.columns["x"]}, found=frozenset())
     assert whole_numbers(table, "y").values.tolist() == [0, 0]
-    assert np.isnan(numbers(table, "y", remedy="write one").values).all()
+    assert np.isnan(numbers(table, "y", at_least=-9, at_most=9, remedy="write one").values).all()
     assert told(table) == []
 
 
@@ -112,7 +112,9 @@ def test_a_column_that_is_missing_is_no_further_problem():
 )
 def test_numbers(text, value):
     table = table_of(text)
-    assert numbers(table, "x", remedy="write 0.5").values.tolist() == [value]
+    assert numbers(table, "x", at_least=-9, at_most=9, remedy="write 0.5").values.tolist() == [
+        value
+    ]
     assert told(table) == []
 
 
@@ -122,7 +124,7 @@ def test_numbers(text, value):
 )
 def test_what_is_no_number_is_told(text):
     table = table_of(text)
-    assert math.isnan(numbers(table, "x", remedy="write 0.5").values[0])
+    assert math.isnan(numbers(table, "x", at_least=-9, at_most=9, remedy="write 0.5").values[0])
     (problem,) = told(table)
     assert problem.startswith("t.csv:2: x ")
     assert problem.endswith("; write 0.5")

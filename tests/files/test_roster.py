@@ -51,7 +51,7 @@ def test_a_quasi_error_is_taken_where_it_stands(read):
     assert roster.standard_error.tolist() == [6.0, 8.0, 5.0]
     text = "player,rating,quasi_error\nAnn,92,-1\n"
     (problem,) = problems_of(read, text)
-    assert problem.startswith(":2: quasi_error -1 is not from 0")
+    assert problem.startswith(":2: quasi_error '-1' is not a number from 0")
 
 
 def test_a_list_of_ratings_is_a_roster_with_the_errors_of_differences(tmp_path):
@@ -86,7 +86,7 @@ def test_all_problems_at_once(read):
     )
     problems = problems_of(read, text)
     assert [line.split(":")[1] for line in problems] == ["2", "3", "3", "4", "4", "4", "5", "6"]
-    assert problems[-2] == ":5: rating is empty after 12 games; write it, or 0 games if new"
+    assert problems[-2] == ":5: rating is empty after 12 games; fill it in, or write 0 games if new"
 
 
 @pytest.mark.parametrize(

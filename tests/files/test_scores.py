@@ -47,11 +47,11 @@ def test_some_dates_are_no_dates(read):
 def test_all_problems_at_once(read):
     text = "date,score\n2024-09-03,fifty\n3/9/2024,48\n2024-02-30,\n2024-09-24,1e12\n"
     assert problems(read, text) == [
-        ":2: score 'fifty' is not a number",
+        ":2: score 'fifty' is not a number from -1,000,000,000 to 1,000,000,000",
         ":3: date '3/9/2024' is not a date",
         ":4: score is empty",
         ":4: date '2024-02-30' is not a date",
-        ":5: score 1e+12 is not between -1e+09 and 1e+09",
+        ":5: score '1e12' is not a number from -1,000,000,000 to 1,000,000,000",
     ]
 
 

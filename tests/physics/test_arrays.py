@@ -43,7 +43,7 @@ from evenbreak.physics import (
     table_speed,
     throw_angle,
 )
-from evenbreak.physics.arrays import LARGEST, LEAST, numbers, plain, positive
+from evenbreak.physics.arrays import LARGEST, LEAST, numbers, positive
 
 
 @pytest.mark.parametrize(
@@ -96,11 +96,6 @@ def test_gravity_pulls_down(gravity: float) -> None:
     ):
         with pytest.raises(InputError, match=r"gravity is .*; give a number from 1e-50"):
             answer(gravity=gravity)
-
-
-def test_plain() -> None:
-    assert type(plain(np.float64(2.0))) is float
-    assert plain(np.ones((1, 1))).shape == (1, 1)
 
 
 @pytest.mark.parametrize(

@@ -197,13 +197,13 @@ def together(**arrays: ArrayLike) -> tuple[int, ...]:
 
 
 def plain(array: Any) -> Any:
-    """Return a float for an array without dimensions, any other array as it is.
+    """Return a float for a number or an array without dimensions, any other array as it is.
 
     >>> import numpy as np
     >>> plain(np.array(2.5)), plain(np.array([2.5]))
     (2.5, array([2.5]))
     """
-    return array if array.ndim else float(array)
+    return array if getattr(array, "ndim", 0) else float(array)
 
 
 def _array(values: Any) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""From a file of aliases to a mapping from names as written to the names that are meant."""
+"""Reading a file of aliases: which names mean which player."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class AliasesFile:
     source
         what the file is called in messages.
     warnings
-        what a person should check although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     means: dict[str, str]
@@ -53,9 +53,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
     ...     read_aliases(path).means
     {'Bobby': 'Bob Smith', 'Bob S.': 'Bob Smith'}
     """
-    table = read_table(path, REQUIRED)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no names below its header; write one line for each")
+    table = read_table(path, REQUIRED, rows="names")
     pairs = zip(_names(table, "name"), _names(table, "means"), table.lines.tolist(), strict=True)
     means: dict[str, str] = {}
     line_of: dict[str, int] = {}
@@ -74,8 +72,8 @@ def read_aliases(path: str | Path) -> AliasesFile:
             table.problems.add(
                 line_of[name],
                 f"{quoted(name)} means {quoted(meant)}, which means {quoted(means[meant])} in line "
-                f"{line_of[meant]}; write the player's own name for both, and keep one line of two "
-                "names that mean each other",
+                f"{line_of[meant]}; write the player's real name in both lines, and keep only one "
+                "of two names that mean each other",
             )
     table.problems.raise_any()
     means = {name: meant for name, meant in means.items() if name != meant}

@@ -132,17 +132,30 @@ def whole_numbers(
     )
 
 
-def numbers(table: TextTable, name: str, *, remedy: str, may_be_empty: bool = False) -> Values:
-    """Read a column of finite numbers; other cells are NaN.
+def numbers(
+    table: TextTable,
+    name: str,
+    *,
+    at_least: int,
+    at_most: int,
+    remedy: str,
+    may_be_empty: bool = False,
+) -> Values:
+    """Read a column of numbers from `at_least` to `at_most`; other cells are NaN.
 
     A comma is read as the decimal point, as spreadsheets in many languages write it, and
     never groups thousands.
     """
+
+    def meaning(text: str) -> float | None:
+        number = _number(text)
+        return number if number is not None and at_least <= number <= at_most else None
+
     return read_cells(
         table,
         name,
-        _number,
-        wanted="a number",
+        meaning,
+        wanted=f"a number from {at_least:,} to {at_most:,}",
         remedy=remedy,
         dtype=np.float64,
         empty=math.nan,
@@ -234,7 +247,6 @@ def _number(text: str) -> float | None:
     if text.strip(_IN_NUMBERS):
         return None
     try:
-        number = float(text)
+        return float(text)
     except ValueError:
         return None
-    return number if math.isfinite(number) else None

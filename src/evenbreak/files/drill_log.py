@@ -33,7 +33,7 @@ WORDS = {
         ("no", "n", "false", "f", "0", "missed", "miss", "failed", "fail", "failure"), False
     ),
 }
-"""What a cell of the column success may say, in upper or lower case."""
+"""The words of the column success, in upper or lower case."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ class DrillLogFile:
     source
         the name of the file in messages.
     warnings
-        what should be checked although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     log: DrillLog
@@ -84,9 +84,7 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
     >>> file.log.attempts, file.log.successes
     (array([2, 1]), array([2, 0]))
     """
-    table = read_table(path, REQUIRED, OPTIONAL)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no attempts below its header; write a line for each one")
+    table = read_table(path, REQUIRED, OPTIONAL, rows="attempts")
     level = whole_numbers(
         table,
         "level",
@@ -98,8 +96,8 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
         table,
         "success",
         lambda text: WORDS.get(text.casefold()),
-        wanted="a word for a success or a miss",
-        remedy="write yes or no, and a row for each attempt",
+        wanted="yes or no",
+        remedy="write one of them, and a row for each attempt",
         dtype=np.bool_,
         empty=False,
     ).values

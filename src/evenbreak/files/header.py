@@ -1,4 +1,4 @@
-"""The header of a table: which of its names mean the columns that a reader asks for."""
+"""The header of a table: which of its titles are the columns that a reader asks for."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 from evenbreak.files.problems import Problems, quoted
 
 MOST_LISTED = 12
-"""Names that a message lists."""
+"""How many names a message lists."""
 
 _NUMBER = re.compile(r"[+-]?[0-9]+([.,][0-9]+)?", re.ASCII)
 """What stands in a row of values, but hardly in a header."""
@@ -54,7 +54,7 @@ class Header:
     ) -> tuple[dict[str, int], list[str]]:
         """Return the place of each column, and the titles that are not used.
 
-        Columns that are missing or there twice are added to the problems.
+        Missing and repeated columns are added to the problems.
         """
         places: dict[str, int] = {}
         unused = []

@@ -1,8 +1,8 @@
-"""The roster of a season: a list of ratings with what a simulation needs besides."""
+"""Reading the roster of a season: ratings, and what else a simulation needs."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,9 +10,8 @@ import numpy as np
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.cells import numbers, whole_numbers
-from evenbreak.files.problems import Problems
 from evenbreak.files.roster import (
-    LARGEST,
+    FARTHEST,
     LEAGUE,
     OPTIONAL,
     REQUIRED,
@@ -26,9 +25,6 @@ from evenbreak.ratings.roster import NOT_STATED, Roster
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-FARTHEST = 10_000
-"""The largest rating or skill that can be simulated, in points."""
 
 LARGEST_SD = 1_000
 """The largest standard deviation, or drift a week, that can be simulated, in points."""
@@ -47,7 +43,7 @@ class LeagueFile:
     source
         the name of the file in messages.
     warnings
-        what somebody should look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     drawn
         for how many players the skill is drawn, from rating and standard error.
     exact
@@ -91,21 +87,20 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     >>> club.players.rating, club.players.skill, club.players.skill_sd
     (array([93, 71, 60]), array([92.5, 75. , 60. ]), array([9., 0., 0.]))
     """
-    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **LEAGUE})
-    skill = _within(table, "skill", "points such as 85", -FARTHEST, FARTHEST)
-    days = _within(table, "day_sd", "points such as 5", 0, LARGEST_SD)
-    drift = _within(table, "drift", "points a week such as 0.1", -LARGEST_SD, LARGEST_SD)
-    absence = _within(table, "absence", "the chance to be absent, such as 0.1", 0, 1)
+    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **LEAGUE}, rows="players")
+    skill = _points(table, "skill", "points such as 85", -FARTHEST, FARTHEST)
+    days = _points(table, "day_sd", "points such as 5", 0, LARGEST_SD)
+    drift = _points(table, "drift", "points a week such as 0.1", -LARGEST_SD, LARGEST_SD)
+    absence = _points(table, "absence", "the chance to be absent, such as 0.1", 0, 1)
     joins, leaves = _week(table, "joins"), _week(table, "leaves")
     table.problems.add_rows(
         table.lines,
         np.flatnonzero((leaves > 0) & (leaves < joins)),
         lambda row: f"leaves in week {leaves[row]}, before week {joins[row]}; correct one of them",
     )
-    _check_ratings(table)
     if len(table) == 1:
         table.problems.add(None, "has 1 player; a league needs two or more")
-    file = roster_of(table, all_rated=True)
+    file = roster_of(table, season=True)
     roster = file.roster
     sd = np.where(np.isnan(skill), roster.standard_error, 0.0)
     whole = np.floor(roster.rating + 0.5)
@@ -137,31 +132,14 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     )
 
 
-def _check_ratings(table: TextTable) -> None:
-    """Add a problem for each rating out of range; `roster_of` adds those that are no numbers."""
-    aside = replace(table, problems=Problems(table.source))
-    rating = numbers(aside, "rating", remedy="", may_be_empty=True).values
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero((np.abs(rating) > FARTHEST) & (np.abs(rating) <= LARGEST)),
-        lambda row: (
-            f"rating {rating[row]:g} is not from {-FARTHEST:,} to {FARTHEST:,}, the range that can "
-            "be simulated; subtract the same number of points from all ratings"
-        ),
-    )
-
-
-def _within(
-    table: TextTable, name: str, example: str, least: float, most: float
+def _points(
+    table: TextTable, name: str, example: str, least: int, most: int
 ) -> NDArray[np.float64]:
     """Read a column of numbers from `least` to `most`, NaN where a cell is empty."""
     remedy = f"write {example}, or leave it empty"
-    values: NDArray[np.float64] = numbers(table, name, remedy=remedy, may_be_empty=True).values
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero((values < least) | (values > most)),
-        lambda row: f"{name} {values[row]:g} is not from {least:,} to {most:,}; {remedy}",
-    )
+    values: NDArray[np.float64] = numbers(
+        table, name, at_least=least, at_most=most, remedy=remedy, may_be_empty=True
+    ).values
     return values
 
 

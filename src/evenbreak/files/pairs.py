@@ -1,4 +1,4 @@
-"""Lists of who plays whom: from a CSV file to places in a roster."""
+"""Reading a list of who plays whom, as places in a roster."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class PairsFile:
     pairs
         places in the roster, shape (matches, 2), in the order of the file.
     warnings
-        what to look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     pairs: NDArray[np.int64]
@@ -57,9 +57,7 @@ def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     ...     read_pairs(path, club).pairs.tolist()
     [[2, 0], [1, 2]]
     """
-    table = read_table(path, PAIRS)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no pairs below its header; write one line for each match")
+    table = read_table(path, PAIRS, rows="pairs")
     pairs = pairs_in(table, roster)
     table.problems.raise_any()
     return PairsFile(pairs, table.warnings)

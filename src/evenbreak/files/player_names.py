@@ -1,4 +1,4 @@
-"""The names of players: as written in a file, cleaned, and read as the player who is meant."""
+"""The names of players in a file: cleaned, and matched with the players they mean."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from evenbreak.files.text_table import TextTable
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 
 DEFUSED = tuple(f"'{start}" for start in FORMULA_STARTS)
-"""How a name begins that was kept from being a formula."""
+"""The beginnings of names that were kept from being formulas."""
 
 
 def clean_name(text: str) -> str:
@@ -92,7 +92,7 @@ class PlayerNames:
             table.problems.add(
                 int(table.lines[row]),
                 f"{name} {quoted(distinct[codes[row]])} is neither of the two players; "
-                "write a, b or a name of this row, or leave it empty",
+                "write a, b or one of the two names, or leave it empty",
             )
         return Values(values, ~wrong, stated)
 

@@ -1,4 +1,4 @@
-"""Everything that is wrong with a file, collected so that a person can correct it in one go."""
+"""Everything that is wrong with a file, collected to be corrected in one go."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""From a results file to `Results`, or to a list of everything that is wrong with the file.
+"""Reading a results file as `Results`, with all its problems at once.
 
-The way is a line: bytes, encoding, rows, a table of texts, cells, columns, matches.
+Each step is taken once: bytes, encoding, rows, a table of texts, cells, columns, matches.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class ResultsFile:
     source
         what the file is called in messages.
     warnings
-        what a person should check although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     similar_names
         groups of names that may mean one player.
     sha256
@@ -87,9 +87,7 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
     (('Ann', 'Bo'), array([7]))
     """
     by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
-    table = read_table(path, REQUIRED, OPTIONAL, INSTEAD)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no matches below its header; write one line for each")
+    table = read_table(path, REQUIRED, OPTIONAL, INSTEAD, rows="matches")
     names = PlayerNames(table, NAMES, by_alias.means)
     results = results_rows(table, names, results_columns(table, names))
     table.problems.raise_any()

@@ -76,7 +76,7 @@ def _with_scores(
     unscored = both & ~by_rack & np.logical_and.reduce([one.values > 0 for one in by_winner])
     if unscored.any():
         values["unscored"] = unscored
-    # What could not be read has been reported, and may be all that the row lacks.
+    # A cell that could not be read has been reported, and may be all that is missing.
     unreadable = np.logical_or.reduce([one.stated & (one.values == 0) for one in by_winner])
     unknown = both & ~by_rack & ~unscored & ~unreadable
     if table.found.isdisjoint(SCORES):

@@ -1,4 +1,4 @@
-"""Lists of rated players: from a CSV file to a `Roster`."""
+"""Reading a list of rated players as a `Roster`."""
 
 from __future__ import annotations
 
@@ -53,8 +53,11 @@ LEAGUE = {
 }
 """The columns that a simulated season uses, with their other names; others skip them."""
 
-LARGEST = 1e6
+LARGEST = 1_000_000
 """The largest rating or error that is accepted, in points."""
+
+FARTHEST = 10_000
+"""The largest rating or skill that can be simulated, in points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +73,7 @@ class RosterFile:
     source
         what the file is called in messages.
     warnings
-        what to look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     sha256
         fingerprint of the bytes that were read.
     by_quasi
@@ -108,46 +111,40 @@ def read_roster(path: str | Path) -> RosterFile:
     """
     # Each name by itself: two columns with one meaning are a problem only for a season.
     seasons = {name: () for known, others in LEAGUE.items() for name in (known, *others)}
-    return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **seasons}))
+    return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **seasons}, rows="players"))
 
 
-def roster_of(table: TextTable, *, all_rated: bool = False) -> RosterFile:
+def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
     """Return the roster in a table, or raise all the problems found in it.
 
     Parameters
     ----------
     table
         with the columns of `REQUIRED` and any of `OPTIONAL`.
-    all_rated
-        whether a player without a rating is a problem.
+    season
+        whether a season is simulated, for which every player needs a rating.
 
     Raises
     ------
     DataError
         as `read_roster` does, with the problems that the table had before.
     """
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no players below its header; write one line for each")
     names = _names(table)
-    remedy = "write points such as 85, or leave it empty for a new player"
-    rating = _points(table, "rating", remedy, least=-LARGEST)
-    remedy = "write points such as 9.5, or leave it empty"
-    error = _points(table, "standard_error", remedy, least=0.0)
-    quasi = _points(table, "quasi_error", remedy, least=0.0)
+    most = FARTHEST if season else LARGEST
+    remedy = "write points such as 85" + ("" if season else ", or leave it empty for a new player")
+    rating = numbers(
+        table, "rating", at_least=-most, at_most=most, remedy=remedy, may_be_empty=not season
+    ).values
+    error, quasi = (_error(table, name) for name in ("standard_error", "quasi_error"))
     error = np.where(np.isnan(quasi), error, quasi)
     games, matches = _counts(table, "games"), _counts(table, "matches")
     component = whole_numbers(table, "component", at_least=1, may_be_empty=True).values
     unrated = np.array([not text for text in table.cells("rating")], dtype=bool)
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero(unrated & (games > 0)) if "rating" in table else np.zeros(0, np.int64),
-        lambda row: f"rating is empty after {games[row]} games; write it, or 0 games if new",
-    )
-    if all_rated and "rating" in table:
+    if "rating" in table and not season:
         table.problems.add_rows(
             table.lines,
-            np.flatnonzero(unrated & (games <= 0)),
-            lambda _: "rating is empty; write the rating that the player starts with",
+            np.flatnonzero(unrated & (games > 0)),
+            lambda row: f"rating is empty after {games[row]} games; fill it in, or write 0 games",
         )
     table.problems.raise_any()
     roster = Roster(names, rating, error, games, component=component, matches=matches)
@@ -170,7 +167,7 @@ def _names(table: TextTable) -> list[str]:
             table.problems.add(
                 line,
                 f"player {quoted(name)} is already in line {first[name]}; delete one of the two, "
-                "or tell two players of the same name apart, for example with a number",
+                "or give two players of the same name different names, such as 'Ann Lee 2'",
             )
     return names
 
@@ -181,12 +178,9 @@ def _counts(table: TextTable, name: str) -> NDArray[np.int64]:
     return np.where(counts.stated & counts.good, counts.values, NOT_STATED)
 
 
-def _points(table: TextTable, name: str, remedy: str, *, least: float) -> NDArray[np.float64]:
-    """Read a column of points from `least` to `LARGEST`, NaN where a cell is empty."""
-    points: NDArray[np.float64] = numbers(table, name, remedy=remedy, may_be_empty=True).values
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero((points < least) | (points > LARGEST)),
-        lambda row: f"{name} {points[row]:g} is not from {least:,.0f} to {LARGEST:,.0f}; {remedy}",
-    )
-    return points
+def _error(table: TextTable, name: str) -> NDArray[np.float64]:
+    remedy = "write points such as 9.5, or leave it empty"
+    errors: NDArray[np.float64] = numbers(
+        table, name, at_least=0, at_most=LARGEST, remedy=remedy, may_be_empty=True
+    ).values
+    return errors

@@ -19,7 +19,7 @@ WEEK = {"week": ("round", "night", "matchday", "week number")}
 """The column of a schedule besides those of `PAIRS`, with its other names."""
 
 MOST_LISTED = 5
-"""The most matches listed twice that are warned of one by one."""
+"""How many repeated matches are listed; the rest are counted."""
 
 LAST_WEEK = 10_000
 """The largest number accepted as a week."""
@@ -36,7 +36,7 @@ class ScheduleFile:
     source
         the name of the file in messages.
     warnings
-        what somebody should look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     schedule: FixedSchedule
@@ -65,9 +65,7 @@ def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
     >>> schedule.weeks, schedule.a, schedule.b
     (2, array([2, 1]), array([0, 2]))
     """
-    table = read_table(path, {**WEEK, **PAIRS})
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no matches below its header; write one line for each")
+    table = read_table(path, {**WEEK, **PAIRS}, rows="matches")
     week = whole_numbers(
         table, "week", at_least=1, at_most=LAST_WEEK, remedy="write 1 for the first week, 2, ..."
     ).values
@@ -78,7 +76,7 @@ def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
 
 
 def _twice(table: TextTable, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> Iterator[str]:
-    """Yield a warning for each of the first matches that the same week has in another line."""
+    """Yield a warning for each match that is already listed in the same week."""
     _, first, same = np.unique(
         np.column_stack([week, np.sort(pairs, axis=1)]),
         axis=0,

@@ -45,17 +45,10 @@ def read_scores(path: str | Path) -> ScoresFile:
     >>> file.scores, str(file.dates[0])
     (array([50. , 44.5]), '2024-09-03')
     """
-    table = read_table(path, REQUIRED, OPTIONAL)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no scores below its header; write a line for each one")
-    scores = numbers(table, "score", remedy="write a number, such as 48").values
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero(np.abs(scores) > LARGEST),
-        lambda row: (
-            f"score {scores[row]:g} is not between {-LARGEST:g} and {LARGEST:g}; correct it"
-        ),
-    )
+    table = read_table(path, REQUIRED, OPTIONAL, rows="scores")
+    most = int(LARGEST)
+    remedy = "write a score such as 48"
+    scores = numbers(table, "score", at_least=-most, at_most=most, remedy=remedy).values
     days = dates(table, "date").values
     table.problems.raise_any()
     undated = np.flatnonzero(np.isnat(days))

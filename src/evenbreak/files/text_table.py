@@ -91,6 +91,8 @@ def read_table(
     required: Mapping[str, Sequence[str]],
     optional: Mapping[str, Sequence[str]] | None = None,
     instead: Mapping[str, Sequence[Collection[str]]] | None = None,
+    *,
+    rows: str = "",
 ) -> TextTable:
     r"""Read a CSV file as columns of text.
 
@@ -107,6 +109,9 @@ def read_table(
         for each column its other names.
     instead
         for a required column the sets of columns that can take its place.
+    rows
+        what its rows are, such as matches: a file without any has a problem; '' if that is
+        checked elsewhere.
 
     Returns
     -------
@@ -134,18 +139,20 @@ def read_table(
     separator = header.separator(possible_headers(content, encoding))
     unreadable: list[int] = []
     parts = csv_rows(content, encoding, separator, unreadable)
-    lines, rows = next(parts)
-    if not rows:
+    lines, first = next(parts)
+    if not first:
         _add_unreadable(unreadable, problems)
-        problems.add(None, "holds no rows; write a header line, then one line for each row")
+        problems.add(None, "has no rows; write a header line, then one line for each row")
         problems.raise_any()
-    titles = rows[0]
+    titles = first[0]
     places, unused = header.places(titles, lines[0], problems)
     if unused:
         warnings.append(f"{source}: columns not used: {listed(unused)}")
-    body = chain([(lines[1:], rows[1:])], parts)
+    body = chain([(lines[1:], first[1:])], parts)
     row_lines, columns = _columns(body, len(titles), places, problems)
     _add_unreadable(unreadable, problems)
+    if rows and not len(row_lines) and not len(problems):
+        problems.add(None, f"has no {rows} below its header; write one line for each")
     absent = Texts([""], np.zeros(len(row_lines), dtype=np.int64))
     return TextTable(
         source,
@@ -161,7 +168,7 @@ def read_table(
 def _add_unreadable(lines: list[int], problems: Problems) -> None:
     for line in lines:
         problems.add(
-            line, 'cannot be split into cells; close every " and write "" for one in a cell'
+            line, 'has a stray quotation mark; close every " and write "" for one in a cell'
         )
 
 

@@ -38,12 +38,3 @@ def positive(value: Any, name: str) -> Floats:
     evenbreak.errors.InputError: gravity is 0.0; give a number from 1e-50 to 1e+50
     """
     return floats(value, name, low=LEAST, high=LARGEST)
-
-
-def plain(value: Any) -> Any:
-    """Return a float for an array without axes, and any other array as it is.
-
-    >>> plain(np.array(2.5)), plain(np.array([2.5]))
-    (2.5, array([2.5]))
-    """
-    return float(value) if np.ndim(value) == 0 else value

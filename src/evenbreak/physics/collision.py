@@ -19,7 +19,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.arrays import Floats, numbers, plain, positive
+from evenbreak.checks import plain
+from evenbreak.physics.arrays import Floats, numbers, positive
 from evenbreak.physics.objects import Ball
 from evenbreak.physics.throw import BALL_FRICTION, shot_of, slip_of, thrown
 from evenbreak.physics.units import GRAVITY

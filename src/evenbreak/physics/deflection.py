@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from evenbreak.physics.arrays import LEAST, Floats, numbers, plain, positive
+from evenbreak.checks import plain
+from evenbreak.physics.arrays import LEAST, Floats, numbers, positive
 from evenbreak.physics.throw import shot_of
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from evenbreak.checks import together
-from evenbreak.physics.arrays import Floats, numbers, plain, positive
+from evenbreak.checks import plain, together
+from evenbreak.physics.arrays import Floats, numbers, positive
 from evenbreak.physics.units import GRAVITY
 
 if TYPE_CHECKING:

@@ -100,6 +100,16 @@ class Cloth:
         _positive(self, "gravity", "metres per second squared")
 
     @property
+    def slide_deceleration(self) -> float:
+        """How fast a ball loses speed while it slides, in m/s^2."""
+        return self.mu_slide * self.gravity
+
+    @property
+    def roll_deceleration(self) -> float:
+        """How fast a ball loses speed while it rolls, in m/s^2."""
+        return self.mu_roll * self.gravity
+
+    @property
     def table_speed(self) -> float:
         """The table speed, 1 / mu_roll: the higher, the farther a ball rolls."""
         return 1.0 / self.mu_roll

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from evenbreak.checks import together
+from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import LEAST, Floats, numbers, plain, positive
+from evenbreak.physics.arrays import LEAST, Floats, numbers, positive
 from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
@@ -159,7 +159,7 @@ def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth
     y, z = _offset(contact.y, "y"), _height(contact.z)
     speed, time = positive(speed, "speed"), numbers(time, "time", low=0.0)
     together(y=y, z=z, speed=speed, time=time)
-    slowing = cloth.mu_slide * cloth.gravity
+    slowing = cloth.slide_deceleration
     # Natural roll ends it at 5/7 z of the speed, slower or faster than the ball began.
     rolls = 5.0 / 7.0 * z
     lost = np.minimum(slowing * time / speed, np.abs(1.0 - rolls))
@@ -243,11 +243,11 @@ def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
     speed = positive(speed, "speed")
     distance = numbers(distance, "distance", low=0.0)
     together(speed=speed, distance=distance)
-    lost = 2.0 * cloth.mu_slide * cloth.gravity * distance / speed**2
+    lost = 2.0 * cloth.slide_deceleration * distance / speed**2
     if np.any(lost > 1.0):
         raise InputError(
             "distance is more than a ball of this speed slides; give a higher speed, or less "
-            f"than {float(np.min(speed)) ** 2 / (2.0 * cloth.mu_slide * cloth.gravity):.4g} m"
+            f"than {float(np.min(speed)) ** 2 / (2.0 * cloth.slide_deceleration):.4g} m"
         )
     # 1 - sqrt(1 - lost), written so that small offsets keep their digits.
     return plain(-lost / (1.0 + np.sqrt(1.0 - lost)))

@@ -7,6 +7,7 @@ would have to be inside the cushion; along the cushion it drops all the same.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -60,25 +61,22 @@ def pocketed_shot(
     >>> found.shot.object_leg.pocket, bool(found.target[1] < corner.y)
     ('foot-right', True)
     """
-
-    def aim_at(target: Floats) -> AimedShot:
-        return aimed_shot(
-            strike,
-            cue_ball,
-            object_ball,
-            target.tolist(),
-            cloth=cloth,
-            table=table,
-            mu=mu,
-            friction=friction,
-        )
-
-    straight = aim_at(np.array([pocket.x, pocket.y]))
+    aim_at = partial(
+        aimed_shot,
+        strike,
+        cue_ball,
+        object_ball,
+        cloth=cloth,
+        table=table,
+        mu=mu,
+        friction=friction,
+    )
+    straight = aim_at([pocket.x, pocket.y])
     if not _blocked(straight, pocket):
         return straight
     for target in _beside(pocket, place_of(object_ball, "object_ball"), strike.ball.radius):
         try:
-            found = aim_at(target)
+            found = aim_at(target.tolist())
         except InputError:  # this side of the mouth cannot be reached
             continue
         if not _blocked(found, pocket):

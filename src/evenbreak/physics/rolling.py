@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.checks import together
-from evenbreak.physics.arrays import numbers, plain, positive
+from evenbreak.checks import plain, together
+from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.objects import Ball, Cloth
 from evenbreak.physics.units import GRAVITY, INCH
 
@@ -154,7 +154,7 @@ def spin_stop(rim_speed: Any, cloth: Cloth) -> SpinStop:
     (4.2825, 83.1562, 87.4387)
     """
     speed = 2.0 / 7.0 * np.abs(numbers(rim_speed, "rim_speed"))
-    pull, resistance = cloth.mu_slide * cloth.gravity, cloth.mu_roll * cloth.gravity
+    pull, resistance = cloth.slide_deceleration, cloth.roll_deceleration
     parts = (
         speed,
         speed / pull,

@@ -22,9 +22,9 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from evenbreak.checks import together
+from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.arrays import Floats, numbers
 from evenbreak.physics.objects import Ball, Cloth
 
 if TYPE_CHECKING:
@@ -116,7 +116,7 @@ def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
     together(**{"ahead": x, "velocity[..., 0]": across})
     if not np.all(across):
         raise InputError("velocity is 0 across the force; the path is a straight line then")
-    return plain(along / across * x + 0.5 * cloth.mu_slide * cloth.gravity * (x / across) ** 2)
+    return plain(along / across * x + 0.5 * cloth.slide_deceleration * (x / across) ** 2)
 
 
 @overload
@@ -147,7 +147,7 @@ def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     speed = numbers(speed, "speed", low=0.0)
     spin = numbers(spin, "spin", low=-2.5, high=0.0)
     together(speed=speed, spin=spin)
-    time = -0.4 * spin * speed / (cloth.mu_slide * cloth.gravity)
+    time = -0.4 * spin * speed / cloth.slide_deceleration
     return plain(speed * time * (1.0 + 0.2 * spin))
 
 
@@ -176,7 +176,7 @@ def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     spin = numbers(spin, "spin", low=-2.5)
     together(speed=speed, spin=spin)
     slip = 1.0 - spin
-    time = 2.0 * np.abs(slip) * speed / (7.0 * cloth.mu_slide * cloth.gravity)
+    time = 2.0 * np.abs(slip) * speed / (7.0 * cloth.slide_deceleration)
     return plain(speed * time * (1.0 - slip / 7.0))
 
 
@@ -230,8 +230,8 @@ class Slide:
     @cached_property
     def slide_time(self) -> Any:
         """Seconds until natural roll begins."""
-        pull = self.cloth.mu_slide * self.cloth.gravity
-        return plain(2.0 * np.hypot(self.slip[..., 0], self.slip[..., 1]) / (7.0 * pull))
+        slip = np.hypot(self.slip[..., 0], self.slip[..., 1])
+        return plain(2.0 * slip / (7.0 * self.cloth.slide_deceleration))
 
     @cached_property
     def roll_velocity(self) -> Floats:
@@ -242,7 +242,7 @@ class Slide:
     def stop_time(self) -> Any:
         """Seconds until the ball stops."""
         speed = np.hypot(self.roll_velocity[..., 0], self.roll_velocity[..., 1])
-        return plain(self.slide_time + speed / (self.cloth.mu_roll * self.cloth.gravity))
+        return plain(self.slide_time + speed / self.cloth.roll_deceleration)
 
     @property
     def stop_position(self) -> Floats:
@@ -257,11 +257,8 @@ class Slide:
         time
             seconds; its shape must broadcast with that of the balls.
         """
-        time = self._time(time)
-        sliding = np.minimum(time, self.slide_time)[..., None]
-        rolling = np.clip(time - self.slide_time, 0.0, self.stop_time - self.slide_time)[..., None]
-        pull = self.cloth.mu_slide * self.cloth.gravity
-        resistance = self.cloth.mu_roll * self.cloth.gravity
+        sliding, rolling = self._since(time)
+        pull, resistance = self.cloth.slide_deceleration, self.cloth.roll_deceleration
         slid = self.velocity * sliding - 0.5 * pull * _direction(self.slip) * sliding**2
         start = self.roll_velocity
         rolled = start * rolling - 0.5 * resistance * _direction(start) * rolling**2
@@ -270,37 +267,33 @@ class Slide:
 
     def velocity_at(self, time: Any) -> Floats:
         """Return the velocity at a time, in m/s; shape (..., 2)."""
-        time = self._time(time)
-        sliding = np.minimum(time, self.slide_time)[..., None]
-        rolling = np.clip(time - self.slide_time, 0.0, self.stop_time - self.slide_time)[..., None]
-        pull = self.cloth.mu_slide * self.cloth.gravity
-        resistance = self.cloth.mu_roll * self.cloth.gravity
+        sliding, rolling = self._since(time)
         now: Floats = (
             self.velocity
-            - pull * _direction(self.slip) * sliding
-            - resistance * _direction(self.roll_velocity) * rolling
+            - self.cloth.slide_deceleration * _direction(self.slip) * sliding
+            - self.cloth.roll_deceleration * _direction(self.roll_velocity) * rolling
         )
         return now
 
     def spin_at(self, time: Any) -> Floats:
         """Return the angular velocity at a time, in rad/s; shape (..., 3)."""
-        time = self._time(time)
-        slides = np.minimum(time, self.slide_time)[..., None]
-        pull = self.cloth.mu_slide * self.cloth.gravity
-        gain = 2.5 * pull / self.ball.radius * slides * _direction(self.slip)
+        sliding, _ = self._since(time)
+        pull = self.cloth.slide_deceleration
+        gain = 2.5 * pull / self.ball.radius * sliding * _direction(self.slip)
         # The cloth's force -u at -R k turns the ball by R (-k) x (-u) = R k x u.
         level = self.spin[..., :2] + np.stack([-gain[..., 1], gain[..., 0]], axis=-1)
-        rolling = (time > self.slide_time)[..., None]
+        rolling = (np.asarray(time) > self.slide_time)[..., None]
         now = self.velocity_at(time) / self.ball.radius
         level = np.where(rolling, np.stack([-now[..., 1], now[..., 0]], axis=-1), level)
         upright = np.broadcast_to(self.spin[..., 2:], (*level.shape[:-1], 1))
         return np.concatenate([level, upright], axis=-1)
 
-    def _time(self, time: Any) -> Floats:
-        """Return times as an array that broadcasts with the balls, or refuse them."""
+    def _since(self, time: Any) -> tuple[Floats, Floats]:
+        """Return for how long each ball has slid and rolled at a time; shape (..., 1)."""
         times = numbers(time, "time", low=0.0)
         together(time=times, **{"slip[..., 0]": self.slip[..., 0]})
-        return times
+        rolled = np.clip(times - self.slide_time, 0.0, self.stop_time - self.slide_time)
+        return np.minimum(times, self.slide_time)[..., None], rolled[..., None]
 
 
 def _vectors(value: Any, name: str, size: int) -> Floats:

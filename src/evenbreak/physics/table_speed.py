@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, overload
 
-from evenbreak.checks import together
-from evenbreak.physics.arrays import Floats, numbers, plain, positive
+from evenbreak.checks import plain, together
+from evenbreak.physics.arrays import Floats, numbers, positive
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.units import GRAVITY
 
@@ -102,7 +102,7 @@ def roll_time(speed: Any, cloth: Cloth) -> Any:
     >>> round(roll_time(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
     10.0
     """
-    return plain(numbers(speed, "speed", low=0.0) / (cloth.mu_roll * cloth.gravity))
+    return plain(numbers(speed, "speed", low=0.0) / cloth.roll_deceleration)
 
 
 @overload
@@ -117,7 +117,7 @@ def roll_distance(speed: Any, cloth: Cloth) -> Any:
     >>> round(roll_distance(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
     5.0
     """
-    return plain(numbers(speed, "speed", low=0.0) ** 2 / (2.0 * cloth.mu_roll * cloth.gravity))
+    return plain(numbers(speed, "speed", low=0.0) ** 2 / (2.0 * cloth.roll_deceleration))
 
 
 def _nine_feet() -> float:

@@ -23,9 +23,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from evenbreak.checks import one_of, together
+from evenbreak.checks import one_of, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain
+from evenbreak.physics.arrays import Floats, numbers
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

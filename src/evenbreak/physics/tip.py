@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from evenbreak.checks import together
-from evenbreak.physics.arrays import Floats, numbers, plain, positive
+from evenbreak.checks import plain, together
+from evenbreak.physics.arrays import Floats, numbers, positive
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

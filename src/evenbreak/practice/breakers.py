@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
@@ -53,6 +54,7 @@ class Breakers(NamedTuple):
 
     def broken(self, first_breaker: int) -> tuple[Any, Any]:
         """Return the fractions of the racks that player 1 and player 2 break."""
+        one_of(first_breaker, "first_breaker", (1, 2))
         changes = self.pass_1 + self.pass_2
         stays = changes == 0.0
         per_change = np.where(stays, 1.0, changes)

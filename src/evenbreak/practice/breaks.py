@@ -20,7 +20,7 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.checks import number, one_of, plain
+from evenbreak.checks import number, plain
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
@@ -72,7 +72,6 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     >>> long_run_share([0.5, 0.1], [0.1, 0.5], loser_breaks).round(4)
     array([0.8333, 0.1667])
     """
-    one_of(first_breaker, "first_breaker", (1, 2))
     racks = Breakers.of(p1, p2, breaks)
     return plain(racks.won(first_breaker))
 
@@ -113,7 +112,6 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
     >>> round(long_run_sd(0.75, 0.75, loser_breaks), 4)
     0.2887
     """
-    one_of(first_breaker, "first_breaker", (1, 2))
     racks = Breakers.of(p1, p2, breaks)
     worth = np.nan_to_num(racks.first_break, posinf=0.0, neginf=0.0)
     variance = sum(
@@ -221,7 +219,6 @@ def compare_break_formats(
     if not isinstance(rack, Rack):
         raise InputError(f"rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)")
     rack.of_numbers()
-    one_of(first_breaker, "first_breaker", (1, 2))
     wanted = "the points of a rack, 0 or more"
     prize = number(win, "win", low=0.0, wanted=wanted)
     price = number(lose, "lose", low=0.0, wanted=wanted)

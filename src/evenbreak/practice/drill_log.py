@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.checks import whole
+from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
@@ -57,7 +57,9 @@ class DrillLog:
     levels: int | None = None
 
     def __post_init__(self) -> None:
-        level = _level_array(self.level)
+        level = whole_numbers(self.level, "level", at_least=1)
+        if level.ndim != 1 or not level.size:
+            raise InputError("level is empty or not a list; give the level of each attempt")
         success = np.asarray(self.success)
         if success.shape != level.shape or not np.isin(success, (0, 1)).all():
             raise InputError("success does not match level; give True or False for each attempt")
@@ -71,7 +73,7 @@ class DrillLog:
         if highest > levels:
             raise InputError(f"levels is {levels}, but the log has level {highest}; give more")
         for name, value in (
-            ("level", level),
+            ("level", level.astype(np.int64)),
             ("success", success.astype(bool)),
             ("session", session),
             ("levels", levels),
@@ -133,14 +135,3 @@ class DrillLog:
     def _new_session(self) -> NDArray[np.bool_]:
         session = np.asarray(self.session)
         return np.concatenate([[True], session[1:] != session[:-1]])
-
-
-def _level_array(given: Any) -> NDArray[np.int64]:
-    level = np.asarray(given)
-    if level.ndim != 1 or not level.size:
-        raise InputError("level is empty or not a list; give the level of each attempt")
-    if level.dtype.kind not in "iuf" or not ((level >= 1) & (level == np.floor(level))).all():
-        raise InputError("level must hold whole numbers from 1; give the level of each attempt")
-    if level.max() > MOST_LEVELS:
-        raise InputError(f"the log has level {level.max():g}; give {MOST_LEVELS} at most")
-    return level.astype(np.int64)

@@ -245,7 +245,6 @@ def compare_shots(
     >>> round(best.turning_p2, 4), round(other.turning_p2, 4)
     (0.5143, 0.4667)
     """
-    one_of(look_ahead, "look_ahead", LOOK_AHEADS)
     ranked = sorted(shots, key=lambda shot: -round(shot.win(look_ahead), 12))
     if not ranked:
         raise InputError("shots is empty; give at least one ShotChoice")

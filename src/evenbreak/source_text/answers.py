@@ -1,4 +1,4 @@
-"""How every number of the text is computed, and what comes of comparing all of them."""
+"""How each number of the text is computed, and how it compares with the printed one."""
 
 from __future__ import annotations
 
@@ -8,12 +8,7 @@ from typing import Any
 from evenbreak.source_text.findings import Finding, find
 from evenbreak.source_text.inputs import Answers, parse_inputs
 from evenbreak.source_text.physics import collisions, deflections, equipment, natural_roll, tip
-from evenbreak.source_text.published import (
-    further_numbers,
-    p5_6_tables,
-    physics_numbers,
-    published_numbers,
-)
+from evenbreak.source_text.published import physics_numbers, published_numbers
 from evenbreak.source_text.section5 import (
     break_formats,
     games_won,
@@ -22,7 +17,6 @@ from evenbreak.source_text.section5 import (
     one_ball,
     samples,
 )
-from evenbreak.source_text.section5.order import place_of
 
 PHYSICS = (equipment, natural_roll, tip, collisions, deflections)
 """The modules that answer the problems of sections 1 to 4."""
@@ -64,5 +58,4 @@ def physics_findings() -> tuple[Finding, ...]:
 @cache
 def section_5_findings() -> tuple[Finding, ...]:
     """Return every number of section 5 with what is computed, in the order of the text."""
-    rows = (*published_numbers(), *further_numbers(), *p5_6_tables())
-    return tuple(find(sorted(rows, key=place_of), ANSWERS))
+    return tuple(find(published_numbers(), ANSWERS))

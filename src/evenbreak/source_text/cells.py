@@ -1,9 +1,11 @@
-"""Numbers and tables as the files have them: the same bytes on every machine."""
+"""The tables of the package, and numbers and tables as files: the same bytes on every machine."""
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import ROUND_HALF_EVEN, Context, Decimal
+from importlib.resources import files
 from typing import Any, TypeAlias
 
 from evenbreak.files.csv_writer import csv_lines
@@ -11,7 +13,7 @@ from evenbreak.files.csv_writer import csv_lines
 _DIGITS = Context(prec=10, rounding=ROUND_HALF_EVEN)
 
 Records: TypeAlias = Iterator[Mapping[str, Any]]
-"""Rows that are made one by one."""
+"""Rows, computed one at a time."""
 
 Rows: TypeAlias = Sequence[Mapping[str, Any]]
 """The rows of a table, each by the names of its columns; a cell may be missing."""
@@ -30,7 +32,7 @@ def number_cell(value: Any) -> Decimal:
 
 
 def difference_cell(computed: Any, printed: Decimal) -> Decimal:
-    """Return computed - printed to ten decimals; what machines disagree on is below that.
+    """Return computed - printed to ten decimals; machines disagree only beyond that.
 
     >>> difference_cell(0.1 + 0.2, Decimal("0.3")), difference_cell(0.25, Decimal("0.2"))
     (Decimal('0'), Decimal('0.05'))
@@ -49,9 +51,9 @@ def fixed_cell(value: Any) -> Decimal:
 
 
 def record(inputs: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a row of a curve's points: its inputs exactly, its values with six decimals.
+    """Return a point of a curve as a row: its inputs exactly, its values with six decimals.
 
-    Words and None stay what they are.
+    Text and None are kept as they are.
 
     >>> record({"line": "a", "p": 0.1}, {"w": 1 / 3})
     {'line': 'a', 'p': Decimal('0.1'), 'w': Decimal('0.333333')}
@@ -70,6 +72,16 @@ def csv_bytes(rows: Rows) -> bytes:
     return "".join(csv_lines(names, ([row.get(name) for name in names] for row in rows))).encode()
 
 
+def packaged_rows(path: str) -> list[list[str]]:
+    """Return the rows of a CSV file of this package, without its header.
+
+    >>> packaged_rows("section5/diagram_arcs.csv")[0]
+    ['figure_5_2', 'S1', 'W1', 'p_1']
+    """
+    text = files("evenbreak.source_text").joinpath(path).read_text("utf-8")
+    return list(csv.reader(text.splitlines()))[1:]
+
+
 def _cell(value: Any, shown: Any) -> Any:
     return value if value is None or isinstance(value, str) else shown(value)
 
@@ -81,7 +93,7 @@ def _sure(value: Any) -> Decimal:
 
 
 def _plain(value: Decimal) -> Decimal:
-    """Return a decimal without zeros at its end, and without a sign of zero."""
+    """Return a decimal without trailing zeros, and zero without a sign."""
     value = value.normalize()
     if value == 0:
         return Decimal(0)

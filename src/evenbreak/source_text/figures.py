@@ -27,7 +27,7 @@ def figures() -> Mapping[str, Callable[[], Figure]]:
     -----
     Source: Figs. 1.1 to 5.11 and the diagrams of problem P5.24. In sections 1 to 4 only
     Figs. 3.1 to 3.4, 4.4, 4.5, 4.7 and 4.8 are plots, the others sketches;
-    `evenbreak.source_text.physics.chosen` says what is chosen where the text's values are lost.
+    `evenbreak.source_text.physics.chosen` has the values chosen where those of the text are lost.
 
     >>> list(figures())[:3]
     ['figure_5_1', 'figure_5_3', 'figure_5_6']

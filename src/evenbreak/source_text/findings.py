@@ -1,4 +1,4 @@
-"""Printed numbers beside computed ones: what comparing them says."""
+"""Printed numbers compared with computed ones."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Finding(NamedTuple):
     Parameters
     ----------
     published
-        the number, as the package data have it.
+        the number in the package data.
     computed
         what the library computes, or has where the text takes a number from elsewhere; None if
         it has no such number.
@@ -42,10 +42,10 @@ def find(rows: Iterable[PublishedNumber], answers: Answers) -> Iterator[Finding]
 
 
 def verdict_of(published: PublishedNumber, computed: float | None) -> str:
-    """Return what comparing a printed number with a computed one says.
+    """Return the verdict on a printed number, given the computed one.
 
-    A number that is within `deciding_tolerance` keeps the verdict of the package data, except
-    that an erratum then turns out right. One that is not differs, except for an erratum.
+    Within `deciding_tolerance` the verdict of the package data stands, except that a supposed
+    erratum agrees. Outside it the verdict is 'differs', unless the number is an erratum.
     """
     if published.printed is None:
         return "derived"
@@ -58,10 +58,10 @@ def verdict_of(published: PublishedNumber, computed: float | None) -> str:
 
 
 def deciding_tolerance(published: PublishedNumber) -> Decimal:
-    """Return the largest difference with which a number still agrees.
+    """Return how far apart a printed and a computed number may be and still agree.
 
-    That is the tolerance of the number; but a number known as an erratum is right only if
-    it is what rounding gives, within half of its last printed place.
+    That is the tolerance of the number. A known erratum agrees only within half of its last
+    printed place, as rounding would leave it.
 
     >>> known = PublishedNumber("P5.17", "", "", Decimal("0.457"), Decimal("0.0006"), "erratum", "")
     >>> deciding_tolerance(known), deciding_tolerance(known._replace(verdict="agrees"))
@@ -73,7 +73,7 @@ def deciding_tolerance(published: PublishedNumber) -> Decimal:
 
 
 def differing(found: Iterable[Finding]) -> Iterator[str]:
-    """Yield a line for each number whose verdict is not the one that is expected."""
+    """Yield a line for each number that does not have the expected verdict."""
     for row, computed, verdict in found:
         if verdict != row.verdict:
             number = "nothing" if computed is None else f"{computed:.10g}"

@@ -16,7 +16,7 @@ _UNITS = {"deg": DEGREE, "in": INCH, "in/s": INCH, "oz": OUNCE}
 
 @dataclass
 class Inputs:
-    """The inputs of a quantity, by the name before each.
+    """The inputs of a quantity, by name.
 
     Parameters
     ----------
@@ -24,11 +24,11 @@ class Inputs:
         exact, in the units in which they are written; `;` and `:` stand between several of one
         name, and "" is the name of those that follow none.
     units
-        what one of such a number is in SI units and radians, where that is not 1.
+        the factor that turns such a number into SI units or radians, where it is not 1.
     texts
-        what follows a name and is no number.
+        the values that are not numbers.
     words
-        the words that name nothing.
+        the words without a value.
     """
 
     numbers: dict[str, tuple[Fraction, ...]] = field(default_factory=dict)
@@ -52,7 +52,7 @@ class Inputs:
         return float(self.one(name)) * self.units.get(name, 1.0)
 
     def get(self, name: str, default: Any = None) -> Any:
-        """Return the same, or a default where there is no such name."""
+        """Return the same, or a default if there is no such name."""
         return self[name] if name in self.numbers or name in self.texts else default
 
 

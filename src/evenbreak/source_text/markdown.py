@@ -1,4 +1,4 @@
-"""Markdown tables of computed numbers, with the printed number where it is another."""
+"""Markdown tables of computed numbers, with the printed number where it differs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _line(cells: Iterable[Any]) -> str:
 
 
 def rounded(value: Decimal, decimals: int) -> str:
-    """Return a number with so many decimals, halves rounded up as in the text.
+    """Return a number to that many decimals, with halves rounded up as in the text.
 
     >>> rounded(Decimal("0.0625"), 3), rounded(Decimal(-2), 1)
     ('0.063', '-2.0')
@@ -43,7 +43,7 @@ def short(value: float | Decimal) -> str:
 
 
 def beside(computed: Decimal, printed: Decimal | None, decimals: int) -> str:
-    """Return a computed number, and the printed one if rounding does not lead to it.
+    """Return a computed number, and the printed one if it is not the same when rounded.
 
     >>> beside(Decimal("15.97"), Decimal("15.9"), 1), beside(Decimal("2.33"), Decimal("2.3"), 1)
     ('16.0 (text: 15.9)', '2.3')

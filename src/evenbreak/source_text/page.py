@@ -1,4 +1,4 @@
-"""What the two pages share: templates filled in, verdicts, slips."""
+"""What the two pages share: templates, verdicts and slips."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from evenbreak.source_text.published import Erratum
 _PLACE = re.compile(r"\{\{(\w+)(?:\s([^}]*))?\}\}")
 
 Blocks = Mapping[str, Callable[[str], str]]
-"""What stands in the places of a template, by the first word of each place; the function gets
-the rest of it."""
+"""The function that fills each place of a template, by the first word of the place; it gets the
+other words."""
 
 
 def filled(section: str, blocks: Blocks) -> str:
@@ -72,7 +72,7 @@ def errata_table(slips: Iterable[Erratum], class_: str) -> str:
 
 
 def slip_blocks(slips: Sequence[Erratum], *, placed: bool = False) -> str:
-    """Return slips as blocks to set in where they occur; `placed` says where each is."""
+    """Return slips as block quotes; `placed` adds where in the text each is."""
     return "\n>\n".join(_slip_block(slip, f"{slip.where}. " if placed else "") for slip in slips)
 
 

@@ -1,14 +1,14 @@
-"""What the source text prints: its numbers, the tables of P5.6 and its errata.
+"""What the source text prints: its numbers and its errata.
 
 The rows come with the package, for comparison with what it computes.
 """
 
 from __future__ import annotations
 
-import csv
 from decimal import Decimal
-from importlib.resources import files
 from typing import NamedTuple
+
+from evenbreak.source_text.cells import packaged_rows
 
 
 class PublishedNumber(NamedTuple):
@@ -58,7 +58,7 @@ class Erratum(NamedTuple):
     correct
         what it should say, or for a remark what is true; '' if there is nothing to say.
     kind
-        what kind of slip or remark it is, such as 'cut off' for truncated digits.
+        the kind of slip or remark, such as 'cut off' for truncated digits.
     why
         how this is known.
     """
@@ -72,31 +72,13 @@ class Erratum(NamedTuple):
 
 
 def published_numbers() -> list[PublishedNumber]:
-    """Return the numbers of the problems and tables of section 5, in the order of the text.
+    """Return the numbers of section 5 in the order of the text, a table after its problem.
 
     >>> [number] = [row for row in published_numbers() if row.quantity == "P(run>=100)"]
     >>> number.problem, number.inputs, number.printed
     ('P5.13', 'p=.96', Decimal('0.017'))
     """
-    return _numbers("section5_numbers.csv")
-
-
-def further_numbers() -> list[PublishedNumber]:
-    """Return the numbers that the answers of section 5 mention in passing.
-
-    >>> {row.verdict for row in further_numbers()} <= {"agrees", "erratum", "derived"}
-    True
-    """
-    return _numbers("section5_further.csv")
-
-
-def p5_6_tables() -> list[PublishedNumber]:
-    """Return the cells of the four tables of P5.6: P and W for p = 1/2 and p = 2/3.
-
-    >>> p5_6_tables()[11].inputs, p5_6_tables()[11].printed
-    ('p=1/2 m=1 n=1', Decimal('0.500'))
-    """
-    return _numbers("p5_6_tables.csv")
+    return _numbers("published/section5_numbers.csv")
 
 
 def physics_numbers() -> list[PublishedNumber]:
@@ -106,7 +88,7 @@ def physics_numbers() -> list[PublishedNumber]:
     >>> number.problem, number.printed, number.verdict
     ('P4.19', Decimal('14.963'), 'agrees')
     """
-    return _numbers("physics_numbers.csv")
+    return _numbers("published/physics_numbers.csv")
 
 
 def physics_errata() -> list[Erratum]:
@@ -115,7 +97,7 @@ def physics_errata() -> list[Erratum]:
     >>> [slip.correct for slip in physics_errata() if slip.where == "P4.15"]
     ['28.126']
     """
-    return [Erratum(*row) for row in _rows("physics_errata.csv")]
+    return [Erratum(*row) for row in packaged_rows("published/physics_errata.csv")]
 
 
 def errata() -> list[Erratum]:
@@ -124,10 +106,10 @@ def errata() -> list[Erratum]:
     >>> errata()[1].where, errata()[1].class_, errata()[1].kind
     ('P5.7', 'slip', 'last digit')
     """
-    return [Erratum(*row) for row in _rows("section5_errata.csv")]
+    return [Erratum(*row) for row in packaged_rows("published/section5_errata.csv")]
 
 
-def _numbers(name: str) -> list[PublishedNumber]:
+def _numbers(path: str) -> list[PublishedNumber]:
     return [
         PublishedNumber(
             problem,
@@ -135,14 +117,7 @@ def _numbers(name: str) -> list[PublishedNumber]:
             inputs,
             Decimal(printed) if printed else None,
             Decimal(tolerance),
-            verdict,
-            note,
+            *rest,
         )
-        for problem, quantity, inputs, printed, tolerance, verdict, note in _rows(name)
+        for problem, quantity, inputs, printed, tolerance, *rest in packaged_rows(path)
     ]
-
-
-def _rows(name: str) -> list[list[str]]:
-    """Return the rows of a file of the package below its header."""
-    text = files("evenbreak.source_text").joinpath("published", name).read_text("utf-8")
-    return list(csv.reader(text.splitlines()))[1:]

@@ -29,7 +29,7 @@ def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, by
     Parameters
     ----------
     say
-        gets a line on each step of the work.
+        is called with a line about each step.
     """
     say("Computing the tables and problems")
     statistics, physics = section_5_tables(), physics_tables()
@@ -71,7 +71,7 @@ def physics_tables() -> Tables:
 
 
 def all_findings() -> tuple[Finding, ...]:
-    """Return every number of the text with what is computed in its place."""
+    """Return every number of the text with the computed one."""
     return (*physics_findings(), *section_5_findings())
 
 

@@ -164,10 +164,10 @@ def test_the_chart_of_a_fixed_length_system_is_taken_by_itself(rate):
 @pytest.mark.parametrize(
     ("system", "message"),
     [
-        ("fide", "--system is 'fide'; give npl, step UP [DOWN], margin [MOST]"),
-        ("step", "--system is 'step'; write it as step UP [DOWN], in whole numbers"),
-        ("elo 0", "--system is 'elo 0': k is 0; give a whole number, 1 or more"),
-        ("fixed 8", "--system is 'fixed 8': games is 8"),
+        ("fide", "system is 'fide'; give npl, step UP [DOWN], margin [MOST]"),
+        ("step", "system is 'step'; write it as step UP [DOWN], in whole numbers"),
+        ("elo 0", "system is 'elo 0': k is 0; give a whole number, 1 or more"),
+        ("fixed 8", "system is 'fixed 8': games is 8"),
     ],
 )
 def test_a_system_that_there_is_not_is_refused(rate, system, message):
@@ -200,7 +200,7 @@ def test_without_a_chart_the_only_one_that_fits_is_used_and_named(rate):
         (["night.csv", "--chart", "apa_8ball"], 2, "give one of rating differences"),
         (["none.csv", "--chart", "npl_10"], 3, "there is no such file"),
         (["night.csv", "--roster", "none.csv"], 3, "there is no such file"),
-        (["night.csv", "--system", "fide"], 2, "--system is 'fide'; give npl"),
+        (["night.csv", "--system", "fide"], 2, "system is 'fide'; give npl"),
         (["-", "--roster", "-"], 2, "which only one file can be"),
         (["night.csv", "--roster", "night.csv"], 3, "there is no column 'player'"),
         (["night.csv", "--aliases", "last.csv"], 3, "there is no column 'name'"),

@@ -22,7 +22,8 @@ def test_shares_by_the_chain_are_those_by_the_formula():
 @pytest.mark.parametrize("name", break_formats.FORMATS)
 def test_eigenvalues_are_those_of_the_chain(name):
     p1, p2 = 0.9, 0.5
-    text = break_formats.EIGENVALUES[name].removeprefix("1 and ")
+    text = derived(break_formats, "P5.24")["formula: eigenvalues", f"{name} breaks"]
+    text = text.removeprefix("1 and ")
     second = eval(text, {"p1": p1, "p2": p2})  # noqa: S307
     series = Series(Rack(p1, p2), breaks=BREAK_FORMATS[name])
     assert sorted(spectrum(chain_of(series)).values) == pytest.approx([second, 1], abs=1e-14)
@@ -46,8 +47,9 @@ def test_formulas_are_the_long_run_shares_of_the_diagrams():
         "loser": [(1, 1, 1 - p1), (1, 2, p1), (2, 2, 1 - p2), (2, 1, p2)],
         "alternate": [(1, 2, sympy.Integer(1)), (2, 1, sympy.Integer(1))],
     }
+    found = derived(break_formats, "P5.24")
     for name, arcs in diagrams.items():
         law = symbolic_limit(arcs, 1)
         share = law[1] * p1 + law[2] * (1 - p2)
-        formula = sympy.sympify(break_formats.FORMULAS[name])
+        formula = sympy.sympify(found["formula: W", f"{name} breaks"])
         assert sympy.simplify(share - formula) == 0, name

@@ -5,6 +5,7 @@ import pytest
 from derived import derived
 from evenbreak.practice import one_ball_win
 from evenbreak.source_text.section5 import one_ball
+from evenbreak.source_text.section5.rows import formulas
 
 
 def test_steps_go_to_the_limit():
@@ -18,7 +19,7 @@ def test_steps_go_to_the_limit():
 
 def test_the_formula_of_two_shots():
     p1, p2 = 0.4, 0.8
-    win = eval(one_ball.TWO_SHOTS, {"p1": p1, "p2": p2})  # noqa: S307
+    win = eval(formulas("P5.21")[0].computed, {"p1": p1, "p2": p2})  # noqa: S307
     assert win == pytest.approx(one_ball_win(p1, p2, look_ahead="two shots"), rel=1e-14)
 
 
@@ -30,6 +31,9 @@ def test_formulas_are_the_limits_of_the_diagram():
     arcs = [("S1", "W", p1), ("S1", "S2", 1 - p1), ("S2", "L", p2), ("S2", "S1", 1 - p2)]
     limits = {"v": symbolic_limit(arcs, "S1"), "w": symbolic_limit(arcs, "S2")}
     half = {node: (limits["v"][node] + limits["w"][node]) / 2 for node in ("W", "L")}
-    for (start, node), text in one_ball.FORMULAS.items():
-        exact = limits.get(start, half)[node]
-        assert sympy.simplify(sympy.sympify(text) - exact) == 0, (start, node)
+    found = [row for row in formulas("P5.23") if row.quantity.endswith(", limit")]
+    assert len(found) == 12
+    for row in found:
+        start = row.quantity.removeprefix("formula: ").removesuffix(", limit")
+        exact = limits.get(start, half).get(row.inputs.removeprefix("node="), 0)
+        assert sympy.simplify(sympy.sympify(row.computed) - exact) == 0, row

@@ -53,4 +53,4 @@ def test_triangle_games_ladder_and_eigenvalues():
     ladder = lines(page_tables.ladder_table(ROWS["npl_ladder"]))
     assert ladder[-1] == "| 20 | 2 points | 3.668 | 3.697 |"
     assert page_tables.eigenvalues(ROWS["problem_5_23"]).endswith("0.3464, −0.3464")
-    assert "sqrt(q1 q2)" in page_tables.eigenvalues_table("P5.23")
+    assert page_tables.matrix_table("M, winner breaks", ROWS).endswith("| **S2** | q1 | p2 |")

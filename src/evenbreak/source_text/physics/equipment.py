@@ -50,7 +50,7 @@ _ENERGY = OUNCE * INCH**2
 """One oz in^2/s^2 in joules."""
 
 _LONG = 1e3
-"""Seconds by which any block has stopped."""
+"""Seconds after which any block has stopped."""
 
 
 def _second_moment(first: int, second: int) -> float:
@@ -95,7 +95,7 @@ def _times_as_far(i: Inputs, factor: float) -> float:
 
 
 def _full_throw(i: Inputs) -> float:
-    # Any stun shot has it by the law of the text.
+    # By the text's law every stun shot has the full throw.
     return float(throw_angle(0.5, 0.0, mu=i["mu"], friction="shepard")) / DEGREE
 
 
@@ -153,7 +153,7 @@ ANSWERS: Answers = {
     ("P1.6", "full throw, deg"): _full_throw,
     ("P1.7", "mu of a tip that slips at b/R"): lambda i: tip_friction_of(i["b/R"]),
     ("P1.7", "b_max/R"): lambda i: miscue_offset(i["mu"]),
-    # What the text takes as given, and the library holds.
+    # Numbers that the text takes as given.
     ("Section 1", "diameter, in"): lambda i: (
         BALL_SETS[i["balls"]].diameters[int(i["n"]) - 1] / INCH
     ),
@@ -169,4 +169,4 @@ ANSWERS: Answers = {
     ("P1.5", "width of the playing area, in"): lambda _: PoolTable().width / INCH,
     ("P1.5", "g, in/s^2"): lambda _: GRAVITY / INCH,
 }
-"""What the text answers."""
+"""How each quantity of these problems is computed."""

@@ -1,8 +1,8 @@
 """The page that shows sections 1 to 4: prose from `page.md`, numbers and figures from here.
 
 In the prose `{{numbers 3.6 3.9}}` stands for the numbers of P3.6 to P3.9, `{{slips 3.6 3.9}}` for
-what is wrong in them or to be remarked, 3.0 for what section 3 says before its first problem, and
-`{{figure 3.1 ...}}` for a figure with its caption.
+the slips and remarks there, and `{{figure 3.1 ...}}` for a figure with its caption. 3.0 is what
+section 3 says before its first problem.
 """
 
 from __future__ import annotations

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 _CUT = math.pi / 6.0
 _FRICTION = 0.2
-"""Between the balls, far too much, so that its effect is seen."""
+"""Friction between the balls, exaggerated to show its effect."""
 _OFFSET = 0.5
 
 Pair = Sequence[float]
 
 
 def friction_at_hit() -> Figure:
-    """Fig. 1.1: the forces on two balls that touch, and what friction makes them turn."""
+    """Fig. 1.1: the forces on two balls that touch, and the turn that friction gives them."""
     figure, axes = _sheet((-1.35, 3.35), (-1.5, 1.5), (7.4, 4.9))
     for x, way in ((0.0, -1.0), (2.0, 1.0)):
         _ball(axes, (x, 0.0))
@@ -184,7 +184,7 @@ def _arrow(
     lw: float = 1.4,
     ls: str = "-",
 ) -> FancyArrowPatch:
-    """Draw a vector from a point, its name beside the part of it that `at` says."""
+    """Draw a vector from a point, with its name beside the fraction `at` of its length."""
     from matplotlib.patches import FancyArrowPatch
 
     tail, along = np.asarray(start, float), np.asarray(vector, float)
@@ -231,7 +231,7 @@ def _angle(
     radius: float = 0.13,
     named: float = 0.5,
 ) -> None:
-    """Mark the angle between two directions, the shorter way round, named so far along it."""
+    """Mark the angle between two directions; `named` is how far along it its name goes."""
     begin, end = (math.atan2(way[1], way[0]) for way in (one, other))
     turn = begin + np.linspace(0.0, math.remainder(end - begin, 2.0 * math.pi), 41)
     arc = np.asarray(corner, float)[:, None] + radius * np.array([np.cos(turn), np.sin(turn)])

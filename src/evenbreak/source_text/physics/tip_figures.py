@@ -1,4 +1,4 @@
-"""The plots of section 3: where the tip meets the ball, and how fast the ball gets."""
+"""The plots of section 3: where the tip meets the ball, and the speed it gives."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ from evenbreak.source_text.section5.long_run import CHARTS, HANDICAPS, drill, la
 _LONGEST = 10
 _HUNDREDTHS = [k / 100 for k in range(101)]
 _INSIDE = [k / 20 for k in range(1, 20)]
-"""The grid of the contour plots; at a corner a limit may depend on the way to it."""
+"""The grid of the contour plots; at a corner the limit may depend on the direction of approach."""
 
 
 def figure_tables() -> Tables:

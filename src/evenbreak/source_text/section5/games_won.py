@@ -11,7 +11,7 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.source_text.inputs import Answers, Inputs
-from evenbreak.source_text.section5.rows import Derived, Row
+from evenbreak.source_text.section5.rows import Derived, Row, formulas
 from evenbreak.stats.binomial import GamesWon, critical_value, score_probability
 
 _LONGEST = 10
@@ -37,7 +37,7 @@ def _sets(p: float) -> Race:
 
 
 class _Needs(NamedTuple):
-    """The sets that each player needs, and the games of a set; a game is a set of one."""
+    """The sets that each player needs, and the games that each needs for a set."""
 
     m: int
     n: int
@@ -123,7 +123,7 @@ def _p5_4() -> Iterator[Row]:
 
 def _p5_5() -> Iterator[Row]:
     p = Fraction(2, 3)
-    yield Row("formula: W(p;m,n)", "", "sum over k = 0 ... n-1 of C(m-1+k, k) p^m q^k")
+    yield from formulas("P5.5")
     yield Row("W(p;3,2) as a fraction", "p=2/3", str(match_probability(p, 3, 2)))
 
 
@@ -154,9 +154,7 @@ def _p5_8() -> Iterator[Row]:
 
 
 def _p5_9() -> Iterator[Row]:
-    yield Row("formula: mode", "", "ceiling(N p - q)", "of two equal modes the smaller")
-    yield Row("formula: mean", "", "N p")
-    yield Row("formula: standard deviation", "", "sqrt(N p q)")
+    yield from formulas("P5.9")
     for games, p in EVENINGS:
         law = GamesWon(games, Fraction(p))
         inputs = f"N={games} p={p}"

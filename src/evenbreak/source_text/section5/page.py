@@ -1,7 +1,7 @@
 """The page that shows and explains all of section 5: prose from `page.md`, numbers from here.
 
 In the prose `{{numbers P5.7}}` stands for the printed and computed numbers of a problem,
-`{{slips P5.7}}` for what is wrong in it or to be remarked, and the other names for tables.
+`{{slips P5.7}}` for the slips and remarks there, and the other names for tables.
 """
 
 from __future__ import annotations
@@ -22,8 +22,6 @@ from evenbreak.source_text.page import (
 )
 from evenbreak.source_text.published import Erratum, PublishedNumber, errata
 from evenbreak.source_text.section5 import page_tables
-from evenbreak.source_text.section5.long_run import HANDICAPS, ahead_formula
-from evenbreak.source_text.section5.matrices import matrix_table
 
 _SHOWN_ELSEWHERE = {"mean of two", "W(1/2;n,n)", "W infinite look-ahead", "W two-shot look-ahead"}
 
@@ -42,7 +40,7 @@ def section_5_page(found: Sequence[Finding], tables: Tables) -> str:
 
 
 def slips_of(place: str) -> list[Erratum]:
-    """Return the slips of the text at a problem, a table or a figure, and what else is said.
+    """Return the slips and remarks at a problem, a table or a figure.
 
     >>> [slip.kind for slip in slips_of("P5.25")]
     ['rounded inputs']
@@ -67,13 +65,10 @@ def _blocks(found: Sequence[Finding], tables: Tables) -> Blocks:
         "scores": lambda p: page_tables.score_table(tables[f"problem_5_06_scores_{_name(p)}"]),
         "matches": lambda p: page_tables.score_table(tables[f"problem_5_06_matches_{_name(p)}"]),
         "triangle": lambda _: page_tables.triangle_table(),
-        "matrix": matrix_table,
-        "eigenvalues": page_tables.eigenvalues_table,
+        "matrix": lambda name: page_tables.matrix_table(name, tables),
         "products": lambda _: page_tables.products_table(found),
         "table_5_22": lambda _: page_tables.table_5_22(found),
-        "polynomials": lambda _: markdown_table(
-            ["match", "W"], [[f"{m}:{n}", f"`{ahead_formula(m, n)}`"] for m, n in HANDICAPS]
-        ),
+        "polynomials": lambda _: page_tables.polynomials(tables["problem_5_27"]),
         **{
             name: lambda _, show=show, file=file: show(tables[file])  # type: ignore[misc]
             for name, (show, file) in shown.items()
@@ -105,7 +100,7 @@ def _in_a_table(row: PublishedNumber) -> bool:
 
 
 def _given(inputs: str) -> str:
-    """Return inputs as a reader would like them: lists of scores by name, not over and over.
+    """Return inputs as the page shows them: lists of scores by name, not in full each time.
 
     >>> _given("as above"), _given("scores 50 44 46"), _given("p=.96 innings=5")
     ('both lists', 'the scores', 'p=.96 innings=5')

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from functools import partial
+from itertools import chain
 from typing import Any
 
-from evenbreak.source_text.cells import Rows
+from evenbreak.source_text.cells import Rows, Tables
 from evenbreak.source_text.findings import Finding
 from evenbreak.source_text.markdown import beside, markdown_table, rounded, short
 from evenbreak.source_text.section5.innings import INNINGS
 from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
-from evenbreak.source_text.section5.matrices import MATRICES
 from evenbreak.source_text.section5.samples import pascals_triangle
 
 _STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half the time"}
+
+
+def _lines_table(header: Sequence[str], cells: Iterable[tuple[str, str]]) -> str:
+    """Return a table from its cells, line by line, each with the name of its line."""
+    lines: dict[str, list[str]] = {}
+    for name, cell in cells:
+        lines.setdefault(name, [name]).append(cell)
+    return markdown_table(header, lines.values())
 
 
 def score_table(rows: Rows) -> str:
@@ -36,7 +44,7 @@ def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
 def _pairs_table(
     rows: Rows, *, header: Sequence[str], plain: Sequence[str], decimals: Mapping[str, int]
 ) -> str:
-    """Return a table of some columns as they are, then of computed numbers with printed ones."""
+    """Return a table: some columns as they are, then computed numbers beside printed ones."""
     return markdown_table(
         header,
         [
@@ -124,30 +132,32 @@ def triangle_table() -> str:
 
 def games_table(rows: Rows) -> str:
     """Return what P5.9 gives for some numbers of games."""
-    names = ("N p - q", "mode", "number of modes", "mean", "standard deviation")
-    games: dict[str, dict[str, Any]] = {}
-    for row in rows:
-        games.setdefault(row["inputs"], {})[row["quantity"]] = row["computed"]
-    return markdown_table(
-        ["games", *(name.replace("-", "−") for name in names)],
-        [
-            [inputs, *(short(found[name]) for name in names)]
-            for inputs, found in games.items()
-            if inputs
-        ],
+    return _lines_table(
+        ["games", "N p − q", "mode", "number of modes", "mean", "standard deviation"],
+        ((row["inputs"], short(row["computed"])) for row in rows if row["inputs"]),
     )
 
 
-def eigenvalues_table(problem: str) -> str:
-    """Return the eigenvalues of a problem's matrices in symbols."""
+def matrix_table(name: str, tables: Tables) -> str:
+    """Return a matrix in symbols, from the formulas among the tables."""
+    entries = [
+        (row["inputs"].split()[1], row["computed"].replace("-", "−"))
+        for row in chain.from_iterable(tables.values())
+        if row.get("quantity") == f"formula: {name}"
+    ]
+    states = dict.fromkeys(state for state, _ in entries)
+    return _lines_table(["to \\ from", *states], ((f"**{to}**", entry) for to, entry in entries))
+
+
+def polynomials(rows: Rows) -> str:
+    """Return W of P5.27 as a ratio of polynomials for each handicap."""
     return markdown_table(
-        ["matrix", "eigenvalues"],
+        ["match", "W"],
         [
-            [name, f"`{', '.join(matrix.eigenvalues)}`"]
-            for name, matrix in MATRICES.items()
-            if matrix.problem == problem
+            [row["inputs"], f"`{row['computed']}`"]
+            for row in rows
+            if row["quantity"] == "formula: W"
         ],
-        left=2,
     )
 
 
@@ -161,44 +171,43 @@ def eigenvalues(rows: Rows) -> str:
 
 def products_table(found: Sequence[Finding]) -> str:
     """Return the sixteen means of P5.18."""
-    means = {
-        tuple(row.inputs.split()): f"{computed:.6g}"
+    means = [
+        (row.inputs.split()[0], f"{computed:.6g}")
         for row, computed, _ in found
         if row.quantity == "mean of two"
-    }
-    values = list(dict.fromkeys(first for first, _ in means))
-    return markdown_table(
-        ["mean of", *values], [[f"**{a}**", *(means[a, b] for b in values)] for a in values]
-    )
+    ]
+    values = dict.fromkeys(first for first, _ in means)
+    return _lines_table(["mean of", *values], ((f"**{a}**", mean) for a, mean in means))
 
 
 def table_5_22(found: Sequence[Finding]) -> str:
     """Return the seven shots of P5.22 by both look-aheads."""
-    rows: dict[str, list[str]] = {}
-    for row, computed, _ in found:
-        if row.problem == "P5.22" and row.quantity.startswith("W"):
-            rows.setdefault(row.inputs, []).extend([f"{computed:.4f}", str(row.printed)])
-    return markdown_table(
+    return _lines_table(
         ["shot", "W infinite", "text", "W two shots", "text"],
-        [[inputs, *cells] for inputs, cells in rows.items()],
+        (
+            (row.inputs, cell)
+            for row, computed, _ in found
+            if row.problem == "P5.22" and row.quantity.startswith("W")
+            for cell in (f"{computed:.4f}", str(row.printed))
+        ),
     )
 
 
 def steps_table(rows: Rows) -> str:
     """Return the densities of P5.23, step by step, and their limits."""
-    steps: dict[str, list[str]] = {}
-    for row in rows:
-        start, _, when = row["quantity"].rpartition(", ")
-        if start in _STARTS:
-            steps.setdefault(f"{_STARTS[start]}: {when}", []).append(rounded(row["computed"], 4))
-    return markdown_table(
+    densities = ((*row["quantity"].rpartition(", "), row["computed"]) for row in rows)
+    return _lines_table(
         ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],
-        [[name, *cells] for name, cells in steps.items()],
+        (
+            (f"{_STARTS[start]}: {when}", rounded(density, 4))
+            for start, _, when, density in densities
+            if start in _STARTS
+        ),
     )
 
 
 def ladder_table(rows: Rows) -> str:
-    """Return how far ratings wander under each chart."""
+    """Return the spread of ratings under each chart."""
     return markdown_table(
         ["chart", "even races up to", "opponents rated correctly", "opponents off the same way"],
         [

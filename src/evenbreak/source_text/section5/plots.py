@@ -38,7 +38,7 @@ def races() -> Figure:
 
 
 def _crossing(axes: Axes) -> None:
-    """Enlarge the place where the races 2:1 and 4:2 are worth the same."""
+    """Enlarge the point where the races 2:1 and 4:2 are equally good."""
     from scipy.optimize import brentq
 
     inset = axes.inset_axes((0.71, 0.08, 0.26, 0.33))

@@ -8,13 +8,21 @@ from typing import Any
 from evenbreak.source_text.answers import SECTION_5
 from evenbreak.source_text.cells import Tables, number_cell
 from evenbreak.source_text.findings import Finding, row_of
-from evenbreak.source_text.section5.order import by_problem
 from evenbreak.source_text.section5.rows import Derived, Row
 
 PROBLEMS = tuple(f"P5.{number}" for number in range(1, 28))
 
+_PROBLEM_OF = {
+    "Table 5.1": "P5.10",
+    "Table 5.2": "P5.11",
+    "Table 5.3": "P5.16",
+    "Table 5.4": "P5.24",
+    "Table 5.5": "P5.26",
+}
+"""The problem that a table answers or follows."""
+
 DERIVED: Derived = {key: rows for part in SECTION_5 for key, rows in part.DERIVED.items()}
-"""What answers each problem beyond the numbers that the text prints."""
+"""The rows of each problem beyond the numbers that the text prints."""
 
 
 def file_of(problem: str) -> str:
@@ -27,11 +35,14 @@ def file_of(problem: str) -> str:
 
 
 def problem_tables(found: Iterable[Finding]) -> Tables:
-    """Return the answer of each problem by the name of its file: what is printed, then the rest."""
-    grouped = by_problem(found)
+    """Return the answer of each problem by file name: printed numbers, then the rest."""
+    printed: dict[str, list[dict[str, Any]]] = {}
+    for finding in found:
+        home = finding.published.problem
+        printed.setdefault(_PROBLEM_OF.get(home, home), []).append(row_of(finding))
     return {
         file_of(problem): [
-            *map(row_of, grouped.get(problem, ())),
+            *printed.get(problem, ()),
             *(_derived(problem, row) for row in DERIVED.get(problem, tuple)()),
         ]
         for problem in PROBLEMS

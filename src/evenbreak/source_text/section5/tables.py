@@ -66,7 +66,7 @@ def chart_rows() -> Rows:
 
 
 def ladder_rows(found: Iterable[Finding]) -> Rows:
-    """Return how far ratings wander under each chart, and the last even difference."""
+    """Return the spread of ratings under each chart, and its widest even race."""
     rows: dict[int, dict[str, Any]] = {
         number: {"chart": number, "even_up_to": chart(f"npl_{number}").rows[0].difference_to}
         for number in CHARTS
