@@ -89,7 +89,7 @@ def test_each_needed_column_is_asked_for_and_the_rest_still_looked_at(read, colu
 
 def test_a_header_without_matches_is_told(read):
     assert problems(read, f"{HEADER}\n") == [
-        ": has no matches below its header; add a line for each match"
+        ": has no matches below its header; write one line for each"
     ]
 
 

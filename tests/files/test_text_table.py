@@ -124,7 +124,7 @@ def test_rows_of_the_wrong_width_are_told_and_the_rest_kept(read):
 @pytest.mark.parametrize("rest", ['"Bo,5\nCy,6\n', f'"{"x" * 200_000}\nCy,6\n'])
 def test_a_quote_that_is_never_closed_is_told_where_it_opens(read, rest):
     told = problems(read(f"name,score\nAl,1\n{rest}"))
-    assert told[0].startswith(":3: stray quotation mark; close every")
+    assert told[0].startswith(":3: cannot be split into cells")
 
 
 def test_text_after_a_closing_quote_is_told_and_the_rest_kept(read):

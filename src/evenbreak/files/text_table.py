@@ -168,7 +168,7 @@ def read_table(
 def _add_unreadable(lines: list[int], problems: Problems) -> None:
     for line in lines:
         problems.add(
-            line, 'has a stray quotation mark; close every " and write "" for one in a cell'
+            line, 'cannot be split into cells; close every " and write "" for one in a cell'
         )
 
 

@@ -157,7 +157,7 @@ def test_plot_of_nearly_nothing(run, tmp_path, text):
     [
         ("", 2, "SCORES.csv"),
         ("- --new 53 --versus -", 2, "--new and --versus"),
-        ("- --versus -", 2, "stdin"),
+        ("- --versus -", 2, "standard input"),
         ("- --new much", 2, "'much' is not a score"),
         ("- --new 48,5", 2, "48.5"),
         ("- --new nan", 2, "'nan' is not a score"),
