@@ -13,10 +13,17 @@ import re
 import shlex
 import tempfile
 from html.parser import HTMLParser
+from pathlib import Path
+from typing import NamedTuple
+from unittest.mock import patch
 
 import pytest
 from click.testing import CliRunner
 
+from evenbreak.answers.faces.to_csv import to_csv
+from evenbreak.answers.faces.to_json import to_json
+from evenbreak.answers.faces.to_text import to_text
+from evenbreak.cli.kit.faces import print_answer
 from evenbreak.cli.program import program
 from places import ROOT
 
@@ -98,6 +105,9 @@ OWN_PAGE = ("report", "matchups")
 NO_CSV = ("report",)
 """Commands that print text into a pipe too, since they write files."""
 
+ASKS_THE_FACE = ("matchups",)
+"""Commands some of whose faces hold less than others."""
+
 WORDLESS = re.compile(r"\s+")
 
 
@@ -127,21 +137,52 @@ class Cells(HTMLParser):
             self.texts.append(data)
 
 
-@pytest.fixture(scope="module", params=ASKED)
-def faces(request, tmp_path_factory):
-    """The answer to one question in each face."""
-    name, line = request.param, ASKED[request.param]
+class Faces(NamedTuple):
+    """The answer to one question in each face; an empty text where it has none."""
+
+    name: str
+    text: str
+    details: str
+    json: str
+    csv: str
+    page: str
+
+
+def faces_of(name: str) -> Faces:
+    """Ask a question once, and return its answer in each face."""
+    line = ASKED[name]
     command = line.split()[0]
-    page = tmp_path_factory.mktemp("page") / "answer.html"
-    page.write_text("", "utf-8")
-    writes_page = () if command in OWN_PAGE else ("--html", str(page))
-    text = ask(line, "--text", "--verbose", *writes_page)
-    table = "" if command in NO_CSV else ask(line, "--csv")
-    return name, text, json.loads(ask(line, "--json")), table, page.read_text("utf-8")
+    if command in ASKS_THE_FACE:
+        details, as_json, as_csv = (
+            ask(line, *how) for how in (("--text", "--verbose"), ("--json",), ("--csv",))
+        )
+        return Faces(name, ask(line, "--text"), details, as_json, as_csv, "")
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        patch("evenbreak.cli.kit.faces.print_answer", wraps=print_answer) as printed,
+    ):
+        page = Path(folder) / "answer.html"
+        own = command in OWN_PAGE
+        text = ask(line, "--text", *(() if own else ("--html", str(page))))
+        (answer, _), _ = printed.call_args
+        return Faces(
+            name,
+            text,
+            to_text(answer, verbose=True),
+            to_json(answer),
+            "" if command in NO_CSV else "".join(to_csv(answer)),
+            "" if own else page.read_text("utf-8"),
+        )
+
+
+@pytest.fixture(scope="module", params=ASKED)
+def faces(request):
+    """The answer to one question, asked once."""
+    return faces_of(request.param)
 
 
 def test_every_face_has_the_same_sentences(faces):
-    _, text, answer, _, page = faces
+    text, answer, page = faces.details, json.loads(faces.json), faces.page
     shown = Cells()
     shown.feed(page)
     on_page = squeezed("".join(shown.texts))
@@ -152,7 +193,7 @@ def test_every_face_has_the_same_sentences(faces):
 
 
 def test_a_page_has_the_numbers_of_the_text(faces):
-    _, text, answer, _, page = faces
+    text, answer, page = faces.details, json.loads(faces.json), faces.page
     shown = Cells()
     shown.feed(page.partition("<main>")[2].partition("</main>")[0])
     everything = squeezed("".join([text, *answer["warnings"]]))
@@ -161,7 +202,7 @@ def test_a_page_has_the_numbers_of_the_text(faces):
 
 
 def test_csv_has_the_numbers_of_json(faces):
-    _, _, answer, table, _ = faces
+    answer, table = json.loads(faces.json), faces.csv
     if not table:
         pytest.skip("prints no CSV, since it writes files")
     header, *rows = csv.reader(io.StringIO(table))
@@ -198,10 +239,9 @@ def as_csv(value):
     return text.removeprefix("-") if float(text) == 0.0 else text
 
 
-@pytest.mark.parametrize("name", ASKED)
-def test_the_text_is_the_one_that_was_read_and_kept(name):
-    place = GOLDEN / f"{name}.txt"
-    text = f"$ evenbreak {ASKED[name]}\n{ask(ASKED[name], '--text')}"
+def test_the_text_is_the_one_that_was_read_and_kept(faces):
+    place = GOLDEN / f"{faces.name}.txt"
+    text = f"$ evenbreak {ASKED[faces.name]}\n{faces.text}"
     if os.environ.get("EVENBREAK_GOLDEN") == "write":
         place.parent.mkdir(exist_ok=True)
         place.write_text(text, encoding="utf-8")

@@ -21,7 +21,7 @@ from places import ROOT, SRC
 LAYERS: tuple[tuple[str, ...], ...] = tuple(
     tuple(row.split())
     for row in (
-        "errors",
+        "errors arrays",
         "checks",
         "game",
         "games chains stats physics",

@@ -77,5 +77,5 @@ def test_lists_without_spread():
 def test_one_list_without_spread_has_no_verdict_and_a_warning():
     answer = answer_of([0.1, 0.1, 0.1], [11.0, 12.0, 13.0])
     assert answer.to_dict()["p_welch"] < 0.05
-    assert "no telling" in answer.sentences[0]
+    assert "equal scores" in answer.sentences[0]
     assert any("all scores before are 0.1" in warning for warning in answer.warnings)

@@ -23,37 +23,37 @@ def tables(answer):
 
 
 def test_the_rule_decides_which_chart_is_made():
-    assert DesignTask(NPL, LIMITS).design().chart == design("npl", LIMITS)
-    nearest = DesignTask(NPL, LIMITS, rule="nearest").design().chart
+    assert DesignTask(NPL, LIMITS).design()[0] == design("npl", LIMITS)
+    nearest = DesignTask(NPL, LIMITS, rule="nearest").design()[0]
     assert nearest.rows == nearest_chart("npl", LIMITS).rows
 
 
 def test_the_last_difference_comes_from_the_charts_beside():
     beside = (chart("npl_8"), chart("npl_12"))
     made = DesignTask(NPL, LIMITS, beside=beside).design()
-    assert made.up_to == min(last_difference(one, NPL) for one in beside)
-    assert DesignTask(NPL, LIMITS, up_to=30, beside=beside).design().up_to == 30
+    assert made[1] == min(last_difference(one, NPL) for one in beside)
+    assert DesignTask(NPL, LIMITS, up_to=30, beside=beside).design()[1] == 30
 
 
 def test_json_has_the_chart_and_its_measures():
     task = DesignTask(NPL, LIMITS, beside=(chart("npl_8"),))
     made = task.design()
     answer = chart_design_answer(task, made).to_dict()
-    ours, theirs = (measure_chart(one, NPL, up_to=52) for one in (made.chart, chart("npl_8")))
-    assert answer["rows"] == [row._asdict() for row in made.chart.rows]
+    ours, theirs = (measure_chart(one, NPL, up_to=52) for one in (made[0], chart("npl_8")))
+    assert answer["rows"] == [row._asdict() for row in made[0].rows]
     assert {name: answer[name] for name in asdict(ours)} == asdict(ours)
     (beside,) = answer["beside"]
     assert {name: beside[name] for name in asdict(theirs)} == asdict(theirs)
     for span in beside["other_races"]:
         where = span["difference_from"]
-        assert span["design"] == "{}:{}".format(*made.chart.race(where))
+        assert span["design"] == "{}:{}".format(*made[0].race(where))
         assert span["beside"] == "{}:{}".format(*chart("npl_8").race(where))
 
 
 def test_a_chart_beside_itself_has_no_other_races():
     task = DesignTask(NPL, LIMITS)
     made = task.design()
-    same = DesignTask(NPL, LIMITS, beside=(made.chart,))
+    same = DesignTask(NPL, LIMITS, beside=(made[0],))
     answer = chart_design_answer(same, made)
     assert answer.to_dict()["beside"][0]["other_races"] == []
     assert len(tables(answer)) == 1
@@ -73,8 +73,8 @@ def test_games_are_those_of_the_rules():
     task = DesignTask(rules, RaceLimits((5, 6)), up_to=20)
     made = task.design()
     rows = list(tables(chart_design_answer(task, made))[0].rows)
-    race = made.chart.rows[0][2:]
-    ends = [made.chart.rows[0].difference_from, made.chart.rows[0].difference_to]
+    race = made[0].rows[0][2:]
+    ends = [made[0].rows[0].difference_from, made[0].rows[0].difference_to]
     assert rows[0][1] == race
     assert rows[0][3] == pytest.approx(rules.win([race[0]], [race[1]], ends)[0, 1])
     assert rows[0][5] == rules.games_quantile(*race, ends, 0.9).max()

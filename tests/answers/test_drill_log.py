@@ -71,7 +71,7 @@ def test_p_values_are_in_the_details_only(analysis):
 
 def test_misses_at_level_1_are_left_out_of_the_model(analysis):
     details = " ".join(part for part in answer_of(analysis).details if isinstance(part, str))
-    assert "3 attempts there, 1 missed" in details
+    assert "3 attempts there, 1 of them missed" in details
 
 
 def test_an_unsure_advice_names_the_second_level(analysis):
@@ -87,7 +87,7 @@ def test_an_unsure_advice_names_the_second_level(analysis):
     assert "90%" in advice(0.9)
     assert "level 3" not in advice(0.9)
     assert "60%" in advice(0.6)
-    assert "level 3 it is 40%" in advice(0.6)
+    assert "40% for level 3" in advice(0.6)
 
 
 @pytest.mark.parametrize(

@@ -45,7 +45,7 @@ def test_form_and_drift_are_in_the_heading():
 
 
 def test_an_error_within_the_band_is_settled_from_the_start():
-    assert asked(Ladder("npl"), 3).sentences[2].startswith("An error of 3 points")
+    assert asked(Ladder("npl"), 3).sentences[2].startswith("A rating off by 3 points")
 
 
 def test_what_inflates_is_said():
@@ -56,5 +56,5 @@ def test_what_inflates_is_said():
 
 def test_how_often_in_words():
     assert [of_100(p) for p in (0.0, 0.5, 0.1, 0.01, 0.999)] == [
-        *("none", "50 of 100", "10 of 100", "1 in 100", "nearly all")
+        *("none", "50%", "10%", "1 in 100", "nearly all")
     ]

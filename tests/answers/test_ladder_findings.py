@@ -21,7 +21,7 @@ def test_a_part_that_cannot_be_had_is_none_with_a_reason(monkeypatch):
     def too_small(_):
         raise AccuracyError("follow the ladder with ladder_mixing")
 
-    monkeypatch.setattr("evenbreak.handicaps.ladders.mixing.ladder_gap", too_small)
+    monkeypatch.setattr("evenbreak.answers.ladder_findings.ladder_gap", too_small)
     found = LadderFindings(Ladder("npl"), NATURAL)
     assert found.gap is None
     (reason,) = found.missing

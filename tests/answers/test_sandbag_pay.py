@@ -42,7 +42,7 @@ def test_stakes_at_which_nothing_pays():
 def test_charts_are_named_by_what_they_invite(found):
     long = sandbag_pay(Ladder("npl", chart("npl_20"), widest=120), QUESTION, cycles=False)
     answer = sandbag_charts_answer([long, found], QUESTION)
-    assert answer.sentences[0].startswith("npl_10 is the least worth gaming")
+    assert answer.sentences[0].startswith("Sandbagging pays least on npl_10")
     assert list(answer.to_frame()["chart"]) == ["npl_20", "npl_10"]
 
 

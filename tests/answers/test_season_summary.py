@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 
 from evenbreak.answers.season_summary import summary_rows
 from evenbreak.answers.season_tables import season_tables
@@ -26,6 +27,17 @@ def test_what_was_simulated_and_what_came_of_it():
     assert values["p_win_weakest_fifth"] + values["p_win_strongest_fifth"] == 1.0
     assert found["p_stronger_wins"][1] > 0.0
     assert found["seed"][1] is None
+
+
+def test_luck_and_skill_spread_the_points():
+    season = Season(LeaguePlayers.of([90, 60]), "npl", None, RandomPairing(2), 3)
+    tally = run_chunk(season, 10, np.random.SeedSequence(1), batches=3)
+    tables = season_tables(season, tally)
+    found = {name: value for name, value, _ in summary_rows(season, tally, tables, {})}
+    # What one of two players wins the other loses: both spreads are those of either player.
+    mean, sd = (tables.standings[column].tolist() for column in ("points_mean", "points_sd"))
+    assert found["points_sd_by_luck"] == pytest.approx(sd[0]) == pytest.approx(sd[1])
+    assert found["points_sd_between_players"] == pytest.approx(abs(mean[0] - mean[1]) / 2)
 
 
 def test_a_season_without_players_has_no_errors_of_ratings():

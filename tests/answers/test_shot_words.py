@@ -32,7 +32,7 @@ def at_pocket(cue, standing, name, speed=60, right=0.0, **kit):
         ({"speed": 5}, "never reaches the object ball: it stops after 0.9 inches"),
         ({"speed": 80}, "still sliding"),
         ({"speed": 200}, "meets a cushion"),
-        ({"cut": 0, "distance": 2.25, "up": 0.0}, "hits at once with stun"),
+        ({"cut": 0, "distance": 2.25, "up": 0.0}, "arrives at once with stun"),
         ({"cut": 0, "distance": 2.25, "up": 0.0}, "The cue ball stops dead"),
         ({"cut": 0, "distance": 9, "up": 0.4}, "natural roll, rolling from the start"),
         ({"cut": 0, "distance": 9, "speed": 0}, "it stops after 0.0 inches"),
@@ -47,7 +47,7 @@ def test_where_the_balls_go(how, words):
     [
         (CORNER, {}, "Aim 0.36 inches to the left of the middle"),
         (CORNER, {}, "into the foot-left pocket at 20.2 inches per second"),
-        (CORNER, {"mu": 0.0}, "next to no throw"),
+        (CORNER, {"mu": 0.0}, "hardly any throw"),
         (CORNER, {"speed": 30}, "does not drop: it stops 35.7 inches short"),
         (FROZEN, {}, "0.47 inches to the right of it"),
         (FROZEN, {}, "foot-right pocket"),
@@ -64,7 +64,7 @@ def test_the_first_paragraph_says_where_both_balls_end():
     first, second = shot_words(found, None, IMPERIAL, None)
     assert "object ball" in first
     assert "cue ball" in first
-    assert "hits" in second
+    assert "arrives" in second
 
 
 def test_the_heading_has_the_numbers_that_were_typed():

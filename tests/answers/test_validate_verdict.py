@@ -51,7 +51,7 @@ def test_players_who_are_too_alike_are_not_told_apart(play_season):
         results.players, results.player_a, results.player_b, np.where(turned, b, a),
         np.where(turned, a, b), date=results.date,
     )  # fmt: skip
-    assert "too alike" in said(results)
+    assert "too equal" in said(results)
     assert "leave --prior out" in said(results, prior_sd=0.3)
 
 
@@ -75,6 +75,6 @@ def test_a_default_prior_that_is_wrong_comes_first(alike):
     scale = scale_of("npl")
     best = f"{alike.prior_sd * scale.points_per_log_odds:.3g}"
     text = verdict(alike, scale)
-    assert text.startswith(f"Give rate and report --prior {best}:")
+    assert text.startswith(f"Use --prior {best} ")
     assert "30 points" in text
     assert "less often" in text

@@ -77,7 +77,7 @@ def test_cells_that_are_no_whole_numbers(write):
     ("text", "problem"),
     [
         ("a,b\n1,2\n", "has none of the columns of a chart"),
-        (ROWS, "has no rows of a chart"),
+        (ROWS, "has no rows below its header"),
         ("from,to,stronger\n0,,5\n", "there is no column 'weaker_needs'"),
         ("level,opponent_level\n3,3\n", "there is no column 'needs'"),
         (ROWS + "9,4,5,5\n", "difference_to of row 1 is 4"),

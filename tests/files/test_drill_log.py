@@ -82,7 +82,7 @@ def test_all_problems_are_told_at_once(drill_file):
     path = drill_file("level,success\n0,yes\n1,maybe\n,no\n101,no\n2,\n3,no,no\n")
     assert problems(path) == [
         ":2: level '0' is not a whole number from 1 to 100",
-        ":3: success 'maybe' is not a word for a success or a miss",
+        ":3: success 'maybe' is not yes or no",
         ":4: level is empty",
         ":5: level '101' is not a whole number from 1 to 100",
         ":6: success is empty",

@@ -199,3 +199,22 @@ def test_without_score_columns_one_line_says_what_a_row_lacks(read):
         ":3: race_a 'x' is not a whole number from 1 to 1,000,000",
         ":4: winner 'Di' is neither of the two players",
     ]
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "player 1,player 2,score 1,score 2",
+        "home player,away player,home score,away score",
+        "Home,Away,Frames A,Frames B",
+        "a,b,games_a,games_b",
+        "Player A name,PLAYER-B-NAME,Games 1,Games 2",
+        "player_a,player_b,racks won a,racks won b",
+    ],
+)
+def test_other_names_of_the_columns_keep_the_sides_apart(tmp_path, header):
+    path = tmp_path / "r.csv"
+    path.write_text(f"{header}\nAnn,Bo,7,5\n", encoding="utf-8")
+    results = read_results(path).results
+    assert (results.players[results.player_a[0]], results.score_a[0]) == ("Ann", 7)
+    assert (results.players[results.player_b[0]], results.score_b[0]) == ("Bo", 5)

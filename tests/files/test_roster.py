@@ -86,7 +86,7 @@ def test_all_problems_at_once(read):
     )
     problems = problems_of(read, text)
     assert [line.split(":")[1] for line in problems] == ["2", "3", "3", "4", "4", "4", "5", "6"]
-    assert problems[-2] == ":5: rating is empty after 12 games; write it, or 0 games if new"
+    assert problems[-2] == ":5: rating is empty after 12 games; fill it in, or write 0 games"
 
 
 @pytest.mark.parametrize(

@@ -23,8 +23,8 @@ from evenbreak.league import (
     Tally,
     run_chunk,
 )
-from evenbreak.league.batches import batching_of
 from evenbreak.league.many_seasons import _Chunk
+from evenbreak.league.simulate import batching_of
 from evenbreak.matches import final_scores
 
 SEED = np.random.SeedSequence(20)

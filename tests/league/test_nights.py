@@ -5,7 +5,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import chart, system_of
-from evenbreak.league.nights import nights_of, played_nights
+from evenbreak.league.nights import played_nights
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 
@@ -21,9 +21,11 @@ def results(dates=None, **columns):
 
 
 def test_dates_make_nights_in_their_order():
-    nights = nights_of(results(["2025-02-02", "2025-01-01", "2025-02-02"]))
-    assert [night.tolist() for night in nights] == [[1], [0, 2]]
-    assert [night.tolist() for night in nights_of(results())] == [[0], [1], [2]]
+    dates = ["2025-02-02", "2025-01-01", "2025-02-02"]
+    nights = played_nights(NPL, CLUB, results(dates), chart=TEN)
+    assert [night.rows.tolist() for night in nights] == [[1], [0, 2]]
+    alone = played_nights(NPL, CLUB, results(), chart=TEN)
+    assert [night.rows.tolist() for night in alone] == [[0], [1], [2]]
 
 
 def test_ratings_of_a_night_are_those_before_it():

@@ -139,7 +139,7 @@ def test_newcomer_steps_repay_it_sooner():
         ({"dumped": -1}, "dumped is -1"),
         ({"dumped": 130}, "wider ladder"),
         ({"earnest": 0}, "earnest is 0"),
-        ({"earnest": 2000}, "at most 1000"),
+        ({"earnest": 2000}, "earnest is 2000"),
         ({"stake": -1.0}, "stake is -1.0"),
         ({"start": 0.5}, "start is 0.5"),
         ({"start": 500}, "start is 500"),

@@ -15,8 +15,7 @@ from evenbreak.league import (
     run_chunk,
     simulate,
 )
-from evenbreak.league.batches import Batching, batching_of
-from evenbreak.league.simulate import _Work
+from evenbreak.league.simulate import Batching, _Work, batching_of
 
 SEASON = Season(
     LeaguePlayers.of([92, 80, 71, 64, 50, 47], skill_sd=5.0, day_sd=3.0, absence=0.1),
@@ -73,7 +72,7 @@ def test_chunks_have_the_streams_that_the_seed_spawns(alone):
     assert alone.replicas.tolist() == [10] * 20 + [5]
 
 
-@pytest.mark.parametrize(("name", "value"), [("_BATCH", 1), ("_BATCH", 3), ("_PARCELS", 3)])
+@pytest.mark.parametrize(("name", "value"), [("_TALLIES", 1), ("_TALLIES", 3), ("_PARCELS", 3)])
 def test_how_sums_are_bracketed_changes_nothing(monkeypatch, alone, name, value):
     monkeypatch.setattr(sys.modules[simulate.__module__], name, value)
     assert as_bytes(simulate(SEASON, replicas=205, seed=3)) == as_bytes(alone)

@@ -142,6 +142,34 @@ def test_workers_end_with_their_parent(tmp_path, sign, pause):
     assert [pid for pid in children if alive(pid)] == []
 
 
+COMPUTES = """
+import pathlib, sys, time
+from evenbreak.league.workers import in_order
+
+def begin(folder, number):
+    pathlib.Path(folder, str(number)).touch()
+    time.sleep(60)
+
+if __name__ == "__main__":
+    list(in_order(begin, sys.argv[1], range(40), jobs=2))
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="a terminal's Ctrl-C is POSIX here")
+def test_ctrl_c_does_not_wait_for_pieces_under_way(tmp_path):
+    script, begun = tmp_path / "computes.py", tmp_path / "begun"
+    script.write_text(COMPUTES, encoding="utf-8")
+    begun.mkdir()
+    parent = subprocess.Popen(
+        [sys.executable, str(script), str(begun)], stderr=subprocess.DEVNULL, start_new_session=True
+    )
+    deadline = time.monotonic() + 60
+    while len(list(begun.iterdir())) < 2 and time.monotonic() < deadline:
+        time.sleep(0.1)
+    os.killpg(parent.pid, signal.SIGINT)
+    assert parent.wait(timeout=30)
+
+
 @pytest.fixture(scope="module")
 def cluster():
     distributed = pytest.importorskip("distributed", reason="the extra evenbreak[dask] is missing")

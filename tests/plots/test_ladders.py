@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
+from evenbreak.handicaps import Settling
 from evenbreak.plots.ladders import (
-    SettlingCurve,
     SystemPoint,
     ladder_figure,
     systems_figure,
@@ -55,17 +55,22 @@ def test_a_single_error_has_no_normal_distribution():
     assert "normal distribution, same sd" not in curves(axes)
 
 
+def settling(settled):
+    chances = tuple(np.diff(settled, prepend=0.0))
+    return Settling(-30, 5, newcomer=False, mean=2.0, sd=1.0, chances=chances, tail=0.0)
+
+
 def test_how_newcomers_settle_is_marked_at_half_and_nine_of_ten():
     settled = [0.0, 0.2, 0.5, 0.8, 0.9, 0.99, 1.0, 1.0]
-    axes = ladder_figure(LAW, curve=SettlingCurve(-30, 5, settled)).axes[1]
+    axes = ladder_figure(LAW, curve=settling(settled)).axes[1]
     assert {text.get_text() for text in axes.texts} == {"half: 2 matches", "9 of 10: 4 matches"}
     assert axes.get_xlabel().endswith("-30 points")
     (steps,) = (line for line in axes.lines if line.get_drawstyle() == "steps-post")
-    assert steps.get_ydata().tolist() == settled[:7]
+    assert steps.get_ydata().tolist() == pytest.approx(settled[:7])
 
 
 def test_what_never_settles_within_the_picture_is_not_marked():
-    axes = ladder_figure(LAW, curve=SettlingCurve(-30, 5, [0.0, 0.1, 0.2])).axes[1]
+    axes = ladder_figure(LAW, curve=settling([0.0, 0.1, 0.2])).axes[1]
     assert not axes.texts
 
 

@@ -191,7 +191,7 @@ def test_where_all_games_count_alike_both_ways_find_the_same():
     terms = likelihood_terms(results, none, (np.ones(60), np.zeros(0)), breaks=False)
     quick = fit(results, prior_sd=0.5, **LOG_ODDS)
     general = find_mixed_mode(terms, 4.0)
-    np.testing.assert_allclose(general.skill, quick.rating, atol=1e-8)
+    np.testing.assert_allclose(general.point[:-1], quick.rating, atol=1e-8)
     assert terms.amount == quick.weight
 
 
@@ -205,14 +205,14 @@ def test_scores_alone_have_one_mode_along_the_break_advantage(form):
     terms = likelihood_terms(results, none, (np.ones(60), np.zeros(0)), breaks=True)
 
     def cost(advantage):
-        skill = find_mixed_mode(terms, 2.0, advantage=advantage).skill
+        skill = find_mixed_mode(terms, 2.0, advantage=advantage).point[:-1]
         prior = skill @ skill + 0.5 * BREAK_SD**-2 * advantage**2
         return prior - terms.log_likelihood(skill, advantage)
 
     values = [cost(advantage) for advantage in np.linspace(-1.5, 1.5, 13)]
     assert sum(np.diff(np.sign(np.diff(values))) != 0) == 1
     found = find_mixed_mode(terms, 2.0, break_precision=BREAK_SD**-2)
-    assert cost(found.advantage) <= min(values)
+    assert cost(found.point[-1]) <= min(values)
 
 
 def test_a_known_break_advantage_is_kept():
@@ -281,7 +281,7 @@ def test_there_is_one_mode_wherever_the_search_begins(rows, start):
     none = results.select(np.zeros(0, dtype=int))
     terms = likelihood_terms(none, results, (np.zeros(0), np.ones(len(rows))), breaks=False)
     again = find_mixed_mode(terms, 3.0**-2, start=np.array(start))
-    np.testing.assert_allclose(again.skill, ratings.rating, atol=1e-5)
+    np.testing.assert_allclose(again.point[:-1], ratings.rating, atol=1e-5)
 
 
 @settings(deadline=None, max_examples=50)

@@ -1,7 +1,5 @@
 """Where to aim to allow for throw."""
 
-from __future__ import annotations
-
 import math
 
 from evenbreak.answers.answer import Answer, Quantities

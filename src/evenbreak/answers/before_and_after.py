@@ -1,16 +1,11 @@
 """Whether scores have changed: two lists of them, before and after."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
-
-if TYPE_CHECKING:
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.compare import Comparison, Scores
+from evenbreak.files.scores import ScoresFile
+from evenbreak.stats.compare import Comparison, Scores
 
 TWO = decimals(2)
 
@@ -58,8 +53,8 @@ def before_and_after_answer(before: ScoresFile, after: ScoresFile, found: Compar
     if found.low is not None and found.high is not None:
         sentences.append(
             f"The true difference is between {found.low:+.2f} and {found.high:+.2f}, with "
-            f"{100 * found.confidence:g}% confidence. In {100 * found.effect.p_after_higher:.0f} "
-            "of 100 pairs of a score before and one after, the later one is higher."
+            f"{100 * found.confidence:g}% confidence. Of one score before and one "
+            f"after, the later one is higher {100 * found.effect.p_after_higher:.0f}% of the time."
         )
     return Answer(
         f"Before: {_scores(before)}\nAfter: {_scores(after)}",
@@ -123,8 +118,8 @@ def _in_words(found: Comparison) -> str:
         change = "you average the same as before"
     if 0.0 in (found.before.sd, found.after.sd) or found.welch is None:
         return (
-            f"{change.capitalize()}, but with a list of equal scores there is no telling how much "
-            "of that is luck."
+            f"{change.capitalize()}, but a list of equal scores cannot show how much of that is "
+            "luck."
         )
     p = found.welch.p_value
     if p >= LUCK:
@@ -134,16 +129,16 @@ def _in_words(found: Comparison) -> str:
         )
     return (
         f"{change.capitalize()}, and {luck_words(p)}: if nothing had changed, a difference this "
-        f"large, up or down, would come {how_often(p)}."
+        f"large, up or down, would happen {how_often(p)}."
     )
 
 
 def _explained(found: Comparison) -> Iterator[str]:
     yield (
-        "The answer rests on Welch's t test, which was chosen beforehand. The numbers beside the "
-        "tests are p-values: how often luck gives a difference at least this large, in the sense "
-        "of the test, if nothing has changed. The other tests answer other questions; do not pick "
-        "the smallest number."
+        "The answer uses Welch's t test, which was chosen beforehand. The numbers beside the tests "
+        "are p-values: how often luck makes a difference at least this large, by that test's "
+        "measure, if nothing has changed. The other tests answer other questions; do not pick the "
+        "smallest number."
     )
     if found.mann_whitney is not None and found.ties:
         yield "Some scores are equal, so the p-value of Mann-Whitney is an approximation."

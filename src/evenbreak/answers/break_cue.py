@@ -1,7 +1,5 @@
 """Which cue gives an arm the fastest break."""
 
-from __future__ import annotations
-
 import math
 
 from evenbreak.answers.answer import Answer, Quantities
@@ -12,8 +10,8 @@ from evenbreak.physics.tip import best_stick_ratio, break_energy_share
 
 _WORDS = {
     "energy_share": ("share of the stroke's energy that reaches the cue ball", 3),
-    "stick_energy_share": ("the same with the cue of --stick", 3),
-    "stick_speed_share": ("speed of the break with that cue over the best", 3),
+    "stick_energy_share": ("the same with your cue (--stick)", 3),
+    "stick_speed_share": ("speed of the break with your cue / with the best", 3),
 }
 
 

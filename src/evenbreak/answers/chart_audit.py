@@ -1,7 +1,5 @@
 """How fair a chart is, and which ratings it was made for."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, astuple
 from typing import Any
@@ -44,7 +42,7 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
     """
     points = report.scale.points_per_doubling
     fitted = report.fit is not None and report.fit is report.best_fit
-    where = "on the scale that fits it best: " if fitted else "where "
+    where = "on its best-fitting scale, where " if fitted else "where "
     columns = [
         Column(
             ("difference_from", "difference_to"),
@@ -60,7 +58,7 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
         _MONOTONE,
     ]
     return Answer(
-        f"Chart {report.name}, {where}{points:.4g} points double the odds of a game",
+        f"Chart {report.name}, {where}{points:.4g} points double the odds of winning a game",
         [
             _least_fair(report),
             " ".join((*_order(report), *_made_for(report, fitted=fitted))),
@@ -68,7 +66,8 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
                 "rows",
                 columns,
                 list(map(_paired, report.rows)),
-                "The stronger player's chance over each band of differences:",
+                "The stronger player's chance in each band of differences; each race is exactly "
+                "fair at the difference 'even at':",
             ),
         ],
         details=list(_tilt(report, fitted=fitted)),
@@ -115,10 +114,14 @@ def _order(report: ChartAudit) -> Iterator[str]:
     for row in easier:
         yield (
             f"The race for {range_words(row.difference_from, row.difference_to)}, "
-            f"{row.stronger_needs}:{row.weaker_needs}, is no harder than an earlier one."
+            f"{row.stronger_needs}:{row.weaker_needs}, asks no more of the stronger player than an "
+            "earlier one."
         )
     if not (report.gaps or report.overlaps or easier):
-        yield "There are no gaps or overlaps, and each race is harder than the one before it."
+        yield (
+            "There are no gaps or overlaps, and each race asks more of the stronger player than "
+            "the one before it."
+        )
 
 
 def _made_for(report: ChartAudit, *, fitted: bool) -> Iterator[str]:
@@ -131,7 +134,7 @@ def _made_for(report: ChartAudit, *, fitted: bool) -> Iterator[str]:
         yield f"The chart fits these ratings: each race is even {_where_even(report.fit)}."
     else:
         yield (
-            f"The chart fits other ratings better: if {best.points_per_doubling:.4g} points double "
+            f"The chart fits another scale better: if {best.points_per_doubling:.4g} points double "
             f"the odds, each race is even {_where_even(best)}."
         )
 
@@ -144,17 +147,18 @@ def _tilt(report: ChartAudit, *, fitted: bool) -> Iterator[str]:
     if report.fit is None:
         return
     yield (
-        "Place is where in its band a race is even: 0 at the start, 0.5 in the middle, 1 at the "
-        f"end. The tilt of a chart is that place for all its races together; here it is "
+        "'Place' is where in its band a race is even: 0 at the start, 0.5 in the middle, 1 at the "
+        f"end. The tilt of the chart is the place that suits all its races best: "
         f"{decimals(2)(report.fit.tilt)}. The bands begin {report.fit.misfit:.2f} points from "
-        "where this tilt puts them (root mean square); rounding to whole points alone makes 0.29."
+        "where this tilt would put them (root mean square); rounding to whole points accounts "
+        "for 0.29."
     )
     best = report.best_fit
     if best is not None and not fitted:
         yield (
-            f"The scale that fits best has {best.points_per_doubling:.4g} points that double the "
-            f"odds, with tilt {decimals(2)(best.tilt)}; from there the bands begin "
-            f"{best.misfit:.2f} points away."
+            f"On the scale that fits best, {best.points_per_doubling:.4g} points double the odds "
+            f"and the tilt is {decimals(2)(best.tilt)}; the bands then begin {best.misfit:.2f} "
+            "points from where it would put them."
         )
 
 
@@ -178,7 +182,8 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
         _MONOTONE,
     ]
     return Answer(
-        f"Chart {report.name}, on ratings of which {points:.4g} points double the odds of a game",
+        f"Chart {report.name}, on a scale where {points:.4g} points double the odds of winning a "
+        "game",
         [
             _least_fair_levels(between),
             _level_order(report.cells),
@@ -186,8 +191,10 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
                 "",
                 columns,
                 list(map(_paired, between)),
-                "The higher level's chance if the two are as close as their levels allow (start), "
-                "average for their levels (middle), or as far apart as these allow (end):",
+                "The higher level's chance if the two players are as close as their levels allow "
+                "(start), average for their levels (middle), or as far apart as possible (end); "
+                "the difference at which the race is fair (even at), and the one between average "
+                "players (apart):",
             ),
             Table(
                 "levels",
@@ -197,8 +204,8 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
             ),
         ],
         details=[
-            f"With these ratings the races are even {report.misfit:.1f} points from where they "
-            "should be (root mean square over all pairs of levels)."
+            f"With these ratings, the races are fair at differences {report.misfit:.1f} points "
+            "away from those between the levels (root mean square over all pairs of levels)."
         ],
         warnings=warnings,
         data={
@@ -237,5 +244,8 @@ def _least_fair_levels(between: Sequence[LevelCell]) -> str:
 def _level_order(cells: Sequence[LevelCell]) -> str:
     easier = [f"{cell.level} v {cell.opponent_level}" for cell in cells if not cell.monotone]
     if easier:
-        return f"The race of {listed(easier)} is no harder than that of a nearer level."
-    return "Each race is harder than those against nearer levels."
+        return (
+            f"The race of {listed(easier)} asks no more of the higher level than one against a "
+            "closer level."
+        )
+    return "Each race asks more of the higher level than the races against closer levels."

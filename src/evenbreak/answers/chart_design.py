@@ -1,7 +1,5 @@
 """The fairest chart within limits, and other charts beside it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from itertools import groupby
@@ -42,7 +40,7 @@ class DesignTask:
         is the smallest `last_difference` of these.
 
     >>> task = DesignTask(MatchRules("npl"), RaceLimits((5, 7), weaker_least=2))
-    >>> task.design().chart.race(12)
+    >>> task.design()[0].race(12)
     (4, 3)
     """
 
@@ -56,7 +54,7 @@ class DesignTask:
     rows: int | None = None
     beside: tuple[Chart, ...] = ()
 
-    def design(self) -> Design:
+    def design(self) -> tuple[Chart, int]:
         """Return the chart that fulfils the task."""
         up_to = self.up_to
         if up_to is None and self.beside:
@@ -72,7 +70,7 @@ class DesignTask:
                 mean_games=self.mean_games,
                 rows=self.rows,
             )
-        return Design(made, int(candidates.points[-1]))
+        return made, int(candidates.points[-1])
 
     def heading(self, up_to: int) -> str:
         """Return what is asked for, in two lines."""
@@ -83,7 +81,7 @@ class DesignTask:
         if self.rules.break_points:
             words.append(f"with a break worth {self.rules.break_points:g} points")
         if self.limits.games_p90 is not None:
-            words.append(f"9 of 10 matches within {self.limits.games_p90} games")
+            words.append(f"9 out of 10 matches within {self.limits.games_p90} games")
         if self.rows is not None:
             words.append(f"at most {count_of(self.rows, 'row')}")
         if self.mean_games is not None:
@@ -94,25 +92,18 @@ class DesignTask:
         if self.tilt != 0.5:
             goal += f", with tilt {self.tilt:g}"
         return (
-            f"{', '.join(words)}; {self.rules.points:.4g} points double the odds of a game\n"
-            f"Aim: {goal}, for differences from 0 to {up_to}"
+            f"{', '.join(words)}; {self.rules.points:.4g} points double the odds of winning a "
+            f"game\nAim: {goal}, for differences from 0 to {up_to}"
         )
 
 
-class Design(NamedTuple):
-    """A designed chart, and the last difference that counted."""
-
-    chart: Chart
-    up_to: int
-
-
-def chart_design_answer(task: DesignTask, design: Design) -> Answer:
+def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
     """Return a designed chart beside other charts; as CSV it is a chart file.
 
     >>> task = DesignTask(MatchRules("npl"), RaceLimits((7, 9), 5, 2), up_to=59)
     >>> print(chart_design_answer(task, task.design()).sentences[0])
     At differences up to 59, the stronger player's chance is within 7.2 percentage points of 50%,
-    and 2.9 away on average. A match takes 6.6 games on average; 9 of 10 take at most 9.
+    and 2.9 away on average. A match takes 6.6 games on average; 9 out of 10 end within 9.
     """
     made, up_to = design
     ours, *theirs = (
@@ -151,7 +142,7 @@ def _in_words(found: ChartMeasure, target: float) -> str:
         f"At differences up to {found.up_to}, the stronger player's chance is within "
         f"{100 * found.worst_unfairness:.1f} percentage points of {percent(target)}, and "
         f"{100 * found.mean_unfairness:.1f} away on average. A match takes {found.mean_games:.1f} "
-        f"games on average; 9 of 10 take at most {found.games_p90}."
+        f"games on average; 9 out of 10 end within {found.games_p90}."
     )
 
 
@@ -186,11 +177,12 @@ def _differing(made: Chart, other: Chart, up_to: int) -> Iterator[_Span]:
 
 def _compared(chart: Chart, found: ChartMeasure, spans: Sequence[_Span]) -> str:
     count = sum(span.last - span.first + 1 for span in spans)
-    races = f"at {count} of the {found.up_to + 1} differences" if count else "nowhere"
+    races = f"other races at {count} of the" if count else "the same races at all"
     return (
-        f"{chart.name} for comparison: within {100 * found.worst_unfairness:.1f} percentage "
-        f"points, {100 * found.mean_unfairness:.1f} away on average; {found.mean_games:.1f} games "
-        f"on average, 9 of 10 take at most {found.games_p90}. It has other races {races}."
+        f"Compared with {chart.name}: its chances are within {100 * found.worst_unfairness:.1f} "
+        f"percentage points, and {100 * found.mean_unfairness:.1f} away on average; its matches "
+        f"take {found.mean_games:.1f} games on average, and 9 out of 10 end within "
+        f"{found.games_p90}. It has {races} {found.up_to + 1} differences."
     )
 
 

@@ -1,7 +1,5 @@
 """The charts that come with the package."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Table
@@ -17,7 +15,7 @@ def chart_list_answer() -> Answer:
     'apa_8ball'
     """
     return Answer(
-        "Handicap charts that come with evenbreak; the longest match is in games",
+        "Handicap charts that come with evenbreak",
         [
             f"There are {count_of(len(CHARTS), 'chart')} by rating difference and "
             f"{count_of(len(LEVEL_CHARTS), 'chart')} by skill level.",
@@ -25,10 +23,10 @@ def chart_list_answer() -> Answer:
                 "charts",
                 [
                     Column("chart", "name", left=True),
-                    Column("what", "what it is", left=True),
+                    Column("what", "full name", left=True),
                     Column("looked_up_by", "looked up by", left=True),
                     Column("races", "races"),
-                    Column("longest_games", "longest"),
+                    Column("longest_games", "longest,\ngames"),
                 ],
                 [_row(name, title) for name, title in {**CHARTS, **LEVEL_CHARTS}.items()],
             ),

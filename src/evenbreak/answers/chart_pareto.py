@@ -1,16 +1,11 @@
 """What fairness costs in length: the fairest charts for every length."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.chart_design import DesignTask
 from evenbreak.answers.wording import decimals, listed
-
-if TYPE_CHECKING:
-    from evenbreak.answers.chart_design import DesignTask
-    from evenbreak.handicaps.charts.pareto import ParetoChart
+from evenbreak.handicaps.charts.pareto import ParetoChart
 
 
 def chart_pareto_answer(task: DesignTask, charts: Sequence[ParetoChart]) -> Answer:
@@ -21,7 +16,7 @@ def chart_pareto_answer(task: DesignTask, charts: Sequence[ParetoChart]) -> Answ
     >>> task = DesignTask(MatchRules("npl"), RaceLimits((5, 7), weaker_least=2))
     >>> print(chart_pareto_answer(task, pareto(task.rules, task.limits)).sentences[0])
     The fairest chart is 3.0 percentage points from even on average, with 4.81 games a match. The
-    shortest one is 11.0 from even, with 4.00 games.
+    shortest one is 11.0 points from even, with 4.00 games.
     """
     rows = [
         (
@@ -32,7 +27,7 @@ def chart_pareto_answer(task: DesignTask, charts: Sequence[ParetoChart]) -> Answ
     ]
     columns = [
         Column("chart", "chart", left=True),
-        Column("mean_unfairness", "unfair,\non average", decimals(4)),
+        Column("mean_unfairness", "unfair, on\naverage", decimals(4)),
         Column("worst_unfairness", "at worst", decimals(4)),
         Column("mean_games", "games, on\naverage", decimals(2)),
         Column("games_p90", "9 of 10\nwithin"),
@@ -45,8 +40,9 @@ def chart_pareto_answer(task: DesignTask, charts: Sequence[ParetoChart]) -> Answ
         task.heading(up_to),
         [
             " ".join([_ends(charts, task.rule, task.target), *_beaten(charts)]),
-            "Each chart is named after the limit that it keeps: games_p90 is the number of games "
-            "within which 9 of 10 matches end, mean_games the average number.",
+            "Each chart is named after the limit it was designed for: with games_p90 8, 9 out of "
+            "10 matches end within 8 games; with mean_games 5, a match takes at most 5 games on "
+            "average. 'Unfair' is how far the stronger player's chance is from the target.",
             Table("charts", columns, rows),
         ],
         data={"up_to": up_to},
@@ -66,7 +62,8 @@ def _ends(charts: Sequence[ParetoChart], rule: str, target: float) -> str:
     return (
         f"The fairest chart is {100 * unfair(fairest):.1f} percentage points from {aim} {how}, "
         f"with {fairest.measure.mean_games:.2f} games a match. The shortest one is "
-        f"{100 * unfair(shortest):.1f} from {aim}, with {shortest.measure.mean_games:.2f} games."
+        f"{100 * unfair(shortest):.1f} points from {aim}, with {shortest.measure.mean_games:.2f} "
+        "games."
     )
 
 
@@ -74,4 +71,4 @@ def _beaten(charts: Sequence[ParetoChart]) -> list[str]:
     beaten = [one.chart.name for one in charts if one.beaten_by is not None]
     if not beaten:
         return []
-    return [f"For {listed(beaten)} there is a chart that is fairer and no longer."]
+    return [f"{listed(beaten)} can be beaten: another chart is fairer and no longer."]

@@ -1,7 +1,5 @@
 """A chart: who needs how many games."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from evenbreak.answers.answer import Answer, Column, Part, Table

@@ -1,7 +1,5 @@
 """Choosing the players of a sheet: by name, or those who play most."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where the cue ball goes after it hits the object ball."""
 
-from __future__ import annotations
-
 import math
 
 from evenbreak.answers.answer import Answer, Quantities

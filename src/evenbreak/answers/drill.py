@@ -1,16 +1,10 @@
 """Where a progressive drill settles, and which level to practise."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.wording import chance, decimals
+from evenbreak.practice.drills import DrillStatistics
 from evenbreak.practice.levels import MORE
-
-if TYPE_CHECKING:
-    from evenbreak.practice.drills import DrillStatistics
-    from evenbreak.stats.summary import Distribution
+from evenbreak.stats.summary import Distribution
 
 MUCH = 1e6
 """From here on a gain is shown with three digits."""
@@ -31,7 +25,7 @@ def drill_answer(statistics: DrillStatistics, description: str) -> Answer:
     >>> drill = drill_statistics(Drill.progressive(0.8))
     >>> print(drill_answer(drill, "80% of shots").sentences[0])
     Practise level 4: five more successes in 100 there raise your average level by 0.11, more than
-    at any other level. As it is, you settle at an average level of 4.35.
+    at any other level. For now you settle at an average level of 4.35.
     """
     law = statistics.distribution
     success = statistics.drill.success
@@ -39,13 +33,13 @@ def drill_answer(statistics: DrillStatistics, description: str) -> Answer:
     parts: list[Part] = [f"{_advice(statistics)} {_settled(law)}"]
     if statistics.period > 1:
         parts.append(
-            "Odd-numbered and even-numbered attempts keep to different levels for ever; the long "
+            "Odd-numbered and even-numbered attempts are at different levels for ever; the long "
             "run is the average of both."
         )
     columns = [
         Column("level", "level", left=True),
         Column("p_success", "success", chance),
-        Column("long_run", "attempts here\nin the long run", chance),
+        Column("long_run", "share of attempts\nin the long run", chance),
         Column("gain", "gain", amount, detail=True),
         Column("lift", "five more in 100\nraise the average by", amount),
     ]
@@ -72,12 +66,12 @@ def _advice(statistics: DrillStatistics) -> str:
 
 
 def _settled(law: Distribution) -> str:
-    return f"As it is, you settle at an average level of {law.mean:.2f}."
+    return f"For now you settle at an average level of {law.mean:.2f}."
 
 
 GAIN_WORDS = (
-    "The gain of a level is the slope of the average level: how fast it rises with the chance of "
-    "success there."
+    "'Gain' is how fast the average level rises with the chance of success at that level (the "
+    "slope)."
 )
 
 

@@ -1,19 +1,14 @@
 """What a drill log says: which level to practise, and whether anything stands out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.drill import GAIN_WORDS, amount, better, spread
 from evenbreak.answers.wording import chance, count_of, decimals
-
-if TYPE_CHECKING:
-    from evenbreak.files.drill_log import DrillLogFile
-    from evenbreak.practice.log_analysis import LogAnalysis
-    from evenbreak.practice.log_tests import PlayedAgainTest
+from evenbreak.files.drill_log import DrillLogFile
+from evenbreak.practice.log_analysis import LogAnalysis
+from evenbreak.practice.log_tests import PlayedAgainTest
 
 UNLIKELY = 0.05
 """A p-value below which chance is no longer taken for the explanation."""
@@ -50,9 +45,9 @@ def drill_log_answer(
         details=[
             Quantities(spread(analysis.implied), "The level in the long run:"),
             *_tests(analysis),
-            f"A p-value (p) is how often chance alone gives a result at least this extreme: here, "
-            f"among {count_of(analysis.replicas, 'log')} simulated for each test, with as many "
-            "sessions as yours, and as long.",
+            "A p-value (p) is how often chance alone gives a result at least this extreme, here "
+            f"among {count_of(analysis.replicas, 'log')} simulated for each test, with sessions "
+            "like yours.",
             GAIN_WORDS,
         ],
         warnings=file.warnings,
@@ -101,9 +96,10 @@ def _table(analysis: LogAnalysis) -> Table:
         "levels",
         columns,
         analysis.levels,
-        "Each level with the 95% interval of your success rate; its share of the attempts so far "
-        "and in the long run; its lift, by how much five more successes in 100 there raise your "
-        "average level; and how likely it is the best one to practise:",
+        "Your success rate at each level, with its 95% interval; the share of your attempts at "
+        "that level, so far and in the long run; its lift: how much five more successes in 100 "
+        "there would raise your average level; and how likely it is to be the best level to "
+        "practise:",
     )
 
 
@@ -137,26 +133,25 @@ def _practise(analysis: LogAnalysis) -> str:
     others = [report for report in missed if report is not best]
     if not others:
         return f"{text}It is the only level that you missed."
-    text += f"The chance that no other level helps more is {_percent(best.p_best)}"
+    text += f"It is {_percent(best.p_best)} certain that no other level helps more"
     if best.p_best >= SURE:
         return f"{text}."
     second = max(others, key=lambda report: report.p_best)
     return (
-        f"{text}; for level {second.level} it is {_percent(second.p_best)}, and a longer log would "
-        "tell them apart."
+        f"{text}, and {_percent(second.p_best)} for level {second.level}; a longer log would show "
+        "which of them it is."
     )
 
 
 def _nothing_to_practise(*, levels: int, missed: bool) -> str:
     if levels == 1:
         return (
-            "With level 1 alone there is nothing to climb; give the number of levels that the "
-            "drill has."
+            "With only one level there is nothing to climb; give the number of levels of the drill."
         )
     if not missed:
         return (
-            "You never missed, so the log cannot show what to practise; log more attempts, at "
-            "higher levels if the drill has them."
+            "You never missed, so the log cannot show what to practise; log more attempts, if "
+            "possible at higher levels."
         )
     return "No level that you missed would raise your average level."
 
@@ -166,8 +161,8 @@ def _untried(analysis: LogAnalysis) -> str:
     for below, report in pairwise(analysis.levels):
         if below.attempts and not report.attempts:
             return (
-                f" You have not tried level {report.level}: it counts as one that never succeeds "
-                "until your log says otherwise."
+                f" You have not tried level {report.level} yet; until then you are taken to miss "
+                "there every time."
             )
     return ""
 
@@ -189,12 +184,12 @@ def _findings(analysis: LogAnalysis) -> Iterator[str]:
     found = []
     if analysis.difference.p_value < UNLIKELY:
         found.append(
-            "Your sessions are at other levels than your success rates lead to; perhaps you stop "
-            "when it goes well."
+            "Your sessions are not at the levels that your success rates would lead to; perhaps "
+            "you stop when things go well."
         )
     if memory is not None and memory.p_value < UNLIKELY:
         worse = "miss" if memory.seen > memory.by_chance else "success"
-        found.append(f"After a {worse} you do worse than chance explains.")
+        found.append(f"After a {worse} you do worse, and more so than by chance.")
     off = analysis.furthest_off_model
     if model is not None and model.p_value < UNLIKELY and off is not None:
         usual = off.attempts * (off.p_model or 0.0)
@@ -215,7 +210,7 @@ def _tests(analysis: LogAnalysis) -> Iterator[Part]:
     test = analysis.difference
     yield (
         f"Levels: if you went on for ever with these success rates, {100 * test.seen:.0f} attempts "
-        f"in 100 would be at other levels than so far; in simulated sessions like yours it is "
+        f"in 100 would be at other levels than so far; in simulated sessions like yours this is "
         f"{100 * test.by_chance:.0f} in 100 ({_p(test)})."
     )
     if analysis.memory is not None:
@@ -227,18 +222,18 @@ def _tests(analysis: LogAnalysis) -> Iterator[Part]:
         )
     model, test_of_model = analysis.model, analysis.model_test
     if model is None:
-        yield "Without attempts above level 1 nothing can be said about a single shot."
+        yield "Without attempts above level 1, nothing can be said about single shots."
         return
     text = (
-        f"One chance for every shot: if level i takes i - 1 good shots in a row, the chance of a "
+        f"Single shots: if level i takes i - 1 good shots in a row, the chance of making a "
         f"shot is {model.p:.3f} (between {model.low:.3f} and {model.high:.3f})."
     )
     if test_of_model is not None:
-        text += f" How well that fits all levels: {_p(test_of_model)}."
+        text += f" The fit to all levels has {_p(test_of_model)}."
     if model.level_1_misses:
         text += (
-            f" It means that level 1 is never missed, so your {model.level_1_attempts} attempts "
-            f"there, {model.level_1_misses} missed, are left out of it."
+            f" Level 1 would then never be missed, so your {model.level_1_attempts} attempts "
+            f"there, {model.level_1_misses} of them missed, are left out."
         )
     yield text
 

@@ -1,16 +1,11 @@
 """The races that are nearest to an even chance."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, percent
-
-if TYPE_CHECKING:
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.handicaps.charts.fair import FairRace
+from evenbreak.handicaps.charts.fair import FairRace
 
 
 def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float = 0.5) -> Answer:
@@ -28,7 +23,7 @@ def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float
         (race.race_1, race.race_2, race.p_win_1, race.mean_games, race.games_p90) for race in races
     ]
     m, n, p_win, mean, _ = rows[0]
-    wish = "fairest race" if target == 0.5 else f"race nearest to a {target:g} chance for {a}"
+    wish = "fairest race" if target == 0.5 else f"race nearest to {percent(target)} for {a}"
     return Answer(
         players.description,
         [

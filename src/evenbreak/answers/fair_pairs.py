@@ -1,17 +1,13 @@
 """The fairest race of each pair of rated players."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING
+
+import pandas as pd
 
 from evenbreak.answers.chosen_players import by_strength
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.ratings.fitted import Ratings
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 NOT_LINKED = "no race: no chain of opponents links the two"
 
@@ -37,8 +33,6 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
         note. Where no chain of opponents links the two, their ratings cannot be
         compared: there are no numbers then, and the note says so.
     """
-    import pandas as pd
-
     rows = [_row(ratings, a, b, offered) for a, b in combinations(by_strength(ratings, players), 2)]
     columns = {
         "player_a": "object",

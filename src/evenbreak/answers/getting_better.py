@@ -1,17 +1,10 @@
 """Whether a player is getting better: the scores of a drill over time."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from evenbreak.answers.answer import Answer, Part, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, luck_words, percent
+from evenbreak.files.scores import ScoresFile
 from evenbreak.stats.confidence import MeanInterval, mean_interval, sd_of
-from evenbreak.stats.trend import trend
-
-if TYPE_CHECKING:
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.trend import Trend
+from evenbreak.stats.trend import Trend, trend
 
 TWO = decimals(2)
 DAYS_A_WEEK = 7.0
@@ -54,9 +47,9 @@ def getting_better_answer(file: ScoresFile, *, confidence: float = 0.95) -> Answ
     details: list[Part] = []
     if normal is not None:
         details.append(
-            f"All intervals have {share} confidence: that share of such intervals contain the true "
-            "value. The interval of the average is by Student's t; the normal distribution would "
-            f"give {normal.low:.2f} to {normal.high:.2f}, which is too narrow for few scores."
+            f"All intervals have {share} confidence: that share of such intervals contains the "
+            "true value. The interval of the average uses Student's t; the normal distribution "
+            f"would give {normal.low:.2f} to {normal.high:.2f}, which is too narrow for few scores."
         )
     if line is not None:
         details.append(
@@ -97,7 +90,7 @@ def _in_words(file: ScoresFile, own: MeanInterval | None, line: Trend | None) ->
         if line.p_value < LUCK:
             return f"{change}; {luck_words(line.p_value)}."
         return (
-            f"No sign of a change. {change}, but luck alone makes a slope this steep "
+            f"No sign of a change. {change}, but luck alone does as much "
             f"{percent(line.p_value)} of the time."
         )
     if len(file.scores) == 1:
@@ -105,19 +98,22 @@ def _in_words(file: ScoresFile, own: MeanInterval | None, line: Trend | None) ->
     if own is None:
         return "The scores are all equal, so they cannot show whether you are getting better."
     if file.dates is None:
-        return "Without a date for every score, there is no telling whether you are getting better."
-    return "To show whether you are getting better, it takes three scores, not all on one date."
+        return "Give every score a date to see whether you are getting better."
+    return (
+        "It takes at least three scores, not all on one date, to see whether you are getting "
+        "better."
+    )
 
 
 def _average(mean: float, own: MeanInterval | None, line: Trend | None) -> str:
     if own is None:
-        return f"Your average is {mean:.2f}; without a spread there is no saying how sure that is."
+        return f"Your average is {mean:.2f}; equal scores do not show how certain that is."
     text = (
-        f"Your average is {mean:.2f}. In the long run it is between {own.low:.2f} and "
+        f"Your average is {mean:.2f}. Your true average is between {own.low:.2f} and "
         f"{own.high:.2f}, with {100 * own.confidence:g}% confidence"
     )
     if line is not None and line.p_value < DRIFTS:
-        text += ", if your level were steady, which it does not seem to be"
+        text += ", but only if your level is steady, which it does not seem to be"
     return f"{text}."
 
 

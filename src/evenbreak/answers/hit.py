@@ -1,7 +1,5 @@
 """A hit of cue ball on object ball, in the words of players."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 

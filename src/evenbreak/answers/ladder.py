@@ -1,20 +1,16 @@
 """How far off ratings are in the long run, and what that does to matches and newcomers."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
 from evenbreak.answers.ladder_findings import LadderFindings
 from evenbreak.answers.wording import count_of, decimals
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.settling import Settling
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.ladders.settling import Settling
-    from evenbreak.stats.summary import Distribution
+from evenbreak.stats.summary import Distribution
 
 QUANTILES = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 AFTER = (10, 20, 50, 100, 200)
@@ -49,8 +45,8 @@ def ladder_answer(found: LadderFindings, warnings: Sequence[str] = ()) -> Answer
     >>> from evenbreak.handicaps import Ladder
     >>> found = LadderFindings(Ladder("npl"), LadderQuestion(-30, 5, False, "natural"))
     >>> print(ladder_answer(found).sentences[0])
-    In the long run 9 of 10 ratings are within 7 points of the player's skill; 25 of 100 are off \
-by more than 5 points, 1 in 70 by more than 10.
+    In the long run, 9 out of 10 ratings are within 7 points of the player's skill; 25% are off by \
+more than 5 points, 1 in 70 by more than 10.
     """
     said = [_how_far_off(found), _how_unfair(found.favourite), _how_soon(found)]
     if abs(found.inflation) >= 0.005:
@@ -95,20 +91,22 @@ def _heading(found: LadderFindings) -> str:
 
 
 def _form(sd: float) -> str:
-    return f"Everybody's form varies by {sd:g} points (standard deviation)"
+    return f"Everybody's form varies, typically by {sd:g} points,"
 
 
 def _how_far_off(found: LadderFindings) -> str:
     law, within = found.law, found.question.within
-    most = "9 of 10 ratings are"
+    most = "9 out of 10 ratings are"
     if abs(law.mean) >= 0.05:
-        most = f"a rating is {_too(law.mean, f'{abs(law.mean):.1f}')} on average, and 9 of 10 are"
+        most = (
+            f"a rating is {_too(law.mean, f'{abs(law.mean):.1f}')} on average, and 9 out of 10 are"
+        )
     first, *more = [
         (of_100(found.off.at_least(many + 1)), many) for many in dict.fromkeys((within, 2 * within))
     ]
     farther = "".join(f", {often} by more than {many}" for often, many in more)
     return (
-        f"In the long run {most} within {found.off.quantile(0.9):g} points of the player's skill; "
+        f"In the long run, {most} within {found.off.quantile(0.9):g} points of the player's skill; "
         f"{first[0]} are off by more than {first[1]} points{farther}."
     )
 
@@ -116,9 +114,9 @@ def _how_far_off(found: LadderFindings) -> str:
 def _how_unfair(favourite: Distribution) -> str:
     often = favourite.at_least(CLEAR_FAVOURITE)
     return (
-        "These errors make favourites in matches that should be even: on average the favourite "
-        f"wins {100.0 * favourite.mean:.1f}% of them, and {of_100(often)} have a clear favourite, "
-        f"with a chance of {100 * CLEAR_FAVOURITE:g}% or more."
+        "These errors create favourites in matches that should be even: the favourite wins "
+        f"{100.0 * favourite.mean:.1f}% of them on average, and {of_100(often)} of the matches "
+        f"have a clear favourite, with a chance of {100 * CLEAR_FAVOURITE:g}% or more."
     )
 
 
@@ -127,15 +125,15 @@ def _how_soon(found: LadderFindings) -> str:
     if settled is None:
         return ""
     if abs(asked.start) <= asked.within:
-        return f"An error of {asked.start} points counts as settled from the start."
+        return f"A rating off by {asked.start} points counts as settled from the start."
     law = settled.matches
     wrong = _too(asked.start, str(abs(asked.start)))
     who = f"A player rated {wrong}"
     if asked.newcomer:
-        who = f"A newcomer rated {wrong}, moving by the longer newcomer steps,"
+        who = f"A newcomer rated {wrong}, with the longer newcomer steps,"
     text = (
         f"{who} comes within {asked.within} points of their skill after {settled.mean:.1f} matches "
-        f"on average; half of such players need at most {law.quantile(0.5)}, 9 of 10 at most "
+        f"on average; half of such players need at most {law.quantile(0.5)}, 9 out of 10 at most "
         f"{law.quantile(0.9)}."
     )
     return f"{text} {_who_pays(found)}" if asked.newcomer else text
@@ -144,8 +142,8 @@ def _how_soon(found: LadderFindings) -> str:
 def _who_pays(found: LadderFindings) -> str:
     left = found.newcomer_inflation.left
     return (
-        "The longer steps correct only part of the error; the rest is paid by the other players, "
-        f"whose ratings {'fall' if left < 0 else 'rise'} by {abs(left):.1f} points in total."
+        "The other players pay for part of this: their ratings "
+        f"{'fall' if left < 0 else 'rise'} by {abs(left):.1f} points in total."
     )
 
 
@@ -153,7 +151,7 @@ def _inflation(added: float) -> str:
     verb, what = ("raises", "inflate") if added > 0 else ("lowers", "deflate")
     return (
         f"Ratings {what}: each match {verb} the sum of the two ratings by {abs(added):.2f} points "
-        "on average. No result shows it, because everybody's rating moves together."
+        "on average. The results do not show it, because everybody's rating moves together."
     )
 
 
@@ -167,7 +165,7 @@ def _statistics(found: LadderFindings) -> Quantities:
             Quantity(
                 "natural_sd",
                 natural,
-                "standard deviation, if skills stayed and opponents were rated correctly",
+                "standard deviation with constant skills and correctly rated opponents",
                 points,
             ),
         ],
@@ -181,15 +179,15 @@ def _how_soon_forgotten(found: LadderFindings) -> Iterator[str]:
         half = math.log(0.5) / math.log1p(-found.gap)
         every = "match" if half < 1.5 else f"{half:,.0f} matches"
         yield (
-            f"In the end what is left of an old error halves every {every} (one match takes away "
-            f"{found.gap:.4f} of it: the spectral gap)."
+            f"In the long run, what is left of an old error halves every {every} (a match removes "
+            f"the share {found.gap:.4f} of it: the spectral gap)."
         )
     if found.mixing_matches is not None:
         started = f"started {_too(start, str(abs(start)))}" if start else "started right"
         yield (
             f"After {count_of(found.mixing_matches, 'match', 'matches')} a rating that {started} "
-            "is hardly distinguishable from any other: no probability differs from that of the "
-            "long run by more than 0.25 (the total variation distance)."
+            "is hardly distinguishable from any other: no probability differs from its long-run "
+            "value by more than 0.25 (the total variation distance)."
         )
 
 
@@ -271,10 +269,10 @@ def of_100(chance: float) -> str:
     """Return how often, in words.
 
     >>> of_100(0.2513), of_100(0.0142), of_100(0.0)
-    ('25 of 100', '1 in 70', 'none')
+    ('25%', '1 in 70', 'none')
     """
     if chance < 1e-9:
         return "none"
     if chance > _ALL:
         return "nearly all"
-    return f"1 in {1.0 / chance:,.0f}" if chance < _FEW else f"{100.0 * chance:.0f} of 100"
+    return f"1 in {1.0 / chance:,.0f}" if chance < _FEW else f"{100.0 * chance:.0f}%"

@@ -1,19 +1,19 @@
 """Handicap systems side by side: how accurate, how fast, how fair, and which step is worth it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.answer import Answer, Column, Part, Show, Table
 from evenbreak.answers.ladder import OPPONENTS
 from evenbreak.answers.wording import decimals, listed
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.ladders.comparison import SystemRow
-    from evenbreak.handicaps.ladders.opponents import Opponents
-    from evenbreak.league.reestimate import Reestimated
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart import chart as printed
+from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow, compare_systems, on_front
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.opponents import Opponents
+from evenbreak.handicaps.ladders.settling import settling
+from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.league.reestimate import Reestimated, reestimate
 
 OTHERS = ("margin 2", "elo 4", "elo 16", "fixed 9")
 """The other systems; those without a printed chart are played by a chart of their own."""
@@ -52,8 +52,6 @@ class LadderComparison(NamedTuple):
 
 def compare_ladders(chart: Chart, opponents: Opponents, name: str) -> LadderComparison:
     """Return systems and steps side by side, against opponents of a kind of `OPPONENTS`."""
-    from evenbreak.handicaps.ladders.comparison import compare_systems, on_front
-
     rows = compare_systems([(f"step {step}", chart) for step in STEPS], opponents=opponents)
     front = on_front([(row.sd, row.settling_mean) for row in rows])
     refitted = _refitted(chart) if name == "equal skill" else None
@@ -63,10 +61,6 @@ def compare_ladders(chart: Chart, opponents: Opponents, name: str) -> LadderComp
 
 def _systems(chart: Chart, opponents: Opponents) -> list[SystemRow]:
     """Return the National Pool League by all of its charts and by `chart`, and other systems."""
-    from evenbreak.handicaps.charts.chart import chart as printed
-    from evenbreak.handicaps.ladders.comparison import compare_systems
-    from evenbreak.handicaps.systems.catalogue import system_of
-
     npl = system_of("npl")
     charts = [printed(name) for name in npl.charts]
     if chart not in charts:
@@ -79,10 +73,6 @@ def _systems(chart: Chart, opponents: Opponents) -> list[SystemRow]:
 
 def _newcomer(row: SystemRow, chart: Chart, opponents: Opponents) -> SystemRow:
     """Return the league's row on this chart if the player moves by its newcomer steps at first."""
-    from evenbreak.handicaps.ladders.comparison import NEAR
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.ladders.settling import settling
-
     ladder = Ladder("npl", chart, opponents=opponents)
     points = ladder.system.scale.points_per_doubling
     sooner = settling(ladder, -round(points), round(NEAR * points), newcomer=True)
@@ -92,8 +82,6 @@ def _newcomer(row: SystemRow, chart: Chart, opponents: Opponents) -> SystemRow:
 
 def _refitted(chart: Chart) -> Reestimated:
     """Return how far off ratings stay that are refitted every week, in simulated leagues."""
-    from evenbreak.league.reestimate import reestimate
-
     return reestimate(
         [0.0] * REFITTED_PLAYERS,
         chart,
@@ -114,8 +102,8 @@ def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = 
         _EXPLANATION,
         *_notes(found),
         _view([row for row, _ in found.steps], f"Step sizes on chart {found.chart.name}:"),
-        "A longer step settles sooner and stays less accurate; it is worth more, the more "
-        f"newcomers there are. {_never_worth_it(beaten)}",
+        "With longer steps ratings settle sooner but stay less accurate, so they pay off where "
+        f"there are many newcomers. {_never_worth_it(beaten)}",
     ]
     return Answer(
         f"Handicap systems side by side\n{OPPONENTS[found.opponents]}",
@@ -127,16 +115,30 @@ def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = 
 
 
 _EXPLANATION = (
-    "error: how far ratings are off in the long run (standard deviation), in points and as a share "
-    "of a doubling, the points that double the odds of a game. settles in: matches until a rating "
-    "that starts one doubling too low is within a sixth of one, on average and for 9 of 10 "
-    "players. favoured: how often the player whom the errors favour wins, and how many matches in "
-    "100 give them a chance of 60% or more. games: the mean length of a match."
+    "'Error': how far ratings are typically off in the long run (standard deviation), in points "
+    "and in per cent of a doubling, the points that double the odds of winning a game. 'Settles "
+    "in': the matches it takes a rating that starts one doubling too low to come within a sixth "
+    "of a doubling, on average and for 9 out of 10 players. 'Favourite': how often the player "
+    "favoured by the errors wins, and in how many of 100 matches their chance is 60% or more. "
+    "'Games': the average length of a match."
 )
 
+
+def _per_cent(places: int) -> Show:
+    return lambda share: f"{100.0 * share:.{places}f}"
+
+
 _COLUMNS = [
-    *map(Column, ("system", "chart", "sd", "sd_doublings", "settling_mean", "settling_p90")),
-    *map(Column, ("p_favourite_mean", "favourite_over_60", "games_mean", "inflation")),
+    Column("system", "system", left=True),
+    Column("chart", "chart", left=True),
+    Column("sd", "error,\npoints", decimals(2)),
+    Column("sd_doublings", "% of a\ndoubling", _per_cent(1)),
+    Column("settling_mean", "settles\nin", decimals(1)),
+    Column("settling_p90", "9 of 10\nin"),
+    Column("p_favourite_mean", "favourite\nwins %", _per_cent(1)),
+    Column("favourite_over_60", "60%\nor up", _per_cent(0)),
+    Column("games_mean", "games", decimals(1)),
+    Column("inflation"),
     Column("on_front", cell=lambda best: str(int(best))),
     *map(Column, ("sd_se", "settling_mean_se")),
 ]
@@ -151,23 +153,7 @@ def _rows(found: LadderComparison) -> Iterator[tuple[Any, ...]]:
 
 
 def _view(rows: Sequence[SystemRow], title: str = "") -> Table:
-    """Return systems as people read them."""
-
-    def per_cent(places: int) -> Any:
-        return lambda share: f"{100.0 * share:.{places}f}"
-
-    columns = [
-        Column("system", "system", left=True),
-        Column("chart", "chart", left=True),
-        Column("sd", "error,\npoints", decimals(2)),
-        Column("sd_doublings", "% of a\ndoubling", per_cent(1)),
-        Column("settling_mean", "settles\nin", decimals(1)),
-        Column("settling_p90", "9 of 10\nin"),
-        Column("favourite", "favoured\nwins %", per_cent(1)),
-        Column("clear_favourite", "60%\nor up", per_cent(0)),
-        Column("games", "games", decimals(1)),
-    ]
-    return Table("", columns, [row[: len(columns)] for row in rows], title)
+    return Table("", _COLUMNS, [(*row, None, None, None) for row in rows], title)
 
 
 def _advice(found: LadderComparison) -> str:
@@ -181,16 +167,16 @@ def _advice(found: LadderComparison) -> str:
     no_slower = [row for row in others if row.settling_mean <= own.settling_mean]
     best = min(no_slower, key=lambda row: row.sd_doublings)
     better = (
-        "no system that is no slower is more accurate"
+        "no other system is both as fast and more accurate"
         if best.sd_doublings >= own.sd_doublings
-        else f"{_called(best)} is the most accurate system that is no slower"
+        else f"{_called(best)} is the most accurate of the systems that are no slower"
     )
     return (
-        f"Ratings are most accurate with {_called(accurate)}. A wrong rating is put right fastest "
-        f"by {_called(fastest)}, in {fastest.settling_mean:.1f} matches on average. Compared with "
-        f"{_called(own)} ({own.settling_mean:.1f} matches), {better}. Longer steps for newcomers "
-        f"alone ({new.system}) take {new.settling_mean:.1f} matches and leave everybody else's "
-        "rating as accurate as it is."
+        f"Ratings are most accurate with {_called(accurate)}. Wrong ratings are corrected "
+        f"fastest with {_called(fastest)}, in {fastest.settling_mean:.1f} matches on average. "
+        f"With {_called(own)} it takes {own.settling_mean:.1f} matches; {better}. Longer steps for "
+        f"newcomers alone ({new.system}) take {new.settling_mean:.1f} matches and leave everybody "
+        "else's rating as accurate as it is."
     )
 
 
@@ -202,10 +188,10 @@ def _notes(found: LadderComparison) -> Iterator[str]:
     if found.refitted is not None:
         refitted = found.refitted
         yield (
-            f"{refitted.row.system}: all ratings are fitted again every week to all results, as "
-            f"Fargo's are. Its figures come from {REFITTED_LEAGUES} simulated leagues of "
-            f"{REFITTED_PLAYERS} players, each over a year: the error is known to about "
-            f"{refitted.sd_error:.2f} points, the settling to about {refitted.settling_error:.1f} "
+            f"{refitted.row.system}: every week all ratings are fitted again to all results, as in "
+            f"Fargo. Its figures come from {REFITTED_LEAGUES} simulated leagues of "
+            f"{REFITTED_PLAYERS} players, each over a year, and are uncertain: the error by about "
+            f"{refitted.sd_error:.2f} points, the settling by about {refitted.settling_error:.1f} "
             "matches."
         )
     rising = [f"{row.system} by {row.inflation:+.2f}" for row in found.systems if row.inflation]
@@ -220,7 +206,7 @@ def _never_worth_it(steps: Sequence[str]) -> str:
     'Step 6 is never worth it: another step is both more accurate and faster.'
     """
     if not steps:
-        return "Each of these can be worth it: none is both more accurate and faster than another."
+        return "Each of these steps can be worth it: none is beaten in both accuracy and speed."
     verb = "is" if len(steps) == 1 else "are"
     return (
         f"{listed(steps).capitalize()} {verb} never worth it: another step is both more accurate "

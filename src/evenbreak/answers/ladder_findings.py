@@ -1,19 +1,16 @@
 """What one ladder says, each quantity worked out once, when it is first needed."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 from evenbreak.errors import AccuracyError, InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from evenbreak.handicaps.ladders.inflation import NewcomerInflation
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.ladders.settling import Settling
-    from evenbreak.stats.summary import Distribution
+from evenbreak.handicaps.ladders.inflation import NewcomerInflation, inflation, newcomer_inflation
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.mixing import ladder_gap, ladder_mixing
+from evenbreak.handicaps.ladders.settling import Settling, settling
+from evenbreak.handicaps.ladders.unfairness import better_off, unfairness
+from evenbreak.stats.summary import Distribution
 
 Part = TypeVar("Part")
 
@@ -67,15 +64,11 @@ class LadderFindings:
     @cached_property
     def off(self) -> Distribution:
         """The distribution of the size of the error."""
-        from evenbreak.stats.summary import Distribution
-
         return Distribution.of(map(abs, self.law.values), self.law.probability)
 
     @cached_property
     def natural(self) -> Distribution | None:
         """The same with correctly rated opponents and skills that stay; None where it is `law`."""
-        from evenbreak.handicaps.ladders.ladder import Ladder
-
         ladder = self.ladder
         steady = not (ladder.day_sd or ladder.match_sd or ladder.drift)
         if steady and self.question.opponents == "natural":
@@ -85,29 +78,21 @@ class LadderFindings:
     @cached_property
     def favourite(self) -> Distribution:
         """The distribution of the favourite's chance to win a match of the player."""
-        from evenbreak.handicaps.ladders.unfairness import better_off, unfairness
-
         return better_off(unfairness(self.ladder))
 
     @cached_property
     def inflation(self) -> float:
         """How much a match raises the sum of the two ratings, in points."""
-        from evenbreak.handicaps.ladders.inflation import inflation
-
         return inflation(self.ladder)
 
     @cached_property
     def newcomer_inflation(self) -> NewcomerInflation:
         """What a newcomer with the error `start` does to the sum of the league's errors."""
-        from evenbreak.handicaps.ladders.inflation import newcomer_inflation
-
         return newcomer_inflation(self.ladder, self.question.start)
 
     @cached_property
     def settling(self) -> Settling | None:
         """How long a player takes whose rating starts wrong."""
-        from evenbreak.handicaps.ladders.settling import settling
-
         asked = self.question
         return self._unless_missing(
             lambda: settling(self.ladder, asked.start, asked.within, newcomer=asked.newcomer)
@@ -116,17 +101,13 @@ class LadderFindings:
     @cached_property
     def gap(self) -> float | None:
         """1 less the largest eigenvalue below 1; -1 is set aside."""
-        from evenbreak.handicaps.ladders.mixing import ladder_gap
-
-        slow = "how fast old errors fade is left out: they fade so slowly that rounding hides it"
+        slow = "how fast old errors fade is not shown: they fade too slowly to be calculated"
         return self._unless_missing(lambda: ladder_gap(self.ladder), slow)
 
     @cached_property
     def mixing_matches(self) -> int | None:
         """The matches until an error that began at `start` is within 1/4 of the long run."""
-        from evenbreak.handicaps.ladders.mixing import ladder_mixing
-
-        slow = "when a start is forgotten is left out: it takes more than 100,000 matches"
+        slow = "how long the start matters is not shown: it is more than 100,000 matches"
         return self._unless_missing(lambda: ladder_mixing(self.ladder, self.question.start), slow)
 
     def _unless_missing(self, part: Callable[[], Part], why: str = "") -> Part | None:
@@ -134,5 +115,5 @@ class LadderFindings:
         try:
             return part()
         except (AccuracyError, InputError) as error:
-            self.missing.append(why or f"how soon a rating settles is left out: {error}")
+            self.missing.append(why or f"how soon a rating settles is not shown: {error}")
         return None

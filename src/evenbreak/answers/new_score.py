@@ -1,16 +1,9 @@
 """Whether one new score of a drill was luck."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
-from evenbreak.stats.confidence import mean_interval, was_it_luck
-
-if TYPE_CHECKING:
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.confidence import Luck
+from evenbreak.files.scores import ScoresFile
+from evenbreak.stats.confidence import Luck, mean_interval, was_it_luck
 
 TWO = decimals(2)
 
@@ -32,7 +25,8 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
     >>> earlier = np.array([50.0, 44, 46, 52, 47, 51, 49, 45, 48, 50])
     >>> print(new_score_answer(ScoresFile(earlier, None, "s.csv", ()), 53).sentences[0])
     53 is 4.80 above your average, and this may well be luck: if nothing has changed, a score this
-    far off, up or down, comes about 12 times in 100. Several new scores would say more than one.
+    far off, up or down, happens about 12 times in 100. Several new scores would show more than
+    one.
     """
     luck = was_it_luck(file.scores, score, confidence=confidence)
     sd = mean_interval(file.scores, confidence).sd
@@ -81,9 +75,9 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
 def _in_words(luck: Luck) -> str:
     away = luck.score - luck.mean
     if away == 0.0:
-        return f"{luck.score:g} is exactly your average before, so it says nothing new."
+        return f"{luck.score:g} is exactly your average, so it shows nothing new."
     return (
         f"{luck.score:g} is {abs(away):.2f} {'above' if away > 0 else 'below'} your average, and "
         f"{luck_words(luck.t.as_far)}: if nothing has changed, a score this far off, up or down, "
-        f"comes {how_often(luck.t.as_far)}. Several new scores would say more than one."
+        f"happens {how_often(luck.t.as_far)}. Several new scores would show more than one."
     )

@@ -1,7 +1,5 @@
 """A night's results applied to a list of ratings, or everything that prevents it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from evenbreak.files.problems import Problems, quoted
@@ -38,7 +36,7 @@ def moves_of_files(
         if problem.row in open_rows[1:]:
             continue
         if problem.row in open_rows and len(open_rows) > 1:
-            message += f" ({len(open_rows):,} such matches; --chart NAME serves for all of them)"
+            message += f" ({len(open_rows):,} such matches; --chart NAME settles them all)"
         side = {"player_a": results.player_a, "player_b": results.player_b}.get(problem.column)
         if side is not None:
             message += _suggestion(alike.get(results.players[side[problem.row]], ()))

@@ -1,14 +1,9 @@
 """The tables of one simulated season in full: its matches, and the true skills behind them."""
 
-from __future__ import annotations
+import pandas as pd
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from evenbreak.league.one_season import PlayedSeason
-    from evenbreak.league.season import Season
+from evenbreak.league.one_season import PlayedSeason
+from evenbreak.league.season import Season
 
 
 def matches_frame(played: PlayedSeason) -> pd.DataFrame:
@@ -20,8 +15,6 @@ def matches_frame(played: PlayedSeason) -> pd.DataFrame:
         date, event ('week 1', ...), player_a, player_b, race_a, race_b, score_a, score_b, and
         racks: who won each, in order.
     """
-    import pandas as pd
-
     results = played.results
     return pd.DataFrame(
         {
@@ -46,8 +39,6 @@ def truth_frame(season: Season, played: PlayedSeason) -> pd.DataFrame:
         player; rating and skill, at the start; rating_end and skill_end, after the last week.
         `read_league` reads it as a roster.
     """
-    import pandas as pd
-
     return pd.DataFrame(
         {
             "player": played.results.players,

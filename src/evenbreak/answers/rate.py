@@ -1,9 +1,7 @@
 """How strong everybody is, and how certain that is; or how far apart two players are."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -11,11 +9,9 @@ from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.chosen_players import by_strength
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
-
-if TYPE_CHECKING:
-    from evenbreak.files.results import ResultsFile
-    from evenbreak.ratings.fitted import Ratings
-    from evenbreak.ratings.prior import PriorChoice
+from evenbreak.files.results import ResultsFile
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.prior import PriorChoice
 
 NOT_LINKED = "no chain of opponents links the two"
 
@@ -69,10 +65,10 @@ def rate_answer(
 
 
 _ERRORS_IN_WORDS = (
-    "Give or take is the standard error of a rating by itself. In comparisons is the "
-    "quasi-standard error: the root of the sum of the squares of two players' is close to the "
-    "standard error of their difference, which is smaller because what is uncertain about the "
-    "whole league cancels."
+    "'Give or take' is the standard error of a rating on its own. 'In comparisons' is the "
+    "quasi-standard error: add the squares of two players' and take the root for the standard "
+    "error of their difference. It is smaller because the uncertainty that the whole league "
+    "shares cancels."
 )
 
 
@@ -163,19 +159,19 @@ def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]
         names = [f"{name} has {points:g}" for name, points in ratings.named]
         on_average, other = (" on average", "their mean") if names[1:] else ("", "that player")
         yield (
-            f"Ratings are set so that {listed(names)}{on_average}; each give or take is that of "
-            f"the difference from {other}."
+            f"Ratings are set so that {listed(names)}{on_average}; 'give or take' is the "
+            f"uncertainty of the difference from {other}."
         )
     if ratings.half_life is not None:
         yield (
-            f"A match counts half after {ratings.half_life:g} days: the weighted history is worth "
-            f"{ratings.weight:,.1f} recent games."
+            f"A match counts half after {ratings.half_life:g} days; all results together are "
+            f"worth {ratings.weight:,.1f} recent games."
         )
     if ratings.break_advantage is not None:
         points, error = ratings.break_advantage, ratings.break_error
-        stronger = "stronger" if points >= 0 else "weaker"
+        stronger = "higher" if points >= 0 else "lower"
         known = ", as given" if error is None else f", give or take {_ONE(error)}"
-        yield f"The breaker plays as if {_ONE(abs(points))} points {stronger}{known}."
+        yield f"The breaker plays as if rated {_ONE(abs(points))} points {stronger}{known}."
 
 
 def prior_words(ratings: Ratings) -> str:
@@ -192,12 +188,12 @@ def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
     """Return how the prior was chosen by prediction."""
     width = _ONE(ratings.scale.points(choice.prior_sd))
     text = (
-        f"Of {len(choice.tried)} values of --prior, {width} points predicted the "
+        f"Of {len(choice.tried)} values of --prior tried, {width} points predicted the "
         f"{choice.predicted:,} later results best."
     )
     if choice.prior_sd in (choice.tried[0], choice.tried[-1]):
         end = "smallest" if choice.prior_sd == choice.tried[0] else "largest"
-        text += f" It is the {end} that was tried, so one beyond it may be better still."
+        text += f" It is the {end} one tried, so one beyond it may be better still."
     return text
 
 
@@ -207,9 +203,9 @@ def unlinked_words(ratings: Ratings) -> Iterator[str]:
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["A", "C", "D"], ["B", "D", "E"], [7, 7, 7], [2, 3, 6])
     >>> print(*unlinked_words(fit(season)))
-    2 groups of players, of 3 and 2, never met: compare ratings only within a group. That all
-    groups are equally strong on average is an assumption; a match or two between them would
-    link them.
+    2 groups of players, of 3 and 2, never met: compare ratings only within a group. All
+    groups are assumed to be equally strong on average; a match or two between them would link
+    them.
     """
     sizes = [int(size) for size in np.bincount(ratings.component)[1:] if size > 1]
     if len(sizes) > 1:
@@ -217,14 +213,14 @@ def unlinked_words(ratings: Ratings) -> Iterator[str]:
         yield (
             f"{len(sizes):,} groups of players, of "
             f"{listed([*(f'{size:,}' for size in sizes[:SIZES]), *more])}, never met: compare "
-            "ratings only within a group. That all groups are equally strong on average is an "
-            "assumption; a match or two between them would link them."
+            "ratings only within a group. All groups are assumed to be equally strong on average; "
+            "a match or two between them would link them."
         )
     idle = int(ratings.idle.sum())
     if idle:
         have, their = ("has", "the rating is") if idle == 1 else ("have", "their rating is")
         yield (
-            f"{count_of(idle, 'player')} {have} no games that count; {their} only the one assumed "
+            f"{count_of(idle, 'player')} {have} no games that count; {their} the one assumed "
             "before any result."
         )
 

@@ -1,25 +1,20 @@
 """How a night changes a league's ratings by its own rule, and the list for next week."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.answers.answer import Answer, Column, Part, Table
 from evenbreak.answers.wording import count_of, some_of
 from evenbreak.files.problems import quoted
+from evenbreak.files.results import ResultsFile
+from evenbreak.files.roster import RosterFile
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.systems.rating_changes import MatchChange, RatingChanges
 from evenbreak.ratings.roster import NOT_STATED
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.files.results import ResultsFile
-    from evenbreak.files.roster import RosterFile
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.rating_changes import MatchChange, RatingChanges
 
 MOST_NAMES = 6
 """How many players who gained, and who lost, the first sentence names."""
@@ -52,8 +47,8 @@ def rating_changes_answer(
     if found_chart and chart is not None:
         parts.insert(
             1,
-            f"The races are taken from the chart {chart.name}, the only one of the system that "
-            "fits all scores; --chart names another.",
+            f"The races come from {chart.name}, the system's only chart that fits all scores; use "
+            "--chart for another one.",
         )
     return Answer(
         _heading(moves, last.source, tonight.source),
@@ -172,9 +167,9 @@ def _reasons_table(moves: RatingChanges, order: Sequence[int]) -> Table:
             name = moves.after.players[place]
             rows.append((*((None,) * 4 if number else (name, was, now, now - was)), reason))
     columns = [
-        Column("player", "played", left=True),
+        Column("player", "player", left=True),
         Column("rating_before", "was", _points),
-        Column("rating", "is", _points),
+        Column("rating", "now", _points),
         Column("change", "change", _change),
         Column("why", "why", left=True),
     ]
@@ -193,7 +188,7 @@ def _list_table(moves: RatingChanges, order: Sequence[int]) -> Table:
         Column("rating", "rating", _points),
         Column("games", "games"),
     ]
-    return Table("", columns, rows, "The list now:")
+    return Table("", columns, rows, "The new list:")
 
 
 def _points(rating: float) -> str:
@@ -254,8 +249,8 @@ def _night_warnings(
     days = 0 if dates is None else len(np.unique(dates[~np.isnat(dates)]))
     if days > 1:
         yield (
-            f"{tonight.source}: has matches of {days:,} dates, and the chart is looked up with the "
-            "same ratings for all of them; run one night at a time if ratings changed in between"
+            f"{tonight.source}: has matches on {days:,} dates, but the races of all of them are "
+            "looked up with the same ratings; run one night at a time if ratings changed in between"
         )
     players, ratings = moves.before.players, moves.before.rating
     for match in moves.matches:
@@ -264,7 +259,7 @@ def _night_warnings(
         winner, loser = match.winner, match.loser
         yield (
             f"{tonight.source}:{tonight.lines[match.row]}: {quoted(players[winner])} - "
-            f"{quoted(players[loser])} was a race {match.race[0]}:{match.race[1]}; the chart "
-            f"{chart.name} has {match.by_chart[0]}:{match.by_chart[1]} for {ratings[winner]:g} "
-            f"and {ratings[loser]:g}"
+            f"{quoted(players[loser])} played a race {match.race[0]}:{match.race[1]}, but the "
+            f"chart {chart.name} has {match.by_chart[0]}:{match.by_chart[1]} for "
+            f"{ratings[winner]:g} and {ratings[loser]:g}"
         )

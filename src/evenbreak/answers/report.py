@@ -1,8 +1,8 @@
 """The fair-race sheet as an answer: the races, the ratings behind them, what was left out."""
 
-from __future__ import annotations
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
+import pandas as pd
 
 from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.left_out import left_out
@@ -19,9 +19,6 @@ from evenbreak.answers.sheet_words import (
     source_and_dates,
 )
 from evenbreak.files.csv_writer import rows_of
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MOST_SHOWN = 30
 """Players whose races are shown; JSON and files hold all."""

@@ -1,7 +1,5 @@
 """What came of computing the source text anew: how many of its numbers agree."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 
 from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from evenbreak.answers.fair_pairs import NOT_LINKED
@@ -25,9 +26,6 @@ from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.matches.evening import Length
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -189,8 +187,6 @@ def roster_matchups(
         if neither a chart nor races are offered, a player has no rating, or the chart has no
         such level.
     """
-    import pandas as pd
-
     if chart is None and offered is None:
         raise InputError("chart and offered are missing; give one of them at least")
     if np.isnan(roster.rating).any():

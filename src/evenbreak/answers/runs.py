@@ -1,7 +1,5 @@
 """What a player runs in an inning, or scores in several."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -59,8 +57,8 @@ def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
     """Return how long a player's runs are, or what several innings bring, and what is asked for.
 
     >>> print(runs_answer(RunLength(0.96), Asked(at_least=100)).sentences[0])
-    A run of 100 or more comes 1.7% of the time, once in 59 innings. Half of the runs are 16 balls
-    or fewer, although the average is 24.
+    A run of 100 or more happens 1.7% of the time, once in 59 innings. Half of the runs are 16
+    balls or fewer, although the average is 24.
     """
     innings = law.innings if isinstance(law, InningsScore) else 1
     safety = float(law.safety)
@@ -71,11 +69,11 @@ def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
     }
     not_over = None if losing is None else law.cumulative(losing)
     quantities = [
-        Quantity("p_make", float(law.p), "chance to make a shot", chance),
+        Quantity("p_make", float(law.p), "chance of making a shot", chance),
         Quantity("safety", safety),
         Quantity("innings", innings),
-        Quantity("mean", law.mean, "average: fair line if every ball pays", decimals(2)),
-        Quantity("median", law.median, "median: fair line for over or under", games),
+        Quantity("mean", law.mean, "average: the fair line if every ball pays", decimals(2)),
+        Quantity("median", law.median, "median: the fair line for over or under", games),
         Quantity("mode", law.mode, "mode: the most likely number", games),
         statistic("sd", law.sd, "standard deviation", decimals(2)),
         statistic("relative_sd", law.relative_sd, "standard deviation / average", decimals(3)),
@@ -109,12 +107,12 @@ def _asked(asked: Asked, chances: dict[str, float], innings: int) -> list[str]:
             p = chances[key]
             kind = "fair" if abs(p - 0.5) < FAIR else "good" if p > 0.5 else "bad"
             sentences.append(
-                f"Over {asked.over:.12g} wins {percent(p)} of the time, so at even money it is a "
-                f"{kind} bet."
+                f"A bet on over {asked.over:.12g} wins {percent(p)} of the time, so at even money "
+                f"it is a {kind} bet."
             )
             continue
         what = "run" if innings == 1 else "score"
-        text = f"A {what} of {words} comes {percent(chances[key])} of the time"
+        text = f"A {what} of {words} happens {percent(chances[key])} of the time"
         if innings == 1 and 0.0 < chances[key] < 0.1:
             text += f", once in {1 / chances[key]:,.0f} innings"
         sentences.append(f"{text}.")
@@ -132,6 +130,6 @@ def _middle(law: RunLength | InningsScore, innings: int) -> str:
 
 def _heading(law: RunLength | InningsScore, innings: int) -> str:
     safety = float(law.safety)
-    first = "" if safety == 1 else f", the first of an inning with {float(law.p) * safety:.4g}"
-    played = "The run of an inning" if innings == 1 else f"The score of {innings} innings"
-    return f"{played}, if each shot is made with chance {float(law.p):.4g}{first}"
+    first = "" if safety == 1 else f", the first one of an inning with {float(law.p) * safety:.4g}"
+    played = "The run in one inning" if innings == 1 else f"The score of {innings} innings"
+    return f"{played}, for a player who makes a shot with probability {float(law.p):.4g}{first}"

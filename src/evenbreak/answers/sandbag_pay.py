@@ -1,19 +1,21 @@
 """What it pays to lose matches on purpose: by matches dumped, in cycles, and by chart."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.wording import chance, count_of, decimals, percent
 from evenbreak.errors import InputError
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.league.dump_cycle import DumpCycle
-    from evenbreak.league.sandbag_pay import DumpRow, Sandbagging
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.league.dump_cycle import DumpCycle, best_cycle
+from evenbreak.league.sandbag_pay import (
+    DumpRow,
+    Sandbagging,
+    entering_low,
+    most_dumped,
+    sandbagging,
+)
 
 CYCLE = 10
 """The matches of the cycles of dumping and playing in earnest that are looked at."""
@@ -81,9 +83,6 @@ def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -
     InputError
         if one match dumped already takes the rating to the ladder's end.
     """
-    from evenbreak.league.dump_cycle import best_cycle
-    from evenbreak.league.sandbag_pay import entering_low, most_dumped, sandbagging
-
     asked = question._asdict()
     most = most_dumped(ladder, question.start)
     if not most:
@@ -122,8 +121,8 @@ def sandbag_pay_answer(
     if shown < question.dumped:
         warnings = [
             *warnings,
-            f"{ladder.chart.name}: {count_of(shown, 'match', 'matches')} dumped at most, since the "
-            f"rating is then {ladder.widest} points below the skill",
+            f"{ladder.chart.name}: at most {count_of(shown, 'match', 'matches')} can be dumped; "
+            f"the rating is then {ladder.widest} points below the skill",
         ]
     plain = [tuple(map(_finite, row)) for row in found.pays.rows]
     rows = Table("rows", [Column(name) for name in best._fields], plain)
@@ -145,16 +144,19 @@ def sandbag_pay_answer(
 
 
 _EXPLANATION = (
-    "given away: matches an honest player would have won of those dumped. extra wins: matches won "
-    "in earnest beyond an honest player's; by the last, those that the last match dumped adds. "
-    "pays from: how many times as much a match must be worth in earnest as where it is dumped. "
-    "profit: in the unit of the stakes, beyond an honest player's."
+    "'Given away': how many of the dumped matches an honest player would have won. 'Extra wins': "
+    "how many more of the matches played in earnest the sandbagger wins; 'by the last': how many "
+    "of these come from the last match dumped. 'Pays from': how many times as much as a dumped "
+    "match one in earnest must be worth. 'Profit': the gain over an honest player, in the unit of "
+    "the stakes."
 )
 
 
 def _heading(found: PayFindings, question: PayQuestion) -> str:
     chart, system = found.ladder.chart.name, found.ladder.system
-    start = f" The rating starts {question.start:+d} points off." if question.start else ""
+    start = (
+        f" The rating starts {question.start:+d} points off the skill." if question.start else ""
+    )
     rule = f"{system.in_words[:1].upper()}{system.in_words[1:]}"
     return (
         f"What losing on purpose pays: chart {chart}, system {system.name}\n{rule}. Opponents are "
@@ -163,10 +165,10 @@ def _heading(found: PayFindings, question: PayQuestion) -> str:
 
 
 def _stakes(question: PayQuestion) -> str:
-    prize = f"; the tournament pays {question.prize:g}" if question.prize else ""
+    prize = f"; a tournament win pays {question.prize:g}" if question.prize else ""
     return (
-        f"A match won is worth {question.stake:g} more than one lost in earnest, "
-        f"{question.dumped_stake:g} more where it is dumped{prize}."
+        f"Stakes: winning is worth {question.stake:g} in a match played in earnest, "
+        f"{question.dumped_stake:g} in one that is dumped{prize}."
     )
 
 
@@ -181,21 +183,21 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
         yield "Sandbagging does not pay at these stakes, however many matches are dumped."
     if math.isfinite(cheapest.break_even):
         yield (
-            f"It pays off over {question.earnest} matches in earnest only if each is worth at "
-            f"least {cheapest.break_even:.2f} times as much as a dumped one (with "
-            f"{cheapest.dumped} dumped)."
+            f"Over {question.earnest} matches in earnest, without a prize, it pays off only if "
+            f"each of them is worth at least {cheapest.break_even:.2f} times as much as a dumped "
+            f"match; that is with {cheapest.dumped} dumped."
         )
     if cycle is not None and cycle.dumped and cycle.profit > 0.0:
         yield (
             f"In cycles of {CYCLE} matches, the most profitable plan for a player willing to be "
             f"{found.doubling} points under-rated is to dump {cycle.dumped} and play "
-            f"{cycle.earnest} in earnest: {-cycle.rating_error:.1f} points under-rated when the "
-            f"earnest matches begin, they win {percent(cycle.p_win)} of those, a profit of "
-            f"{cycle.profit:.2f} a match."
+            f"{cycle.earnest} in earnest. They are then {-cycle.rating_error:.1f} points "
+            f"under-rated when they start to play in earnest, win {percent(cycle.p_win)} of these "
+            f"matches and gain {cycle.profit:.2f} a match."
         )
     steps = ""
     if "newcomer" in found.enters:
-        steps = f", {found.enters['newcomer']:.2f} more with the newcomer steps"
+        steps = f"; with the newcomer steps, {found.enters['newcomer']:.2f} more"
     yield (
         f"A player who enters the league {found.doubling} points under-rated wins "
         f"{found.enters['established']:.2f} more of their first {question.earnest} matches than a "
@@ -225,9 +227,7 @@ def _by_dumped(rows: Sequence[DumpRow], question: PayQuestion) -> Table:
     return Table("", columns, view)
 
 
-def sandbag_charts_answer(
-    found: Sequence[PayFindings], question: PayQuestion, warnings: Sequence[str] = ()
-) -> Answer:
+def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -> Answer:
     """Return what sandbagging pays on each chart of a system; in files, a row for each."""
     columns = [
         Column("chart", "chart", left=True),
@@ -250,15 +250,15 @@ def sandbag_charts_answer(
         f"What losing on purpose pays by chart: system {found[0].ladder.system.name}\n"
         f"{_stakes(question)}",
         [
-            f"{least.ladder.chart.name} is the least worth gaming at these stakes: the best number "
-            f"of matches to dump brings a profit of {least.all_pays.best.profit:.2f}. On "
-            f"{most.ladder.chart.name} it brings {most.all_pays.best.profit:.2f}.",
+            f"Sandbagging pays least on {least.ladder.chart.name}: at most "
+            f"{least.all_pays.best.profit:.2f} at these stakes. It pays most on "
+            f"{most.ladder.chart.name}: up to {most.all_pays.best.profit:.2f}.",
             Table("charts", columns, rows),
-            "Each row is for the number of matches dumped that pays most. enters low: the extra "
-            f"wins in {question.earnest} matches of a player who enters {found[0].doubling} points "
-            "under-rated.",
+            "Each row is for the number of dumped matches that pays most. 'Pays from': how many "
+            "times as much as a dumped match one in earnest must be worth. 'Enters low': how many "
+            f"more of their first {question.earnest} matches a player wins who enters the league "
+            f"{found[0].doubling} points under-rated.",
         ],
-        warnings=warnings,
     )
 
 

@@ -1,16 +1,12 @@
 """How soon the watch flags a sandbagger, and how often it flags honest players."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Table
 from evenbreak.answers.sandbag_watch import HONEST_PLAYER, evidence
 from evenbreak.answers.wording import decimals, percent
-
-if TYPE_CHECKING:
-    from evenbreak.league.sandbag_power import WatchPower
+from evenbreak.league.sandbag_power import WatchPower
 
 
 def sandbag_power_answer(
@@ -55,13 +51,13 @@ def sandbag_power_answer(
     known = "" if marked is None else f" of the {100 * marked:g}% of the matches that are marked"
     return Answer(
         f"How soon the watch flags a sandbagger: chart {chart}\n{found[0].replicas:,} simulated "
-        f"players of each kind, who dump a share{known}; flagged at an evidence of "
+        f"players of each kind, who dump a share{known}; flagged when the evidence reaches "
         f"{evidence(1.0 / alpha)}",
         [
             _in_words(found, matches),
             _kinds(found, within),
-            "rating error: the mean rating less skill at the end, in points. won in earnest: per "
-            "cent of the matches that are not dumped.",
+            "'Rating error': how far the ratings are above the skill at the end, in points, on "
+            "average. 'Won in earnest': per cent of the matches that are not dumped.",
             f"The chance that {HONEST_PLAYER[honest]} is ever flagged is at most {percent(alpha)}.",
         ],
         warnings=warnings,
@@ -82,16 +78,16 @@ def _in_words(found: Sequence[WatchPower], matches: int) -> str:
     honest, *others = found
     false = f"{percent(float(honest.flagged[-1]))} of honest players"
     if not others:
-        return f"Within {matches} matches the watch flags {false}."
+        return f"Within {matches} matches, the watch flags {false}."
     order = sorted(others, key=lambda one: -float(one.flagged[-1]))
     kinds = [order[0], order[-1]] if len(order) > 1 else order
     said = [f"{percent(float(one.flagged[-1]))} of players who {_kind(one)}" for one in kinds]
-    return f"Within {matches} matches the watch flags {', '.join(said)}, and {false}."
+    return f"Within {matches} matches, the watch flags {', '.join(said)}, and {false}."
 
 
 def _kind(one: WatchPower) -> str:
-    how = "lose them" if one.points is None else f"play them {one.points} points below their skill"
-    return f"dump {100 * one.share:g}% of their matches and {how}"
+    how = "losing them" if one.points is None else f"played {one.points} points below their skill"
+    return f"dump {100 * one.share:g}% of their matches ({how})"
 
 
 def _kinds(found: Sequence[WatchPower], within: Sequence[int]) -> Table:
@@ -99,8 +95,8 @@ def _kinds(found: Sequence[WatchPower], within: Sequence[int]) -> Table:
         return f"{100 * p:.1f}"
 
     columns = [
-        Column("share", "dumps", left=True),
-        Column("points", "plays them", left=True),
+        Column("share", "dump", left=True),
+        Column("points", "play them", left=True),
         *(Column(f"flagged_{n}", f"in {n}", per_cent) for n in within),
         Column("se", "±", per_cent, detail=True),
         Column("rating_error", "rating\nerror", decimals(1)),
@@ -117,4 +113,4 @@ def _kinds(found: Sequence[WatchPower], within: Sequence[int]) -> Table:
         )
         for one in found
     ]
-    return Table("", columns, rows, "Flagged within so many matches, in per cent:")
+    return Table("", columns, rows, "Players flagged within 5, 10, ... matches, in per cent:")

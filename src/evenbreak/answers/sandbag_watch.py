@@ -1,20 +1,16 @@
 """Whose results look like sandbagging, and what each match of one player weighs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from evenbreak.answers.answer import Answer, Column, Part, Table
 from evenbreak.answers.wording import count_of, decimals, listed, percent, race
-
-if TYPE_CHECKING:
-    from evenbreak.league.nights import PlayedNight
-    from evenbreak.league.sandbag_watch import Watched
-    from evenbreak.ratings.results import Results
+from evenbreak.league.nights import PlayedNight
+from evenbreak.league.sandbag_watch import Watched
+from evenbreak.ratings.results import Results
 
 SHOWN = 10
 """How many players a terminal shows, if no more are flagged."""
@@ -90,18 +86,19 @@ def sandbag_watch_answer(
         [
             _who_is_flagged(rows),
             *_players(rows),
-            f"Evidence starts at 1 and is multiplied by what each match weighs: above 1 for a "
-            "result that is likelier from a sandbagger than from an honest player, below 1 "
-            f"otherwise. At {evidence(1.0 / alpha)} a player is flagged. It is evidence, not a "
-            "verdict: look at the player's matches, and ask.",
-            f"The chance that {HONEST_PLAYER[honest]} is ever flagged is at most {percent(alpha)}, "
-            f"if form varies as stated; among {len(rows):,} honest players that is "
-            f"{alpha * len(rows):.2g} on average.",
+            f"A player is flagged when the evidence reaches {evidence(1.0 / alpha)}. It starts at "
+            "1, rises with each result that is likelier from a sandbagger than from an honest "
+            "player, and falls with the others. It is not a verdict: look at the player's matches "
+            "(--player), and ask.",
+            f"At most {percent(alpha)} of honest players are ever flagged; with {len(rows):,} "
+            f"honest players that is {alpha * len(rows):.2g} on average. This holds for "
+            f"{HONEST_PLAYER[honest]} whose form varies by no more than --day-sd.",
         ],
         details=[
-            f"At {evidence(len(rows) / alpha)} the chance that any honest player at all is flagged "
-            f"would be at most {percent(alpha)}. The evidence is an e-value: its mean over honest "
-            "players is at most 1 after any number of matches."
+            f"If players were flagged only at {evidence(len(rows) / alpha)}, the chance that even "
+            f"one honest player of the league is flagged would be at most {percent(alpha)}. The "
+            "evidence is an e-value: its mean over honest players is at most 1 after any number "
+            "of matches."
         ],
         warnings=warnings,
         data={"alpha": alpha, "honest": honest},
@@ -160,7 +157,7 @@ def _players(rows: Sequence[WatchRow]) -> Iterator[Part]:
         Column("matches", "matches"),
         Column("won", "won"),
         Column("e_value", "evidence\nnow", evidence),
-        Column("largest_e", "at most", evidence),
+        Column("largest_e", "highest", evidence),
         Column("alarm_match", "flagged\nat match"),
         Column("alarm_date", "on"),
     ]
@@ -187,8 +184,8 @@ def sandbag_player_answer(
     matches = Table("matches", [Column(name, cell=_yes) for name in (*names, *needs)], rows)
     limit = evidence(1.0 / one.alpha)
     said = (
-        f"Not flagged: the evidence is {evidence(one.e_value)} now and was at most "
-        f"{evidence(one.largest_e)}; {limit} is needed."
+        f"Not flagged: the evidence is {evidence(one.e_value)} now and was never above "
+        f"{evidence(one.largest_e)}; it takes {limit}."
         if one.alarm is None
         else f"Flagged after match {one.alarm + 1}, when the evidence reached {limit}; it is "
         f"{evidence(one.e_value)} now."
@@ -198,8 +195,8 @@ def sandbag_player_answer(
         [
             said,
             _matches(rows),
-            "Weight is what a match multiplies the evidence by; above 1 the result is likelier "
-            "from a sandbagger than from an honest player.",
+            "'Weight' is what the match multiplies the evidence by: above 1, the result is "
+            "likelier from a sandbagger than from an honest player.",
         ],
         warnings=warnings,
         data={

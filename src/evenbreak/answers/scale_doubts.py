@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from evenbreak.ratings.scale import Scale
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from evenbreak.ratings.scale import Scale
 
 USUAL = {"npl": (20, 130), "fargo": (200, 850)}
 """Where most ratings of a scale lie."""
@@ -61,7 +62,8 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
     >>> league_doubts(SCALES["npl"], [560, 600, 640], "say which with --scale")
     ['npl ratings average about 80, but these average about 600; say which with --scale']
     >>> league_doubts(SCALES["npl"], [70, 80, 94, 560], "")
-    ['1 of 4 ratings is more than 180 points from the median of 87; are all on the same scale?']
+    ['1 of 4 ratings is more than 180 points from the median of 87; are they all on the same
+    scale?']
     """
     import numpy as np
 
@@ -81,7 +83,7 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
     if apart:
         doubts.append(
             f"{apart:,} of {len(known):,} ratings {'is' if apart == 1 else 'are'} more than "
-            f"{edge:.0f} points from the median of {middle:.0f}; are all on the same scale?"
+            f"{edge:.0f} points from the median of {middle:.0f}; are they all on the same scale?"
         )
     return doubts
 
@@ -99,7 +101,7 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
     >>> from evenbreak.ratings import SCALES
     >>> starter_doubts(SCALES["fargo"], [92, 71, float("nan")])
     ['new players start at 500, the middle of the fargo scale, but the other ratings go from 71 to
-    92; say with --starter what a new player starts with']
+    92; give the rating of a new player with --starter']
     """
     import numpy as np
 
@@ -112,6 +114,6 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
         return []
     return [
         f"new players start at {scale.centre:g}, the middle of the {scale.name} scale, but the "
-        f"other ratings go from {least:g} to {most:g}; say with --starter what a new player "
-        "starts with"
+        f"other ratings go from {least:g} to {most:g}; give the rating of a new player with "
+        "--starter"
     ]

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import pandas as pd
 
 from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
-from evenbreak.answers.season_summary import summary_rows
-from evenbreak.answers.season_tables import NEAR, weeks_with_players
+from evenbreak.answers.season_summary import Row, summary_rows
+from evenbreak.answers.season_tables import NEAR, SeasonTables, weeks_with_players
 from evenbreak.answers.wording import count_of, decimals
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from evenbreak.answers.season_summary import Row
-    from evenbreak.answers.season_tables import SeasonTables
-    from evenbreak.league.season import Season
-    from evenbreak.league.tally import Tally
+from evenbreak.league.season import Season
+from evenbreak.league.tally import Tally
 
 SHOWN = 12
 """Players of the standings that a terminal shows: the first half and the last half of them."""
@@ -76,9 +72,7 @@ def season_answer(
     )
     assumed = " ".join(_assumed(len(season.players), drawn, exact))
     if not data["matches_a_season"]:
-        nobody = (
-            "No match was played: the schedule never brought together two players who were there."
-        )
+        nobody = "No match was played: no two players of a scheduled match were there together."
         return Answer(heading, [nobody], warnings=warnings, data=data, csv=summary)
     return Answer(
         heading,
@@ -118,9 +112,9 @@ def _ratings(weeks: pd.DataFrame) -> str:
     start = "At the start" if first["week"] == 0 else f"After week {first['week']:.0f}"
     text = (
         f"How far off are the ratings? {start}, {_percent(first[near])} are within {NEAR} points "
-        f"of the true skill; after week {last['week']:.0f}, {_percent(last[near])} are, and 9 of "
-        f"10 are off by between {last['error_p05']:+.0f} and {last['error_p95']:+.0f} points "
-        "(minus: rated too low)."
+        f"of the true skill; after week {last['week']:.0f}, {_percent(last[near])} are, and 9 "
+        f"out of 10 are off by {last['error_p05']:+.0f} to {last['error_p95']:+.0f} points (minus: "
+        "rated too low)."
     )
     empty = int((weeks["players"][1:] == 0).sum())
     if not empty:
@@ -136,7 +130,7 @@ def _fairness(fairness: pd.DataFrame) -> str:
     fifths = fairness[fairness["group"] == "fifth"]
     text = (
         "How fair are the matches? The stronger player of the day wins "
-        f"{_percent(every['p_win'], every['p_win_se'])} of them; 50 would be even. "
+        f"{_percent(every['p_win'], every['p_win_se'])} of them; 50% would be fair. "
         f"{_percent(every['p_hill_hill'])} go hill-hill, {_percent(every['p_shutout'])} are "
         f"shutouts, and a match takes {every['mean_games']:.1f} games on average."
     )
@@ -170,8 +164,8 @@ def _who_gains(standings: pd.DataFrame, batches: int) -> str:
 
     if above.empty and below.empty:
         return (
-            "Who gains? Nobody, as far as these seasons show: no player's share of matches won "
-            "is clearly off one half."
+            "Who gains? Nobody, as far as these seasons show: no player clearly wins more or less "
+            "than half of their matches."
         )
     most = "Nobody clearly wins more than half of their matches"
     least = "nobody clearly wins less than half"
@@ -185,13 +179,13 @@ def _who_gains(standings: pd.DataFrame, batches: int) -> str:
 def _luck(data: Mapping[str, Any]) -> str:
     between, luck = data["points_sd_between_players"], data["points_sd_by_luck"]
     if math.isnan(luck):
-        return "How much of the table is luck? One season cannot show it; simulate more."
+        return "How much of the table is luck? One season cannot show that; simulate more."
     share = luck**2 / (between**2 + luck**2) if between or luck else 1.0
     return (
         f"How much of the table is luck? About {100 * share:.0f}% of the differences in one "
-        "season's table; the rest is who the players are and how often they play. A player's wins "
-        f"vary by about {luck:.1f} from season to season, and the players' averages by about "
-        f"{between:.1f}."
+        "season's table; the rest is who the players are and how often they play. By luck, a "
+        f"player's wins typically vary by {luck:.1f} from season to season; the players' averages "
+        f"differ by {between:.1f}."
     )
 
 

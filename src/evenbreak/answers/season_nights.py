@@ -1,27 +1,21 @@
 """A season from its files, night by night, and which of its matches belong to which events."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.answers.night_results import moves_of_files
 from evenbreak.errors import DataError, InputError
+from evenbreak.files.results import ResultsFile
+from evenbreak.files.roster import RosterFile
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.systems.rating_changes import RatingChanges
+from evenbreak.handicaps.systems.system import System
 from evenbreak.league.nights import PlayedNight, played_nights
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.files.results import ResultsFile
-    from evenbreak.files.roster import RosterFile
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.rating_changes import RatingChanges
-    from evenbreak.handicaps.systems.system import System
-    from evenbreak.ratings.results import Results
-    from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.roster import Roster
 
 
 def nights_of_files(

@@ -1,21 +1,16 @@
 """The summary of a simulated season: what was simulated and what came of it, a value a row."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from evenbreak import __version__
 from evenbreak.answers.season_tables import NEAR, SeasonTables, weeks_with_players
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from evenbreak.league.season import Season
-    from evenbreak.league.tally import Tally
+from evenbreak.league.season import Season
+from evenbreak.league.tally import Tally
 
 Row = tuple[str, Any, float | None]
 """A quantity, its value, and its standard error where the value was drawn at random."""

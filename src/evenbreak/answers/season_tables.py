@@ -4,18 +4,14 @@ Next to each value drawn at random stands its Monte Carlo standard error, in a c
 name with `_se` added: the standard deviation between runs with different seeds.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    import pandas as pd
-    from numpy.typing import NDArray
-
-    from evenbreak.league.season import Season
-    from evenbreak.league.tally import Tally
+from evenbreak.league.season import Season
+from evenbreak.league.tally import Tally
 
 Floats = Any
 """Arrays of numbers, of whatever shape."""
@@ -61,8 +57,6 @@ def standings_frame(season: Season, tally: Tally) -> pd.DataFrame:
         quantiles of the rating after the season. In a league too large to keep a histogram for
         each player the quantiles are missing.
     """
-    import pandas as pd
-
     players, replicas = season.players, int(tally.replicas.sum())
     points, points_sd = _mean_and_sd(tally.wins, tally.wins_squared, replicas)
     moved, rating_sd = _mean_and_sd(tally.rating, tally.rating_squared, replicas)
@@ -107,8 +101,6 @@ def _quantiles(what: str, counts: Any, start: Any) -> dict[str, Any]:
     start
         the value of the first column (points), or of the middle one (ratings).
     """
-    import pandas as pd
-
     names = [f"{what}_p{100 * q:.0f}" for q in QUANTILES]
     if counts is None:
         return dict.fromkeys(names, np.nan)
@@ -143,8 +135,6 @@ def weeks_frame(tally: Tally) -> pd.DataFrame:
         quantiles in whole points. In weeks with nobody in the league only week and players are
         filled in.
     """
-    import pandas as pd
-
     players, error, square = np.moveaxis(tally.weeks, 2, 0)
     mean, mean_se = tally.mean_and_error(error, players)
     spread = square - 2.0 * mean * error + mean**2 * players
@@ -195,8 +185,6 @@ def fairness_frame(season: Season, tally: Tally) -> pd.DataFrame:
         game decides); p_shutout, P(the loser wins no game); mean_games of a match; each with
         its standard error.
     """
-    import pandas as pd
-
     width, spans = _spans(season, tally)
     gaps = np.concatenate([spans.sum(axis=1, keepdims=True), spans], axis=1)
     matches = gaps[..., 0]

@@ -1,17 +1,14 @@
 """The sentences of a fair-race sheet, each said once for text, paper, page and workbook."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import pandas as pd
 
 from evenbreak.answers.report_frames import count_groups, dates_of, file_name
 from evenbreak.answers.scale_words import game_chance, like_scale_words
 from evenbreak.answers.sheet import Sheet
 from evenbreak.answers.wording import count_of, percent, race
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def source_and_dates(sheet: Sheet) -> str:
@@ -54,13 +51,13 @@ def how_even(paired: pd.DataFrame) -> Iterator[str]:
         yield f"The stronger player wins {wins}."
         which = "The longest of these races" if len(offered) > 1 else "The race"
         yield (
-            f"{which} lasts {offered['mean_games'].max():.1f} games on average; 9 of 10 such "
+            f"{which} lasts {offered['mean_games'].max():.1f} games on average; 9 out of 10 such "
             f"matches end within {offered['games_p90'].max()}."
         )
     if missing := len(paired) - len(offered):
         yield (
-            f"A dash marks {count_of(missing, 'pair')} without a race: nothing links the two "
-            "players, not even opponents of opponents, so their ratings cannot be compared."
+            f"A dash marks {count_of(missing, 'pair')} without a race: the players have no "
+            "opponents in common, not even through others, so their ratings cannot be compared."
         )
 
 
@@ -98,7 +95,7 @@ def how_rated(sheet: Sheet) -> str:
     text = f"Every player starts at {ratings.anchor:g}, give or take {prior:.4g}"
     if sheet.choice is not None:
         text += (
-            f": of {len(sheet.choice.tried)} spreads this one predicted "
+            f": of {len(sheet.choice.tried)} values tried, this one predicted "
             f"{sheet.choice.predicted:,} later results best"
         )
     as_of = "" if ratings.as_of is None else f", as of {ratings.as_of}"

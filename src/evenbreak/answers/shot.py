@@ -1,7 +1,5 @@
 """A shot traced from the tip until both balls stop: where they go, and how they get there."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
@@ -18,8 +16,8 @@ from evenbreak.physics.shot import Shot, spin_ratios
 
 _WORDS = {
     "cut_deg": ("cut angle, degrees", 2),
-    "hit_spin_speed_ratio": ("topspin J at the hit, 1 is natural roll", 3),
-    "hit_side_spin_speed_ratio": ("sidespin J at the hit, right above 0", 3),
+    "hit_spin_speed_ratio": ("topspin J at the hit (1 is natural roll)", 3),
+    "hit_side_spin_speed_ratio": ("sidespin J at the hit (above 0 is right)", 3),
     "throw_deg": ("throw of the object ball, degrees", 2),
     "deflection_thrown_deg": ("deflection of the cue ball, degrees", 2),
 }

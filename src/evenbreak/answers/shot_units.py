@@ -1,7 +1,5 @@
 """The units in which lengths, speeds and weights are typed and shown: inches or centimetres."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from evenbreak.answers.answer import Quantity

@@ -1,7 +1,5 @@
 """What happens in a shot, in sentences."""
 
-from __future__ import annotations
-
 import math
 
 from evenbreak.answers.hit import cut_words, spin_words
@@ -47,7 +45,7 @@ def shot_words(
     after = f"after {decimals(2)(state.time)} s" if found.approach.phases else "at once"
     topspin, _ = spin_ratios(state, found.strike.ball.radius)
     spin = spin_words(round(topspin, 2) + 0.0)
-    arrival = f"The cue ball hits {after} with {spin}{_motion(found.approach)}."
+    arrival = f"The cue ball arrives {after} with {spin}{_motion(found.approach)}."
     aim = [*_aim(aimed, pocket, units)] if aimed and pocket else []
     return [" ".join(filter(None, ends)), " ".join([*aim, arrival])]
 
@@ -107,7 +105,7 @@ def _aim(aimed: AimedShot, pocket: Pocket, units: Units) -> list[str]:
     right = math.copysign(1.0, aimed.unaided.cut) * aimed.offset
     amount = length.text(abs(right), 2)
     if amount.startswith("0.00 "):
-        return [*sentences, f"Aim at {goal}: there is next to no throw."]
+        return [*sentences, f"Aim at {goal}: there is hardly any throw."]
     side = "right" if right > 0.0 else "left"
     aim = f"Aim {amount} to the {side} of {goal}"
     if aimed.unaided.throw is None:

@@ -1,7 +1,5 @@
 """The spin and the speed that a cue ball gets from the tip."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -24,10 +22,10 @@ from evenbreak.physics.slide import drag_distance, roll_speed, stun_distance
 from evenbreak.physics.strike import Strike
 
 _WORDS = {
-    "spin_speed_ratio": ("topspin J, 1 is natural roll", 3),
-    "side_spin_speed_ratio": ("sidespin J, right above 0", 3),
+    "spin_speed_ratio": ("topspin J (1 is natural roll)", 3),
+    "side_spin_speed_ratio": ("sidespin J (above 0 is right)", 3),
     "roll_side_spin_speed_ratio": ("sidespin J once the ball rolls", 3),
-    "ball_speed_ratio": ("speed of the ball over that of the cue", 3),
+    "ball_speed_ratio": ("speed of the ball / speed of the cue", 3),
     "later_spin_speed_ratio": ("topspin J at --distance", 3),
     "later_side_spin_speed_ratio": ("sidespin J at --distance", 3),
     "stun_offset": ("--offset for a stun shot at --distance, at the same speed of the ball", 3),
@@ -111,7 +109,7 @@ def _miscue_words(strike: Strike) -> str:
     needed = math.ceil(1000.0 * tip_friction_of(strike.off_centre)) / 1000.0
     limit = miscue_offset(strike.cue.tip_friction)
     return (
-        f"This is a miscue: the tip slips this far from the centre. Hit within {limit:.3f} of "
+        f"This is a miscue: so far from the centre the tip slips. Hit within {limit:.3f} of "
         f"the radius, or use a tip whose friction is {needed:g} or more (--tip-mu {needed:g})."
     )
 

@@ -1,7 +1,5 @@
 """How fast a table is, from the time of a lag."""
 
-from __future__ import annotations
-
 from evenbreak.answers.answer import Answer, Quantities
 from evenbreak.answers.shot_units import Units
 from evenbreak.answers.worded import worded

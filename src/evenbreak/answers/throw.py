@@ -1,7 +1,5 @@
 """How far friction between the balls throws the object ball off its line."""
 
-from __future__ import annotations
-
 import math
 
 from evenbreak.answers.answer import Answer, Quantities

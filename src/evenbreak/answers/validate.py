@@ -1,8 +1,6 @@
 """Whether a league can trust its ratings."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Answer, Column, Part, Table
 from evenbreak.answers.validate_details import details
@@ -18,12 +16,10 @@ from evenbreak.answers.validate_judgement import (
 from evenbreak.answers.validate_rows import findings_table
 from evenbreak.answers.validate_verdict import verdict
 from evenbreak.answers.wording import count_of, listed, percent
+from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fit import PRIOR_SD
-
-if TYPE_CHECKING:
-    from evenbreak.files.results import ResultsFile
-    from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.validate import Validation
 
 
 def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed: int = 1) -> Answer:
@@ -70,7 +66,7 @@ def _heading(file: ResultsFile, found: Validation) -> str:
     out = ", ".join(f"{count:,} {why}" for why, count in left.items() if count)
     return (
         f"{file.source}: {count_of(len(forecasts), 'match', 'matches')} on "
-        f"{count_of(_dates(found), 'date')}, each date predicted from the dates before it"
+        f"{count_of(_dates(found), 'date')}, each date predicted from the earlier ones"
         + (f" (left out: {out})" if out else "")
     )
 
@@ -82,15 +78,15 @@ def _dates(found: Validation) -> int:
 def _games(found: Validation) -> Table:
     """Return how often favourites won games, beside the chances that they had been given."""
     columns = [
-        Column("predicted", "chance given", percent),
+        Column("predicted", "predicted", percent),
         Column("games", "games"),
         Column("seen", "won", percent),
         Column("range", "95% range", _percents),
     ]
     rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
     title = (
-        "How often favourites won single games. The ratings are right where the chance given lies "
-        "in the range."
+        "How often favourites won single games. The ratings are right where the prediction lies in "
+        "the range."
     )
     return Table("", columns, rows, title)
 
@@ -117,9 +113,9 @@ def _handicaps(found: Validation) -> str:
     if way:
         under = "under" if way > 0 else "over"
         return (
-            f"The handicaps look fair. {figures}. The ratings predicted "
-            f"{percent(every.expected)}: they {under}rate players who give games, so do not take "
-            "chances of handicap matches from them."
+            f"The handicaps look fair. {figures}. The ratings predicted {percent(every.expected)}: "
+            f"they {under}rate players who give games, so do not use them to predict handicap "
+            "matches."
         )
     return f"The handicaps look fair. {figures}."
 
@@ -134,11 +130,11 @@ def _spread(found: Validation) -> str:
     if winner_breaks(found):
         others.append("a strong break under winner breaks")
     if found.spots:
-        others.append("handicaps that know more about the players than these ratings")
+        others.append("handicaps based on more than these ratings know")
     also = listed(others, "or")
     return (
         f"Match scores vary {more:.0f}% more than expected, so favourites win fewer long races "
-        "than predicted. Players have good and bad days, or the ratings lag behind."
+        "than predicted. Perhaps players have good and bad days, or the ratings lag behind."
         + (f" {also[0].upper()}{also[1:]} would have the same effect." if also else "")
     )
 
@@ -150,8 +146,8 @@ def _prior(found: Validation, scale: Scale) -> str:
     if wrong_chances(found.usual, found) or wrong_chances(found.scored, found):
         return ""
     return (
-        f"Rating with --prior {points_text(found.prior_sd, scale)} would suit this league best; "
-        f"the default of {points_text(PRIOR_SD, scale)} points will do too."
+        f"A --prior of {points_text(found.prior_sd, scale)} would suit this league best; the "
+        f"default of {points_text(PRIOR_SD, scale)} points will do too."
     )
 
 

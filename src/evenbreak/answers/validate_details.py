@@ -1,34 +1,31 @@
 """The statistics of a validated season: how good predictions were, and every test."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Column, Part, Table
 from evenbreak.answers.validate_judgement import at_the_edge, points_text, scored_of
 from evenbreak.answers.wording import count_of, decimals
+from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
-
-if TYPE_CHECKING:
-    from evenbreak.ratings.calibration import Estimate
-    from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.validate import Validation
 
 _EXPLAINED = (
-    "How good the predictions were, with 95% intervals. Log-loss is the mean of -ln of the chance "
-    "given to what happened, the Brier score the mean squared error: lower is better, and a coin "
-    "has 0.6931 and 0.25. The slope says whether chances mean what they say: 1 is right, below 1 "
-    "they are too extreme, above 1 too cautious. Plug-in takes the ratings at face value, "
-    "integrated averages over their uncertainty, default integrates with the default prior. The "
-    "prior, in points, is how far apart players are assumed to be before any result."
+    "How good the predictions were, with 95% intervals. Log-loss is the average of -ln(p), where "
+    "p is the predicted chance of what happened; the Brier score is the mean squared error. Lower "
+    "is better; tossing a coin scores 0.6931 and 0.25. The slope shows whether the chances are "
+    "right: at 1 they are, below 1 they are too extreme, above 1 too cautious. 'Plug-in' takes "
+    "the ratings at face value, 'integrated' averages over their uncertainty, and 'default' does "
+    "so with the default prior. The prior, in points, is how far apart players are assumed to be "
+    "before any result."
 )
 _TESTS_EXPLAINED = (
-    "Whether play inside matches is what the model says. Scores: their squared errors, relative to "
-    "those of known strengths; more than expected points to good and bad days. Runs of racks won "
-    "by one player: fewer than expected are streaks, which winner breaks cause too. p is the "
-    "chance of so large a difference by luck alone."
+    "Whether play within matches agrees with the model. 'Spread of scores' compares their squared "
+    "errors with those of known strengths: more than expected suggests good and bad days. Fewer "
+    "'runs of racks' won by one player than expected mean streaks, which winner breaks cause too. "
+    "p is how often luck alone makes so large a difference."
 )
 
 
@@ -46,13 +43,13 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
         yield _matches(found)
         if found.spots:
             yield (
-                "Where handicaps make every match nearly even, the ratings' favourite is mostly "
-                "picked by their noise, so chances of matches are of little use."
+                "With handicaps every match is nearly even, and the ratings pick their favourite "
+                "mostly by their own errors, so predictions of matches are of little use."
             )
             yield _by_spot(found)
     new = int(found.forecasts.new.sum())
     if new:
-        yield f"In {count_of(new, 'match', 'matches')} one of the two had not played before."
+        yield f"In {count_of(new, 'match', 'matches')} one of the players had not played before."
 
 
 def _scored(found: Validation, scale: Scale) -> Table:
@@ -87,11 +84,11 @@ def _prior(found: Validation, scale: Scale) -> str:
     best = scored_of(found, "game")
     text = f"Single games are predicted best with a prior of {points}"
     if at_the_edge(found.prior_sd, found):
-        return f"{text}. It is the last that was tried, so none can be recommended."
+        return f"{text}. It is the last one tried, so none can be recommended."
     cost = dict(found.priors)[PRIOR_SD] - best.log_loss.value
     return (
         f"{text}; the default of {points_text(PRIOR_SD, scale)} points costs {cost:.4f} more "
-        "log-loss a game. With the prior chosen anew before each date, log-loss would have been "
+        "log-loss a game. With the prior chosen anew for each date, log-loss would have been "
         f"{best.as_it_went:.4f}."
     )
 
@@ -104,8 +101,8 @@ def _integrated(found: Validation) -> str:
     if gain.low > 0.0 or gain.high < 0.0:
         effect = f"predicts {'better' if gain.low > 0.0 else 'worse'}"
     return (
-        f"Averaging over the uncertainty of the ratings {effect}: it saves {gain.value:z.4f} of "
-        f"log-loss a {of} ({gain.low:z.4f} to {gain.high:z.4f})."
+        f"Averaging over the uncertainty of the ratings {effect}: log-loss falls by "
+        f"{gain.value:z.4f} a {of} ({gain.low:z.4f} to {gain.high:z.4f})."
     )
 
 
@@ -137,13 +134,20 @@ def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
     for name, estimate in (("the breaker", found.breaker), ("player_a", found.side)):
         if estimate is not None:
             p, low, high = (1.0 / (1.0 + math.exp(-b)) for b in estimate)
-            yield (f"even games won by {name}", None, f"{p:.3f}", "0.500", (low, high), None)
+            yield (
+                f"even games won by {name}",
+                None,
+                f"{p:.3f}",
+                "0.500",
+                (low, high),
+                None,
+            )
 
 
 def _matches(found: Validation) -> Table:
     """Return how often favourites won matches."""
     columns = [
-        Column("predicted", "chance given", decimals(3)),
+        Column("predicted", "predicted", decimals(3)),
         Column("matches", "matches"),
         Column("seen", "won", decimals(3)),
         Column("range", "95% interval", _range),

@@ -1,17 +1,11 @@
 """When a figure of a validated season is clearly off, and how figures are written."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.handicap_fairness import HandicapFairness
 from evenbreak.ratings.results import FORMATS
-
-if TYPE_CHECKING:
-    from evenbreak.ratings.handicap_fairness import HandicapFairness
-    from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.scored import How, Of, Scored
-    from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scored import Of, Scored
+from evenbreak.ratings.validate import Validation
 
 UNLIKELY = 0.01
 """A p-value below which chance is ruled out; it is small because several tests are made."""
@@ -32,9 +26,9 @@ def clearly_off(estimate: Estimate, right: float) -> int:
     return int(middle - far > right) - int(middle + far < right)
 
 
-def scored_of(found: Validation, of: Of, how: How = "integrated") -> Scored:
+def scored_of(found: Validation, of: Of) -> Scored:
     """Return how good one kind of prediction was."""
-    return next(row for row in found.scored if (row.of, row.how) == (of, how))
+    return next(row for row in found.scored if (row.of, row.how) == (of, "integrated"))
 
 
 def wrong_chances(scored: tuple[Scored, ...], found: Validation) -> dict[str, int]:

@@ -1,16 +1,12 @@
 """A validated season for files: one table with everything that was found."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.answer import Column, Table
 from evenbreak.ratings.advantages import known_breaks
-
-if TYPE_CHECKING:
-    from evenbreak.ratings.scored import Scored
-    from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.scored import Scored
+from evenbreak.ratings.validate import Validation
 
 COLUMNS = ("part", "of", "item", "count", "expected", "value", "low", "high", "p_value")
 

@@ -1,9 +1,6 @@
 """Whether a league can trust its ratings, in a sentence or two that say what to do."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
 
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
@@ -17,12 +14,10 @@ from evenbreak.answers.validate_judgement import (
     wrong_chances,
 )
 from evenbreak.answers.wording import listed
+from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
-
-if TYPE_CHECKING:
-    from evenbreak.ratings.calibration import Estimate
-    from evenbreak.ratings.scale import Scale
-    from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.validate import Validation
 
 TOO_SPREAD = 1.5
 """How many times as much as expected scores must vary for chances of matches to be given up."""
@@ -39,7 +34,7 @@ def verdict(found: Validation, scale: Scale) -> str:
     faults = list(_faults(found))
     wrong = wrong_chances(found.scored, found)
     if wrong:
-        more = f" Besides, {listed(faults)}." if faults else ""
+        more = f" Also, {listed(faults)}." if faults else ""
         return _do_not(found, wrong, scale) + more
     spread = found.dispersion
     if spread is not None and spread.p_value < UNLIKELY:
@@ -50,7 +45,7 @@ def verdict(found: Validation, scale: Scale) -> str:
     if faults:
         held = f"You can trust the ratings for single games, but {listed(faults)}."
     elif slope.high - slope.low > VAGUE:
-        held = "Nothing speaks against the ratings, but there are few matches to judge by."
+        held = "Nothing speaks against the ratings, but there are too few matches to be sure."
     else:
         held = "You can trust these ratings: players win as often as they predict."
     return f"{default} With that prior {held[0].lower()}{held[1:]}" if default else held
@@ -69,8 +64,8 @@ def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
         )
     if plenty:
         return (
-            "The ratings predict no better than a coin: these players are too alike for ratings "
-            "to tell them apart."
+            "The ratings predict no better than a coin: these players are too equal for ratings to "
+            "separate them."
         )
     if found.skill.high < 0.0:
         return "Do not trust these ratings: for this league they predict worse than a coin."
@@ -97,14 +92,14 @@ def _do_not(found: Validation, wrong: Mapping[str, int], scale: Scale) -> str:
         size = "smaller" if -1 in wrong.values() else "larger"
         return (
             f"Do not use a prior of {points_text(found.prior_sd, scale)} points: "
-            f"{_too_sure(wrong)}. Use a {size} --prior, or leave it out here to find the best."
+            f"{_too_sure(wrong)}. Use a {size} --prior, or leave the option out to find the best."
         )
     fade = ""
     if -1 in wrong.values() and found.forecasts.half_life is None:
-        fade = " Let old games count less: try --half-life 365."
+        fade = " Try --half-life 365, so that old games count less."
     return (
-        f"Do not take the chances at face value: {_too_sure(wrong)}, even with the prior that "
-        f"suits them best.{fade}"
+        f"Do not take the chances at face value: {_too_sure(wrong)}, even with the best "
+        f"prior.{fade}"
     )
 
 
@@ -112,11 +107,11 @@ def _good_and_bad_days(found: Validation, times: float, scale: Scale) -> str:
     best = scored_of(found, "match")
     use = ""
     if len(found.priors) > 1 and not found.spots and not at_the_edge(best.prior_sd, found):
-        use = f" For chances of matches use --prior {points_text(best.prior_sd, scale)}."
+        use = f" To predict matches, use --prior {points_text(best.prior_sd, scale)}."
     return (
         f"Do not rely on the chances of whole matches: scores vary {times:.1f} times as much as "
-        "expected. Players have good and bad days, or the ratings lag behind, so favourites "
-        f"win fewer long races than predicted.{use}"
+        "expected, so favourites win fewer long races than predicted. Perhaps players have good "
+        f"and bad days, or the ratings lag behind.{use}"
     )
 
 
@@ -130,8 +125,8 @@ def _default_is_wrong(found: Validation, scale: Scale) -> str:
     else:
         use = f"--prior {points_text(found.prior_sd, scale)}"
     return (
-        f"Give rate and report {use}: with the default of {points_text(PRIOR_SD, scale)} points, "
-        f"{_too_sure(wrong)}."
+        f"Use {use} with rate and report: with the default of {points_text(PRIOR_SD, scale)} "
+        f"points, {_too_sure(wrong)}."
     )
 
 
@@ -141,7 +136,9 @@ def _faults(found: Validation) -> Iterator[str]:
     if spread is not None and spread.p_value < UNLIKELY:
         yield f"match scores vary {more_or_less(spread.seen > spread.by_chance)} than expected"
     if runs is not None and runs.p_value < UNLIKELY:
-        yield "games are won in streaks" if runs.z < 0 else "wins alternate more than by chance"
+        yield (
+            "games are won in streaks" if runs.z < 0 else "wins alternate more often than by chance"
+        )
     if first is not None and first.p_value < UNLIKELY:
         more = more_or_less(first.won > first.expected)
         yield f"players who break first win {more} often than predicted"

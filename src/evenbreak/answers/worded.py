@@ -1,7 +1,5 @@
 """Quantities by name, with their words in a table beside them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, TypeAlias
 

@@ -1,7 +1,5 @@
 """Numbers and lists as people read them: chances, decimals, counts, times, names."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,17 +1,11 @@
 """`evenbreak reproduce`: every table, figure and number of the source text."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import out_option
 from evenbreak.cli.kit.terminal import say
-from evenbreak.cli.kit.values import refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 EXAMPLES = """\b
 Examples:
@@ -20,13 +14,7 @@ Examples:
 
 
 @click.command("reproduce", epilog=EXAMPLES)
-@click.option(
-    "--out",
-    required=True,
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="Where the files go; created if it does not exist.",
-)
+@out_option("Where the files go; created if it does not exist.")
 @faces(page=False, always_text=True)
 def command(out: str) -> Answer:
     """Write every table, figure and number of the source text, computed anew.
@@ -43,8 +31,6 @@ def command(out: str) -> Answer:
     from evenbreak.source_text.findings import differing
     from evenbreak.source_text.reproduce import all_findings, reproduction
 
-    if not out.strip():
-        refuse("--out is empty; name a folder, or . for this one")
     check_folder(out)
     files = reproduction(say)
     write_files(out, files)

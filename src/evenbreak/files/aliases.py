@@ -72,8 +72,8 @@ def read_aliases(path: str | Path) -> AliasesFile:
             table.problems.add(
                 line_of[name],
                 f"{quoted(name)} means {quoted(meant)}, which means {quoted(means[meant])} in line "
-                f"{line_of[meant]}; write the player's own name for both, and keep one line of two "
-                "names that mean each other",
+                f"{line_of[meant]}; write the player's real name in both lines, and keep only one "
+                "of two names that mean each other",
             )
     table.problems.raise_any()
     means = {name: meant for name, meant in means.items() if name != meant}

@@ -109,7 +109,7 @@ def _check_columns(table: TextTable, needed: Mapping[str, Sequence[str]]) -> Non
             None, f"there is no column {column!r}; add it (it may also be called {also})"
         )
     if not len(table.problems) and not len(table):
-        table.problems.add(None, "has no rows of a chart; write one per line below the header")
+        table.problems.add(None, "has no rows below its header; write one line for each race")
 
 
 def _rows(table: TextTable) -> tuple[ChartRow, ...]:

@@ -96,8 +96,8 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
         table,
         "success",
         lambda text: WORDS.get(text.casefold()),
-        wanted="a word for a success or a miss",
-        remedy="write yes or no, and a row for each attempt",
+        wanted="yes or no",
+        remedy="write one of them, and a row for each attempt",
         dtype=np.bool_,
         empty=False,
     ).values

@@ -92,7 +92,7 @@ class PlayerNames:
             table.problems.add(
                 int(table.lines[row]),
                 f"{name} {quoted(distinct[codes[row]])} is neither of the two players; "
-                "write a, b or a name of this row, or leave it empty",
+                "write a, b or one of the two names, or leave it empty",
             )
         return Values(values, ~wrong, stated)
 

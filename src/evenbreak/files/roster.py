@@ -144,7 +144,7 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
         table.problems.add_rows(
             table.lines,
             np.flatnonzero(unrated & (games > 0)),
-            lambda row: f"rating is empty after {games[row]} games; write it, or 0 games if new",
+            lambda row: f"rating is empty after {games[row]} games; fill it in, or write 0 games",
         )
     table.problems.raise_any()
     roster = Roster(names, rating, error, games, component=component, matches=matches)
@@ -167,7 +167,7 @@ def _names(table: TextTable) -> list[str]:
             table.problems.add(
                 line,
                 f"player {quoted(name)} is already in line {first[name]}; delete one of the two, "
-                "or tell two players of the same name apart, for example with a number",
+                "or give two players of the same name different names, such as 'Ann Lee 2'",
             )
     return names
 

@@ -142,7 +142,7 @@ def read_table(
     lines, first = next(parts)
     if not first:
         _add_unreadable(unreadable, problems)
-        problems.add(None, "holds no rows; write a header line, then one line for each row")
+        problems.add(None, "has no rows; write a header line, then one line for each row")
         problems.raise_any()
     titles = first[0]
     places, unused = header.places(titles, lines[0], problems)

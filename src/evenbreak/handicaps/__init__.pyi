@@ -31,12 +31,9 @@ from .charts.rows import ChartDraft as ChartDraft
 from .charts.rows import ChartRow as ChartRow
 from .ladders.closed_league import ClosedPair as ClosedPair
 from .ladders.closed_league import in_step_law as in_step_law
-from .ladders.comparison import StepPoint as StepPoint
 from .ladders.comparison import SystemRow as SystemRow
 from .ladders.comparison import compare_systems as compare_systems
 from .ladders.comparison import mean_games as mean_games
-from .ladders.comparison import step_front as step_front
-from .ladders.comparison import system_row as system_row
 from .ladders.error_walk import RatingLadder as RatingLadder
 from .ladders.inflation import Lag as Lag
 from .ladders.inflation import NewcomerInflation as NewcomerInflation

@@ -3,7 +3,6 @@ from .dump_cycle import best_cycle as best_cycle
 from .dump_cycle import dump_cycle as dump_cycle
 from .many_seasons import run_chunk as run_chunk
 from .nights import PlayedNight as PlayedNight
-from .nights import nights_of as nights_of
 from .nights import played_nights as played_nights
 from .one_season import PlayedSeason as PlayedSeason
 from .one_season import season_matches as season_matches

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints, Places
+from evenbreak.league.season import Season
 from evenbreak.league.tally import FIFTHS, WEEK_COLUMNS, Tally, fifths_of
-
-if TYPE_CHECKING:
-    from evenbreak.league.season import Season
 
 _DOUBLINGS = 4.0
 """How far rating errors and moves are counted one by one: to odds of 16 to 1."""
@@ -65,7 +64,7 @@ class Counting:
         week: int,
         rating: NDArray[np.int16],
         skill: NDArray[np.int16],
-        here: NDArray[np.bool_] | None,
+        here: Bools | None,
     ) -> None:
         """Count the rating errors of the players in the league (None: everybody)."""
         bins = 2 * self.widest + 1
@@ -84,7 +83,7 @@ class Counting:
         self.errors[week] = by_batch.sum(axis=0)
         self.weeks[:, week] = by_batch @ self.powers
 
-    def matches(self, cell: NDArray[np.intp], won: NDArray[np.bool_], played: Any) -> None:
+    def matches(self, cell: Places, won: Bools, played: Any) -> None:
         """Count matches by their place in the tables of all batches, and by winner.
 
         `cell` is even, and is overwritten.
@@ -151,7 +150,7 @@ class Counting:
         sums += [self.replicas * one.sum(axis=1) for one in (won, gone)]
         return np.column_stack(sums)
 
-    def _fifths(self, ended: Ended, share: int, known: Any) -> NDArray[np.int64]:
+    def _fifths(self, ended: Ended, share: int, known: Any) -> Ints:
         """Return matches and wins by batch and fifth of true skill at the start."""
         many = len(self.season.players)
         found = np.empty((self.batches, FIFTHS, 2), dtype=np.int64)
@@ -161,13 +160,13 @@ class Counting:
             found[batch] = _by_fifth(ended.wins[rows], ended.matches[rows], share, fifth)
         return found
 
-    def _gaps(self, width: int) -> NDArray[np.float64]:
+    def _gaps(self, width: int) -> Floats:
         look = self.look
         bins = look.gap // width + 1
         skill = np.arange(-look.gap, look.gap + 1)
         bin_of = np.abs(skill) // width
 
-        def summed(batch: Any, row: Any, *columns: NDArray[Any]) -> list[NDArray[np.float64]]:
+        def summed(batch: Any, row: Any, *columns: NDArray[Any]) -> list[Floats]:
             place = batch * bins + bin_of[row]
             many = self.batches * bins
             return [np.asarray(np.bincount(place, column, many), float) for column in columns]
@@ -189,12 +188,12 @@ class Counting:
         return np.column_stack(sums).reshape(self.batches, bins, -1)
 
 
-def _add_up(tables: NDArray[np.int64], where: NDArray[Any], played: Any) -> None:
+def _add_up(tables: Ints, where: NDArray[Any], played: Any) -> None:
     """Add one at each place where a match is played."""
     np.add.at(tables.reshape(-1), where.ravel() if played is None else where[played], 1)
 
 
-def _squares(values: NDArray[Any]) -> NDArray[np.int64]:
+def _squares(values: NDArray[Any]) -> Ints:
     """Return the sum of squares of each row."""
     found = np.empty(len(values), dtype=np.int64)
     step = max(1, _BLOCK // values.shape[1])
@@ -204,7 +203,7 @@ def _squares(values: NDArray[Any]) -> NDArray[np.int64]:
     return found
 
 
-def _by_player(values: NDArray[Any], most: int) -> NDArray[np.int64] | None:
+def _by_player(values: NDArray[Any], most: int) -> Ints | None:
     """Return how often each row holds 0, 1, ..., most; None if that table is large."""
     many = most + 1
     if len(values) * many > _LARGE:
@@ -213,9 +212,7 @@ def _by_player(values: NDArray[Any], most: int) -> NDArray[np.int64] | None:
     return np.bincount(place.ravel(), minlength=len(values) * many).reshape(-1, many)
 
 
-def _by_fifth(
-    wins: NDArray[Any], matches: NDArray[Any], share: int, fifth: NDArray[np.int64]
-) -> NDArray[np.int64]:
+def _by_fifth(wins: NDArray[Any], matches: NDArray[Any], share: int, fifth: Ints) -> Ints:
     """Return matches and wins by fifth of true skill at the start."""
     found = np.zeros((FIFTHS, 2), dtype=np.int64)
     for column, values, times in ((0, matches, share), (1, wins, 1)):

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools
 from evenbreak.league.lookup import Lookup
 
 Score = NDArray[np.int8]
@@ -30,9 +31,7 @@ def random_bits(rng: np.random.Generator, shape: tuple[int, ...]) -> NDArray[np.
     return np.asarray(raw, dtype=np.uint64).view(np.uint32)[:many].reshape(shape)
 
 
-def draw_winners(
-    wins: NDArray[np.uint32], cell: NDArray[Any], rng: np.random.Generator
-) -> NDArray[np.bool_]:
+def draw_winners(wins: NDArray[np.uint32], cell: NDArray[Any], rng: np.random.Generator) -> Bools:
     """Return where player 1 wins; `cell` is the place in `wins`, the chances in 2^32nds."""
     limit = np.empty(cell.shape, dtype=np.uint32)
     np.take(wins, cell, out=limit, mode="wrap")  # all are in range; 'raise' would copy

@@ -15,17 +15,18 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.ladder import Ladder
-from evenbreak.league.sandbag_pay import at_the_end, dumped_matrix, earnest_matrix, start_law
-
-Floats = NDArray[np.float64]
-
-_HELD = 1e-6
-"""With a larger chance than this of being held at the ladder's lower end, the end decides."""
+from evenbreak.league.sandbag_pay import (
+    MOST_HELD,
+    at_the_end,
+    dumped_matrix,
+    earnest_matrix,
+    start_law,
+)
 
 _FOLLOWED, _SQUARINGS = 256, 40
 """Steps taken before the chain is squared, and the most squarings."""
@@ -89,11 +90,6 @@ def dump_cycle(
     return _cycles(ladder, [(down, many)], stake, dumped_stake)[0]
 
 
-def _honest_wins(ladder: Ladder) -> float:
-    """Return P(a player who never dumps wins) in the long run."""
-    return float(ladder.wins @ _limit(earnest_matrix(ladder), start_law(ladder, 0)))
-
-
 def _limit(chain: Floats, start: Floats) -> Floats:
     """Return the stochastic limit of a column-stochastic chain from a start."""
     # The chain may have a period; its average with standing still has none, and the same limit.
@@ -113,9 +109,10 @@ def _cycles(
     ladder: Ladder, counts: Iterable[tuple[int, int]], stake: float, dumped_stake: float
 ) -> list[DumpCycle]:
     """Return the long run of each of some cycles: matches dumped, and played in earnest."""
-    honest, step, dump = _honest_wins(ladder), earnest_matrix(ladder), dumped_matrix(ladder)
+    step, dump = earnest_matrix(ladder), dumped_matrix(ladder)
     last, start = at_the_end(ladder), start_law(ladder, 0)
     errors, wins = np.asarray(ladder.errors, dtype=float), np.asarray(ladder.wins)
+    honest = float(wins @ _limit(step, start))
     # Where a dumped match takes each error, and where no match does.
     falls, here = dump.argmax(axis=0), np.arange(errors.size)
     played, matches = np.eye(errors.size), 0
@@ -178,6 +175,6 @@ def best_cycle(
         cycle
         for cycle in found
         if not cycle.dumped
-        or (cycle.held < _HELD and (lowest is None or cycle.rating_error >= lowest))
+        or (cycle.held < MOST_HELD and (lowest is None or cycle.rating_error >= lowest))
     ]
     return max(allowed, key=lambda cycle: (cycle.profit, -cycle.dumped))

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.handicaps.systems.match_table import MatchTable
 
 CLASSES = 3
@@ -58,12 +59,12 @@ class Lookup:
     @property
     def races(self) -> int:
         """How many different races there are."""
-        return len(self._races[0])
+        return len(self.table.races[0])
 
     @cached_property
-    def twice_race(self) -> NDArray[np.intp]:
+    def twice_race(self) -> Places:
         """Twice the number of the race by rating difference, negative ones from the end."""
-        return np.asarray(np.roll(2 * self._races[1], -self.widest))
+        return np.asarray(np.roll(2 * self.table.races[1], -self.widest))
 
     @property
     def outcomes(self) -> int:
@@ -71,7 +72,7 @@ class Lookup:
         return int(self.table.games.shape[1])
 
     @cached_property
-    def game(self) -> NDArray[np.float64]:
+    def game(self) -> Floats:
         """P(player 1 wins a game) by skill difference, shape (2 * gap + 1,)."""
         scale = self.table.system.scale
         return np.asarray(scale.win_probability(np.arange(-self.gap, self.gap + 1.0)))
@@ -122,7 +123,7 @@ class Lookup:
         return np.ascontiguousarray(m), np.ascontiguousarray(n)
 
     @cached_property
-    def classes(self) -> NDArray[np.int64]:
+    def classes(self) -> Ints:
         """Hill-hill, shutout and games of each final score, shape (width, outcomes, 3).
 
         A match is hill-hill if the loser lacks one game, a shutout if the loser has none.
@@ -139,12 +140,12 @@ class Lookup:
         return 4 * (int(self.classes[..., 2].max()) + 1)
 
     @cached_property
-    def code(self) -> NDArray[np.int64]:
+    def code(self) -> Ints:
         """`classes` as one number, 4 * games + 2 * shutout + hill-hill, flat."""
         return np.asarray(self.classes @ np.array([1, 2, 4])).ravel()
 
     @cached_property
-    def noted(self) -> NDArray[np.int64]:
+    def noted(self) -> Ints:
         """The `classes` of each value of `code`, shape (codes, 3)."""
         code = np.arange(self.codes)
         return np.column_stack([code & 1, code >> 1 & 1, code >> 2])
@@ -156,9 +157,9 @@ class Lookup:
         return one.ravel(), two.ravel()
 
     @cached_property
-    def expected(self) -> NDArray[np.float64]:
+    def expected(self) -> Floats:
         """The mean of each of `classes` by skill difference and race, shape (3, rows * races)."""
-        first, _ = self._races
+        first, _ = self.table.races
         means = np.empty((len(self.game), len(first), CLASSES))
         for start in range(0, len(self.game), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
@@ -167,12 +168,12 @@ class Lookup:
         return np.ascontiguousarray(np.moveaxis(means, 2, 0)).reshape(CLASSES, -1)
 
     @cached_property
-    def cumulative(self) -> tuple[NDArray[np.uint32], NDArray[np.intp]]:
+    def cumulative(self) -> tuple[NDArray[np.uint32], Places]:
         """The largest draw for each final score, and the race of each rating difference.
 
         The first has shape (final scores, (2 * gap + 1) * races): a table for each score.
         """
-        first, place = self._races
+        first, place = self.table.races
         sums = np.empty((self.outcomes, len(self.game), len(first)))
         for start in range(0, len(self.game), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
@@ -181,24 +182,14 @@ class Lookup:
         last = np.maximum(np.rint(np.ldexp(sums, 32)) - 1.0, 0.0).astype(np.uint32)
         return last.reshape(self.outcomes, -1), place
 
-    @cached_property
-    def _races(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """The first place of each race, and the race of each rating difference."""
-        return _races_of(self.table)
-
 
 def lookup_of(table: MatchTable, gap: float) -> Lookup:
     """Return the tables for skills up to `gap` points apart."""
     certain = _CERTAIN * table.system.scale.points_per_doubling
     size = int(np.ceil(min(max(gap, 1.0), certain)))
     p = table.system.scale.win_probability(np.arange(-size, size + 1.0))
-    wins = np.repeat(_in_bits(table.wins(p)[_races_of(table)[0]].T).ravel(), 2)
+    wins = np.repeat(_in_bits(table.wins(p)[table.races[0]].T).ravel(), 2)
     return Lookup(table, size, wins)
-
-
-def _races_of(table: MatchTable) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    _, first, place = np.unique(table.needs, axis=0, return_index=True, return_inverse=True)
-    return first, place.reshape(-1)
 
 
 def _in_bits(chance: Any) -> NDArray[np.uint32]:

@@ -16,22 +16,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Places
 from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.systems.newcomers import step_after
 from evenbreak.league.counting import Counting, Ended
 from evenbreak.league.drawing import draw_scores, draw_winners, play_racks, random_bits
+from evenbreak.league.lookup import Lookup
+from evenbreak.league.players import LeaguePlayers
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, Round, RoundRobin
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
-
-if TYPE_CHECKING:
-    from evenbreak.league.lookup import Lookup
-    from evenbreak.league.players import LeaguePlayers
 
 _BLOCK = 1 << 15
 """Matches played at a time."""
@@ -133,7 +132,7 @@ class _Chunk:
         stacked = of_players if self.batches == 1 else np.tile(of_players, self.batches)
         return stacked[:, None]
 
-    def count_week(self, week: int, here: NDArray[np.bool_] | None) -> None:
+    def count_week(self, week: int, here: Bools | None) -> None:
         """Count the rating errors after a week, and check that the arrays can still hold them."""
         rating = self.state.astype(np.int16)
         if week % _LOOK == 0 or max(self.highest, -self.lowest) > _HIGHEST:
@@ -145,7 +144,7 @@ class _Chunk:
             )
         self.count.week(week, rating, self.points, here)
 
-    def here(self, week: int) -> NDArray[np.bool_] | None:
+    def here(self, week: int) -> Bools | None:
         """Return which rows are in the league in a week; None: all of them."""
         return None if self.stay else self._column(self.season.players.here(week))[:, 0]
 
@@ -176,7 +175,7 @@ class _Chunk:
             self.points = self.today = _points(self.skill)
         self.count_week(week, here)
 
-    def _rounds(self, week: int, here: NDArray[np.bool_] | None) -> list[Round]:
+    def _rounds(self, week: int, here: Bools | None) -> list[Round]:
         """Return which rows meet in a week, among those in the league."""
         schedule, many = self.season.schedule, len(self.season.players)
         first = many * np.arange(self.batches)[:, None]  # row of each batch
@@ -199,7 +198,7 @@ class _Chunk:
             return [(a.ravel(), b.ravel()) for a, b in rounds]
         return [(a[both], b[both]) for a, b in rounds for both in [here[a] & here[b]]]
 
-    def _count_matches(self, a: NDArray[np.intp], b: NDArray[np.intp]) -> None:
+    def _count_matches(self, a: Places, b: Places) -> None:
         """Count the matches of a round in all replicas."""
         if 2 * len(a) == len(self.matches):  # nobody occurs twice, so everybody plays
             self.matches += 1
@@ -210,9 +209,9 @@ class _Chunk:
     def _block(
         self,
         before: NDArray[np.int32],
-        absent: NDArray[np.bool_] | None,
-        a: NDArray[np.intp],
-        b: NDArray[np.intp],
+        absent: Bools | None,
+        a: Places,
+        b: Places,
     ) -> None:
         """Play matches in which nobody occurs twice."""
         look = self.lookup
@@ -255,7 +254,7 @@ class _Chunk:
             self.matches[a] += played
             self.matches[b] += played
 
-    def _rows(self, a: NDArray[np.intp], b: NDArray[np.intp]) -> NDArray[np.intp]:
+    def _rows(self, a: Places, b: Places) -> Places:
         """Return the difference of the skills of the day, as a row of the tables."""
         row = self.today.take(a, axis=0).astype(np.intp)
         row -= self.today.take(b, axis=0)
@@ -264,21 +263,19 @@ class _Chunk:
         row += self.lookup.gap
         return row
 
-    def _first_rows(self, a: NDArray[np.intp]) -> NDArray[np.intp]:
+    def _first_rows(self, a: Places) -> Places:
         """Return the first row of the table of each player's batch."""
         batch = a // len(self.season.players)
         return (batch * (2 * self.lookup.gap + 1))[:, None]
 
-    def _count_games(
-        self, a: NDArray[np.intp], b: NDArray[np.intp], apart: Any, score: Any, played: Any
-    ) -> None:
+    def _count_games(self, a: Places, b: Places, apart: Any, score: Any, played: Any) -> None:
         assert self.games is not None  # noqa: S101
         place = (apart.astype(np.intp) + self.lookup.widest) * self.lookup.outcomes + score
         for rows, games in zip((a, b), self.lookup.won_games, strict=True):
             self.games[rows] += games.take(place) * (1 if played is None else played)
 
     def _changes(
-        self, a: NDArray[np.intp], b: NDArray[np.intp], apart: Any, won: Any, score: Any
+        self, a: Places, b: Places, apart: Any, won: Any, score: Any
     ) -> Iterator[NDArray[np.int32]]:
         """Yield what is added to the states of the two players: moves and wins."""
         for rows, move, wins in zip(
@@ -290,7 +287,7 @@ class _Chunk:
 
     def _draw(
         self, row: NDArray[Any], cell: NDArray[Any], apart: NDArray[np.int16]
-    ) -> tuple[NDArray[np.bool_], NDArray[Any] | None]:
+    ) -> tuple[Bools, NDArray[Any] | None]:
         """Return where player 1 wins and the final score, if that is drawn."""
         look = self.lookup
         if self.season.play == "matches" and look.by_winner is not None:
@@ -301,7 +298,7 @@ class _Chunk:
         return score < look.needs[1].take(place), score
 
     def _moves(
-        self, apart: NDArray[np.int16], won: NDArray[np.bool_], score: NDArray[Any] | None
+        self, apart: NDArray[np.int16], won: Bools, score: NDArray[Any] | None
     ) -> tuple[NDArray[Any], ...]:
         """Return the points that established players move."""
         look = self.lookup
@@ -321,7 +318,7 @@ class _Chunk:
             place = place * look.outcomes + score
         return tables[0].take(place), tables[1].take(place)
 
-    def _factor(self, factors: NDArray[np.int16], rows: NDArray[np.intp]) -> NDArray[np.int16]:
+    def _factor(self, factors: NDArray[np.int16], rows: Places) -> NDArray[np.int16]:
         """Return the factor by which these players move; newcomers move more."""
         assert self.before is not None  # noqa: S101
         last = len(factors) - 1
@@ -368,7 +365,7 @@ def _factors(season: Season) -> NDArray[np.int16] | None:
     return np.array([step_after(played, steps) for played in range(last + 1)], dtype=np.int16)
 
 
-def _put(to: NDArray[Any], rows: NDArray[np.intp], what: NDArray[Any]) -> None:
+def _put(to: NDArray[Any], rows: Places, what: NDArray[Any]) -> None:
     """Set rows, none of which occurs twice."""
     if to.shape[1] == 1:  # a column alone is twice as fast as a line
         to[:, 0][rows] = what[:, 0]

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Ints
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.night_problems import night_problems
@@ -20,20 +20,8 @@ from evenbreak.ratings.roster import Roster
 class PlayedNight(NamedTuple):
     """A night of a season: the rows of its matches in the results, and what they changed."""
 
-    rows: NDArray[np.int64]
+    rows: Ints
     changes: RatingChanges
-
-
-def nights_of(results: Results) -> list[NDArray[np.int64]]:
-    """Return the rows of the matches of each night, in the order of the dates.
-
-    Without dates each match is a night of its own, in the order of the file; matches without a
-    date come last.
-    """
-    if results.date is None:
-        return [np.array([row]) for row in range(len(results))]
-    _, night = np.unique(results.date, return_inverse=True)
-    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]
 
 
 def played_nights(
@@ -42,9 +30,12 @@ def played_nights(
     results: Results,
     *,
     chart: Chart | None = None,
-    apply: Callable[[Roster, NDArray[np.int64]], RatingChanges] | None = None,
+    apply: Callable[[Roster, Ints], RatingChanges] | None = None,
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
+
+    Without dates each match is a night of its own, in the order of the rows; matches without a
+    date come last.
 
     Parameters
     ----------
@@ -65,15 +56,23 @@ def played_nights(
         if results cannot be used.
     """
 
-    def by_results(list_: Roster, rows: NDArray[np.int64]) -> RatingChanges:
+    def by_results(list_: Roster, rows: Ints) -> RatingChanges:
         night = results.select(rows)
         for problem in night_problems(system, list_, night, chart=chart):
             raise InputError(f"row {rows[problem.row]} of the results: {problem.message}")
         return apply_results(system, list_, night, chart=chart)
 
     nights, now = [], roster
-    for rows in nights_of(results):
+    for rows in _nights(results):
         changes = (apply or by_results)(now, rows)
         nights.append(PlayedNight(rows, changes))
         now = changes.after
     return nights
+
+
+def _nights(results: Results) -> list[Ints]:
+    """Return the rows of each night's matches by date; without dates each match is a night."""
+    if results.date is None:
+        return [np.array([row]) for row in range(len(results))]
+    _, night = np.unique(results.date, return_inverse=True)
+    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]

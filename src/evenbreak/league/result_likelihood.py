@@ -10,14 +10,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.handicaps.ladders.form import difference_law
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.stats.summary import Distribution
-
-Floats = NDArray[np.float64]
 
 _UNITS = SCALES["npl"]
 

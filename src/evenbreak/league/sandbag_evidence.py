@@ -25,11 +25,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import AccuracyError
-
-Floats = NDArray[np.float64]
 
 _HELD = ("drifting", "steady", "other")
 
@@ -55,7 +53,7 @@ WIDEST = 60
 """The largest rating error at the start, in points, of a sandbagger or an established player."""
 
 FARTHEST = WIDEST + max(DEPTHS)
-"""The same for an honest player of any skill: as far as a sandbagger sinks, or a hopeless
+"""The same for an honest player of any skill: as far as a sandbagger sinks. Otherwise a hopeless
 beginner would look like somebody who dumps most of their matches."""
 
 

@@ -21,18 +21,16 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.ladders.error_chain import move_matrix
+from evenbreak.handicaps.ladders.error_chain import error_on, move_matrix
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.stats.summary import Distribution
 
-Floats = NDArray[np.float64]
-
-_HELD = 1e-6
+MOST_HELD = 1e-6
 """With a larger chance than this of being held at the ladder's lower end, the end decides."""
 
 _NOTHING = 1e-9
@@ -160,12 +158,9 @@ def sandbagging(
     >>> round(ten.p_first, 3), round(ten.extra_wins, 2), round(ten.break_even, 2)
     (0.637, 2.13, 2.35)
     """
-    most = whole(dumped, "dumped")
-    many = whole(earnest, "earnest", at_least=1)
+    most = whole(dumped, "dumped", at_most=_MOST)
+    many = whole(earnest, "earnest", at_least=1, at_most=_MOST)
     streak = whole(in_a_row, "in_a_row", at_least=1)
-    for name, value in (("dumped", most), ("earnest", many)):
-        if value > _MOST:
-            raise InputError(f"{name} is {value}; give at most {_MOST}")
     for name, money in (("stake", stake), ("dumped_stake", dumped_stake), ("prize", prize)):
         number(money, name, low=0.0)
     law = start_law(ladder, start)
@@ -173,7 +168,7 @@ def sandbagging(
     step, down = earnest_matrix(ladder), dumped_matrix(ladder)
     honest = _laws(step, law, most + many)
     after = _laws(down, law, most + 1)
-    if after[-1] @ at_the_end(ladder) > _HELD:
+    if after[-1] @ at_the_end(ladder) > MOST_HELD:
         raise InputError(
             f"dumped is {most}, which takes the rating to the ladder's end at {-ladder.widest}; "
             "give fewer, or a wider ladder"
@@ -263,7 +258,7 @@ def most_dumped(ladder: Ladder, start: int | Distribution = 0) -> int:
     # With a point or more a match the end is reached in so many; without moves it never is.
     for many in range(ladder.errors.size):
         law = down @ law
-        if law @ last > _HELD:
+        if law @ last > MOST_HELD:
             return many
     return int(ladder.errors.size)
 
@@ -287,12 +282,7 @@ def start_law(ladder: Ladder, start: int | Distribution) -> Floats:
     )
     law, widest = np.zeros(ladder.errors.size), int(ladder.errors[-1])
     for error, chance in pairs:
-        if not (isinstance(error, int | float) and error == int(error) and abs(error) <= widest):
-            raise InputError(
-                f"start is {error!r}; give whole points from {-widest} to {widest}, "
-                "or a wider ladder"
-            )
-        law[int(error) + widest] += float(chance)
+        law[error_on(widest, error) + widest] += float(chance)
     return law
 
 
@@ -328,14 +318,14 @@ def dumped_matrix(ladder: Ladder) -> Floats:
     return matrix
 
 
-def dumped_moves(ladder: Ladder) -> NDArray[np.int64]:
+def dumped_moves(ladder: Ladder) -> Ints:
     """Return how far the most costly defeat moves each error."""
     table = match_table(ladder.system, ladder.chart, widest=int(ladder.errors[-1]))
     lost = ~table.won & (table.games[..., 1] >= 0)
     return np.asarray(np.where(lost, table.moves[..., 0], np.iinfo(np.int64).max).min(axis=1))
 
 
-def at_the_end(ladder: Ladder) -> NDArray[np.bool_]:
+def at_the_end(ladder: Ladder) -> Bools:
     """Return which errors are the lowest, or cannot fall because of the ladder's end."""
     here = np.arange(ladder.errors.size)
     return np.asarray((here == 0) | (here + dumped_moves(ladder) < 0))

@@ -6,8 +6,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import number, number_probability, one_of, whole
 from evenbreak.handicaps.ladders.form import deviation_grid, difference_law
 from evenbreak.handicaps.ladders.ladder import Ladder
@@ -23,8 +23,6 @@ from evenbreak.league.sandbag_evidence import (
 )
 from evenbreak.league.sandbag_pay import refuse_drift, start_law
 from evenbreak.league.sandbag_watch import at_skills, drift_room, skill_prior
-
-Floats = NDArray[np.float64]
 
 _CHUNK = 250
 """Players simulated side by side, which limits the memory."""
@@ -162,7 +160,7 @@ def _start(ladder: Ladder, start: int | None) -> Floats:
     return np.asarray(law / law.sum())
 
 
-def _advantages(ladder: Ladder, form: float) -> tuple[NDArray[np.int64], Floats]:
+def _advantages(ladder: Ladder, form: float) -> tuple[Ints, Floats]:
     """Return the player's advantages by the opponent's error and both forms, with chances."""
     law = ladder.law()
     points = np.array(law.values, dtype=np.int64)
@@ -199,13 +197,13 @@ class _Simulated:
     def played(
         self,
         rng: np.random.Generator,
-        error: NDArray[np.int64],
+        error: Ints,
         dumps: Floats,
-        may: NDArray[np.bool_],
+        may: Bools,
         shares: tuple[float, ...],
         honest: str,
         threshold: float,
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64], Floats]:
+    ) -> tuple[Ints, Ints, Floats]:
         """Return each player's first alarm (`many` if none), errors, and wins in earnest."""
         size, many = error.size, dumps.size
         rated = np.array([units(float(one), self.likelihood.scale) for one in error])
@@ -231,9 +229,7 @@ class _Simulated:
             error = np.clip(error + self.table.moves[x, end, 0], -self.widest, self.widest)
         return alarm, errors, earnest
 
-    def _chances(
-        self, x: NDArray[np.int64], end: NDArray[np.int64], rated: NDArray[np.int64], place: int
-    ) -> tuple[Floats, Floats]:
+    def _chances(self, x: Ints, end: Ints, rated: Ints, place: int) -> tuple[Floats, Floats]:
         """Return the likelihoods of the final scores, by skill less the rating at the start."""
         rise, fall = drift_room(place)
         low = FARTHEST + fall

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import number, one_of
 from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.systems.system import System
@@ -25,8 +25,6 @@ from evenbreak.league.sandbag_evidence import (
     SandbagEvidence,
 )
 from evenbreak.stats.summary import Distribution
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +49,8 @@ class Watched:
     """
 
     player: str
-    rows: NDArray[np.int64]
-    won: NDArray[np.bool_]
+    rows: Ints
+    won: Bools
     any: Floats
     established: Floats
     honest: str
@@ -92,7 +90,7 @@ def watch(
     *,
     alpha: float = 0.01,
     honest: str = "any",
-    marked: NDArray[np.bool_] | None = None,
+    marked: Bools | None = None,
     day_sd: float = 0.0,
 ) -> list[Watched]:
     """Return the evidence against each player of a season, by name.

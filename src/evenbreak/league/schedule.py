@@ -15,10 +15,11 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from evenbreak.arrays import Ints, Places
 from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
 
-Round = tuple[NDArray[np.intp], NDArray[np.intp]]
+Round = tuple[Places, Places]
 """Who meets whom at one time: two arrays of positions, no position twice."""
 
 _FEW = 1000
@@ -115,7 +116,7 @@ class RandomPairing:
 
     def many_pairs(
         self, rng: np.random.Generator, count: int, times: int
-    ) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    ) -> list[tuple[Places, Places]]:
         """Return the rounds of a week for many leagues of one size, a row for each league.
 
         >>> (a, b), = RandomPairing().many_pairs(np.random.default_rng(1), 6, 2)
@@ -152,9 +153,9 @@ class FixedSchedule:
     (3, 3, [])
     """
 
-    week: NDArray[np.int64] = field(repr=False)
-    a: NDArray[np.int64] = field(repr=False)
-    b: NDArray[np.int64] = field(repr=False)
+    week: Ints = field(repr=False)
+    a: Ints = field(repr=False)
+    b: Ints = field(repr=False)
 
     def __init__(self, week: ArrayLike, a: ArrayLike, b: ArrayLike) -> None:
         for name, given, least in (("week", week, 1), ("a", a, 0), ("b", b, 0)):
@@ -230,7 +231,7 @@ def rounds_of(a: NDArray[Any], b: NDArray[Any]) -> list[Round]:
     return [(a[rows].astype(np.intp), b[rows].astype(np.intp)) for rows in rounds]
 
 
-def _whole_column(given: ArrayLike, name: str, least: int) -> NDArray[np.int64]:
+def _whole_column(given: ArrayLike, name: str, least: int) -> Ints:
     numbers = whole_numbers(given, name, at_least=least)
     if numbers.ndim != 1:
         raise InputError(f"{name} has shape {numbers.shape}; give one whole number for each match")

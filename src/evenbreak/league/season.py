@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Ints
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -18,7 +18,7 @@ from evenbreak.handicaps.systems.match_table import MatchTable, match_table
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.lookup import Lookup, lookup_of
 from evenbreak.league.players import LeaguePlayers
-from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin, Schedule
+from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 from evenbreak.league.tally import fifths_of
 
 _DOUBLINGS = 3.0
@@ -120,7 +120,7 @@ class Season:
         return int(np.abs(self.table.moves).max()) * max(factors, default=1)
 
     @cached_property
-    def fifths(self) -> NDArray[np.int64]:
+    def fifths(self) -> Ints:
         """Each player's fifth by skill at the start, 0 the weakest; one column."""
         return fifths_of(self.players.skill[:, None])
 
@@ -140,8 +140,3 @@ def _check_schedule(schedule: Any, players: int) -> None:
         raise InputError(
             f"schedule is {schedule!r}; give RoundRobin, RandomPairing or FixedSchedule"
         )
-
-
-def draws_opponents(schedule: Schedule) -> bool:
-    """Return whether opponents are drawn at random, so among the players who are present."""
-    return isinstance(schedule, RandomPairing)

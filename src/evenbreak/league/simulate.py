@@ -5,6 +5,10 @@ alone. Each chunk has its own stream of random numbers, the child of the seed wi
 tallies are added in the order of the chunks. So the result does not depend on who did the work or
 how fast.
 
+The replicas of a *batch* share the draw of opponents. Standard errors come from the differences
+between batches, so there must be many of them; but numpy is fast with long arrays. So a *chunk*,
+which is played at a time, has several batches if these are small.
+
 Workers are given several chunks at a time, a parcel, and return the sum of their tallies: sums of
 whole numbers do not depend on how they are bracketed.
 """
@@ -22,7 +26,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from evenbreak.checks import whole
-from evenbreak.league.batches import Batching, batching_of
+from evenbreak.league.counting import ALONE
 from evenbreak.league.many_seasons import run_chunk
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
@@ -31,7 +35,19 @@ from evenbreak.league.workers import in_order
 if TYPE_CHECKING:
     import distributed
 
-_BATCH = 64
+_CHUNK = 1 << 16
+"""Players times replicas in a chunk, unless the league alone is larger."""
+
+_BATCHES = 20
+"""The fewest batches, if there are as many replicas: standard errors come from them."""
+
+_CELLS = 1 << 22
+"""The most cells of the tables in which the batches of a chunk count their matches."""
+
+_MATCHES = 1 << 24
+"""The most matches of a chunk with several batches, so that long seasons can use all workers."""
+
+_TALLIES = 64
 """Tallies that are summed before they are added to the rest, since each sum copies its terms."""
 
 _PARCEL = 1 << 24
@@ -39,6 +55,30 @@ _PARCEL = 1 << 24
 
 _PARCELS = 64
 """The fewest parcels, if there are as many chunks, so that no worker is idle for long."""
+
+
+class Batching(NamedTuple):
+    """How replicas are divided: `replicas` in a batch, `batches` in a chunk."""
+
+    replicas: int
+    batches: int
+
+
+def batching_of(season: Season, replicas: int) -> Batching:
+    """Return how to divide replicas, so that a chunk fits the processor's cache.
+
+    There are 20 batches or more, if there are as many replicas.
+
+    >>> from evenbreak.league import LeaguePlayers, Season
+    >>> season = Season(LeaguePlayers.of([50] * 64), "npl")
+    >>> batching_of(season, 100_000), batching_of(season, 2000)
+    (Batching(replicas=1024, batches=1), Batching(replicas=100, batches=10))
+    """
+    at_once = 1 if len(season.players) > ALONE else _CHUNK // len(season.players)
+    batch = max(1, min(at_once, replicas // _BATCHES))
+    matches = batch * season.weeks * len(season.players) // 2
+    most = at_once // batch, _CELLS // len(season.lookup.wins), _MATCHES // max(matches, 1)
+    return Batching(batch, max(1, min(most)))
 
 
 class _Work(NamedTuple):
@@ -155,5 +195,5 @@ def _sum(tallies: Iterator[Tally]) -> Tally:
     """Add tallies up in their order, some at a time; how sums are bracketed changes nothing."""
     total = next(tallies)
     for first in tallies:
-        total += reduce(add, islice(tallies, _BATCH - 1), first)
+        total += reduce(add, islice(tallies, _TALLIES - 1), first)
     return total

@@ -1,4 +1,4 @@
-"""What is kept of simulated seasons: counts that add up, whoever counted which part."""
+"""What is kept of simulated seasons: counts, which can be added up across workers."""
 
 from __future__ import annotations
 
@@ -8,10 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import InputError
-
-Counts = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 GAP_COLUMNS = ("matches", "stronger_won", "hill_hill", "shutouts", "games")
 """What is summed for each gap between the two skills."""
@@ -89,21 +87,21 @@ class Tally:
     (array([50, 50]), array([10000, 10000]), (2, 101, 3))
     """
 
-    replicas: Counts
-    matches: Counts
-    wins: Counts
-    wins_squared: Counts
-    rating: Counts
-    rating_squared: Counts
-    games: Counts | None
-    products: Counts | None
-    wins_counts: Counts | None
-    rating_counts: Counts | None
-    errors: Counts
+    replicas: Ints
+    matches: Ints
+    wins: Ints
+    wins_squared: Ints
+    rating: Ints
+    rating_squared: Ints
+    games: Ints | None
+    products: Ints | None
+    wins_counts: Ints | None
+    rating_counts: Ints | None
+    errors: Ints
     gap_width: int
     gaps: Floats
     weeks: Floats
-    fifths: Counts
+    fifths: Ints
 
     def __add__(self, other: Tally) -> Tally:
         if not isinstance(other, Tally):
@@ -113,7 +111,7 @@ class Tally:
         return Tally(**{field.name: _added(self, other, field.name) for field in fields(Tally)})
 
     @property
-    def error_values(self) -> NDArray[np.int64]:
+    def error_values(self) -> Ints:
         """The rating errors of the columns of `errors`, in points."""
         most = self.errors.shape[1] // 2
         return np.arange(-most, most + 1)
@@ -181,7 +179,7 @@ class Tally:
         return one, two, three
 
 
-def fifths_of(skill: NDArray[Any]) -> NDArray[np.int64]:
+def fifths_of(skill: NDArray[Any]) -> Ints:
     """Return each player's fifth by skill, 0 the weakest; equals go by their position.
 
     Parameters
@@ -194,7 +192,7 @@ def fifths_of(skill: NDArray[Any]) -> NDArray[np.int64]:
     """
     many = len(skill)
     order = np.argsort(skill, axis=0, kind="stable")
-    fifth: NDArray[np.int64] = np.empty(skill.shape, dtype=np.int64)
+    fifth: Ints = np.empty(skill.shape, dtype=np.int64)
     ranks = (np.arange(many) * FIFTHS // many)[:, None]
     np.put_along_axis(fifth, order, np.broadcast_to(ranks, skill.shape), axis=0)
     return fifth

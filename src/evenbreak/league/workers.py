@@ -111,7 +111,7 @@ def _on_cluster(
 ) -> Callable[[Piece], Any]:
     """Return what gives pieces to a cluster, which keeps what they share.
 
-    It is kept as the result of a task, which is done again where the worker that held it is lost.
+    It is kept as the result of a task; dask does the task again if the worker that held it is lost.
     """
     import dask
 

@@ -1,18 +1,12 @@
 """A picture of a validated season: the chances given, and how often favourites won."""
 
-from __future__ import annotations
+from collections.abc import Sequence
 
-from typing import TYPE_CHECKING
+from matplotlib.figure import Figure
 
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from matplotlib.figure import Figure
-
-    from evenbreak.ratings.calibration import CalibrationBin
-    from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.calibration import CalibrationBin
+from evenbreak.ratings.validate import Validation
 
 
 def calibration_figure(found: Validation) -> Figure:

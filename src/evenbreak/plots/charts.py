@@ -1,19 +1,12 @@
 """The plot of an audit: the stronger player's chance over the rating difference."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit
 from evenbreak.matches.win import race_win_probability
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit
 
 _STEPS = 25  # of the curve over one band
 _NARROW = 0.05

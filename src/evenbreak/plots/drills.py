@@ -1,21 +1,15 @@
 """Plots of a drill: the attempts at each level, in the long run and in a log."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from evenbreak.plots.style import new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from evenbreak.practice.drills import DrillStatistics
-    from evenbreak.practice.log_analysis import LogAnalysis
+from evenbreak.practice.drills import DrillStatistics
+from evenbreak.practice.log_analysis import LogAnalysis
 
 _LEVEL = "level"
 _FRACTION = "fraction of the attempts"

@@ -1,21 +1,17 @@
 """Pictures of a ladder: how far off ratings are, how fast they settle, what a step costs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from evenbreak.handicaps.ladders.settling import Settling
 from evenbreak.plots.style import LINES, new_axes, unit_axis
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from evenbreak.stats.summary import Distribution
+from evenbreak.stats.summary import Distribution
 
 _SHOWN = 1e-3
 """Errors rarer than this share of the most frequent one are beyond the edge of the picture."""
@@ -27,24 +23,6 @@ _PANEL = (450.0, 300.0)
 """The approximate width and height of the axes of the systems, in points."""
 
 _Box = tuple[float, float, float, float]
-
-
-class SettlingCurve(NamedTuple):
-    """How many players have settled after so many matches.
-
-    Parameters
-    ----------
-    start
-        the rating error at the start, in points.
-    within
-        the largest error that counts as settled, in points.
-    settled
-        P(settled within n matches | error `start` at the start), for n = 0, 1, 2, ...
-    """
-
-    start: int
-    within: int
-    settled: Sequence[float]
 
 
 class SystemPoint(NamedTuple):
@@ -75,7 +53,7 @@ def ladder_figure(
     *,
     natural: Distribution | None = None,
     within: int = 5,
-    curve: SettlingCurve | None = None,
+    curve: Settling | None = None,
     title: str | None = None,
 ) -> Figure:
     """Draw the distribution of the rating error, and beside it how fast newcomers settle.
@@ -100,8 +78,6 @@ def ladder_figure(
     >>> figure.axes[0].get_xlabel()
     'rating error: rating less skill (points)'
     """
-    from matplotlib.figure import Figure
-
     width = 6.4 if curve is None else 10.6
     figure = Figure(figsize=(width, 4.4), layout="constrained")
     panels = figure.subplots(1, 1 if curve is None else 2, squeeze=False)[0]
@@ -139,8 +115,7 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
         axes.plot(
             values[p > 0.0],
             p[p > 0.0],
-            color=style.color,
-            linestyle=style.linestyle,
+            **style._asdict(),
             label=f"correctly rated opponents, sd {natural.sd:.2f}",
         )
     shown = errors[chance > _SHOWN * chance.max()]
@@ -152,8 +127,7 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
         axes.plot(
             x,
             spacing * bell,
-            color=style.color,
-            linestyle=style.linestyle,
+            **style._asdict(),
             linewidth=1.2,
             label="normal distribution, same sd",
         )
@@ -164,8 +138,8 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.5)
 
 
-def _draw_settling(axes: Axes, curve: SettlingCurve) -> None:
-    settled = np.asarray(curve.settled, dtype=float)
+def _draw_settling(axes: Axes, curve: Settling) -> None:
+    settled = np.cumsum(curve.chances)
     # Nothing happens after nearly all have settled.
     last = min(int(np.searchsorted(settled, 0.995)) + 1, len(settled))
     matches = np.arange(last)

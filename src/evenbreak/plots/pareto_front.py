@@ -1,16 +1,11 @@
 """The plot of what fairness costs in length."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from matplotlib.figure import Figure
+
+from evenbreak.handicaps.charts.pareto import ParetoChart
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.handicaps.charts.pareto import ParetoChart
 
 
 def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> Figure:

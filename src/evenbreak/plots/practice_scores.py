@@ -1,22 +1,16 @@
 """Plots of practice scores: one list over time, or two side by side."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
+from evenbreak.files.scores import ScoresFile
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from numpy.typing import NDArray
-
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.confidence import MeanInterval
+from evenbreak.stats.confidence import MeanInterval
 
 BAND = "0.85"
 STEP = 0.08
@@ -66,18 +60,10 @@ def plot_scores(
         share = f"{100 * interval.confidence:g}% interval of the true mean"
         axes.axhspan(interval.low, interval.high, color=BAND, linewidth=0, label=share, zorder=0)
     axes.plot(when, file.scores, "o", color=LINES[0].color, label="scores")
-    axes.axhline(
-        mean, color=LINES[1].color, linestyle=LINES[1].linestyle, label=f"mean {mean:.2f}", zorder=1
-    )
+    axes.axhline(mean, **LINES[1]._asdict(), label=f"mean {mean:.2f}", zorder=1)
     if new is not None:
-        axes.plot(
-            np.array([later]),
-            [new],
-            "D",
-            color=LINES[2].color,
-            markersize=8,
-            label=f"new score {new:g}",
-        )
+        label = f"new score {new:g}"
+        axes.plot(np.array([later]), [new], "D", color=LINES[2].color, markersize=8, label=label)
     figure.legend(frameon=False, loc="outside lower center", ncols=2)
     return figure
 

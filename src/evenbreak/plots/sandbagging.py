@@ -1,18 +1,13 @@
 """Pictures of sandbagging: what it pays, and the evidence for it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from matplotlib.figure import Figure
+
+from evenbreak.league.sandbag_pay import Sandbagging
+from evenbreak.league.sandbag_watch import Watched
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.league.sandbag_pay import Sandbagging
-    from evenbreak.league.sandbag_watch import Watched
 
 MOST_NAMED = 6
 """How many players of a league are named; the others are thin lines."""

@@ -1,17 +1,11 @@
 """Pictures of simulated seasons: ratings by week, wins by gap of skill, spread of the standings."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
 
 from evenbreak.files.problems import printable
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    import pandas as pd
-    from matplotlib.figure import Figure
 
 MOST_PLAYERS = 40
 """How many players of the standings are drawn: the first half and the last half of them."""
@@ -47,10 +41,8 @@ def errors_figure(weeks: pd.DataFrame) -> Figure:
         )
     axes.axhline(0.0, color="0.5", linewidth=0.8)
     mean, sd = weeks["error_mean"].to_numpy(), weeks["error_sd"].to_numpy()
-    axes.plot(week, mean, color=LINES[0].color, linestyle=LINES[0].linestyle, label="mean")
-    axes.plot(
-        week, sd, color=LINES[1].color, linestyle=LINES[1].linestyle, label="standard deviation"
-    )
+    axes.plot(week, mean, **LINES[0]._asdict(), label="mean")
+    axes.plot(week, sd, **LINES[1]._asdict(), label="standard deviation")
     axes.set_xlim(float(week[0]), float(week[-1]))
     axes.locator_params(axis="x", integer=True)
     axes.legend(loc="upper right", frameon=False, ncols=2)

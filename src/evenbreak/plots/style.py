@@ -1,15 +1,13 @@
 """One style for all plots: readable in black and white and for the colour-blind."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from matplotlib.text import Text
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 
 class LineStyle(NamedTuple):
@@ -50,8 +48,6 @@ def our_look() -> Iterator[None]:
     ...     mpl.rcParams["font.size"]
     10.0
     """
-    import matplotlib as mpl
-
     with mpl.rc_context():
         mpl.rcdefaults()
         yield
@@ -75,8 +71,6 @@ def new_axes(
     >>> axes.get_xlabel()
     'level'
     """
-    from matplotlib.figure import Figure
-
     figure = Figure(figsize=size, layout="constrained")
     axes = figure.add_subplot()
     axes.set(xlabel=x, ylabel=y)

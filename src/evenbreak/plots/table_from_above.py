@@ -1,16 +1,14 @@
 """A pool table from above: cushions, pockets and diamonds, in inches."""
 
-from __future__ import annotations
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Rectangle
 
 from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.units import INCH
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _RAIL = 5.0
 """How far the rails extend beyond the noses of the cushions, in inches."""
@@ -43,8 +41,6 @@ def draw_table(axes: Axes, table: PoolTable) -> None:
     >>> [round(float(end), 9) for end in axes.get_xlim()]
     [-6.0, 106.0]
     """
-    from matplotlib.patches import Circle, Rectangle
-
     length, width = table.length / INCH, table.width / INCH
     border, size = (-_RAIL, -_RAIL), (length + 2.0 * _RAIL, width + 2.0 * _RAIL)
     axes.add_patch(Rectangle(border, *size, fc="0.82", ec="0.3", lw=1.0, zorder=0))
@@ -61,8 +57,6 @@ def draw_table(axes: Axes, table: PoolTable) -> None:
 
 def draw_ball(axes: Axes, at: Any, radius: float, **style: Any) -> None:
     """Draw a ball at a point, in inches; `style` is for matplotlib's patch."""
-    from matplotlib.patches import Circle
-
     axes.add_patch(Circle(tuple(at), radius, **{"lw": 1.0, "zorder": 5, **style}))
 
 

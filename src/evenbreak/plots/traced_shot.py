@@ -1,10 +1,13 @@
 """A traced shot drawn from above on its table, with the hit enlarged."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.legend_handler import HandlerPatch
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Rectangle
 
 from evenbreak.physics.aimed import AimedShot
 from evenbreak.physics.leg import Leg
@@ -13,10 +16,6 @@ from evenbreak.physics.shot import Shot
 from evenbreak.physics.units import DEGREE, INCH
 from evenbreak.plots.style import LINES
 from evenbreak.plots.table_from_above import bare_axes, draw_ball, draw_table
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _SIZE = (9.0, 8.0)
 _CUE = LINES[1].color
@@ -57,8 +56,6 @@ def shot_on_table(traced: Shot | AimedShot) -> Figure:
     >>> [axes.get_title() for axes in figure.axes]
     ['', 'At the hit', '']
     """
-    from matplotlib.figure import Figure
-
     aimed = traced if isinstance(traced, AimedShot) else None
     found = traced.shot if isinstance(traced, AimedShot) else traced
     figure = Figure(figsize=_SIZE)
@@ -124,9 +121,6 @@ def _draw_end(axes: Axes, leg: Leg, table: PoolTable) -> None:
 
 def _write_key(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
     """Write the key of the lines, and the angles."""
-    from matplotlib.legend_handler import HandlerPatch
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Circle
 
     def as_circle(**space: Any) -> Circle:
         # Drawn as in the picture, with dashes, which a line marker cannot have.
@@ -178,7 +172,5 @@ def _line(axes: Axes, start: Any, end: Any, **style: Any) -> None:
 
 
 def _frame(axes: Axes) -> Any:
-    from matplotlib.patches import Rectangle
-
     frame: dict[str, Any] = {"fc": "none", "ec": "0.5", "lw": 0.8, "transform": axes.transAxes}
     return Rectangle((0.0, 0.0), 1.0, 1.0, **frame, clip_on=False)

@@ -6,15 +6,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import expit, log_expit, logit, logsumexp
 
+from evenbreak.arrays import Floats
 from evenbreak.ratings.calibration import Estimate, logistic_coefficient, two_sided, with_error
 from evenbreak.ratings.results import FORMATS
 from evenbreak.ratings.walk_forward import NODES, Forecasts
 from evenbreak.ratings.who_broke import breakers
-
-Floats = NDArray[np.float64]
 
 MOST_ADVANTAGE = 5.0
 """How far the search for an advantage of the breaker goes, in log-odds."""

@@ -27,9 +27,8 @@ from scipy import sparse
 from scipy.linalg import lapack
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import AccuracyError
-
-Floats = NDArray[np.float64]
 
 _LARGE = 2000
 """From this many rows on, answers may be approximate, because they are much faster."""

@@ -12,11 +12,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import expit, ndtr, ndtri, xlog1py, xlogy
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from evenbreak.arrays import Floats, Ints
 
 CONFIDENCE = 0.95
 """How often intervals cover the truth."""
@@ -25,7 +23,7 @@ REPLICAS = 2_000
 """Samples of a bootstrap."""
 
 TOSS_UP = 1e-9
-"""A chance this near to 1/2 has no favourite: the rounding of an integral makes none."""
+"""A match with a chance this near to 1/2 has no favourite: it may be a rounded 1/2."""
 
 _Z = float(ndtri(0.5 + CONFIDENCE / 2))
 

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Ints
 from evenbreak.ratings.results import Results
 
-Mask = NDArray[np.bool_]
-_Finding = tuple[Mask, str, str]
+_Finding = tuple[Bools, str, str]
 """The rows that fail a check, the column to blame, and a message for `_words` to fill in."""
 
 
@@ -75,7 +75,7 @@ _COUNTS = ("score_a", "score_b", "race_a", "race_b")
 def _cells(results: Results) -> Iterator[_Finding]:
     """Find what is wrong whatever else the row says."""
     for column in _COUNTS:
-        values: NDArray[np.int64] | None = getattr(results, column)
+        values: Ints | None = getattr(results, column)
         if values is not None:
             least = "0, 1, 2, ..." if column.startswith("score") else "1, 2, 3, ..."
             message = f"{column} is {{cells[{column}]}}, below zero; write {least}"
@@ -84,7 +84,7 @@ def _cells(results: Results) -> Iterator[_Finding]:
     yield results.player_a == results.player_b, "player_b", message
 
 
-def _finished(results: Results) -> Mask:
+def _finished(results: Results) -> Bools:
     """Return which rows hold a match played to its end, with scores that are possible."""
     whole = (results.score_a >= 0) & (results.score_b >= 0)
     return whole & ((results.score_a > 0) | (results.score_b > 0)) & ~results.given_away

@@ -14,15 +14,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse.linalg import LinearOperator, cg
 
+from evenbreak.arrays import Floats, Places
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
-
-Floats = NDArray[np.float64]
 
 _DENSE_UP_TO = 2000
 """Players up to which the Hessian is factorised once; with more, each answer is iterated."""
@@ -37,7 +35,8 @@ class Curvature:
     size
         how many players there are.
     low, high, weight
-        the two players of each pair that met, and the pair's curvature, 0 or more.
+        the two players of each pair that met, sorted by the low player and then the high one,
+        and the pair's curvature, 0 or more.
     precision
         τ, the prior precision of a rating.
     border, corner
@@ -46,8 +45,8 @@ class Curvature:
     """
 
     size: int
-    low: NDArray[np.intp]
-    high: NDArray[np.intp]
+    low: Places
+    high: Places
     weight: Floats
     precision: float
     border: Floats | None = None
@@ -56,9 +55,13 @@ class Curvature:
     @cached_property
     def matrix(self) -> sparse.csc_array:
         """The ratings' block: shape (size, size), symmetric, its row sums all `precision`."""
-        shape = (self.size, self.size)
-        upper = sparse.coo_array((-self.weight, (self.low, self.high)), shape=shape).tocsr()
+        upper = self._upper(-self.weight)
         return sparse.csc_array(upper + upper.T + sparse.diags_array(self._diagonal))
+
+    def _upper(self, values: Floats) -> sparse.csr_array:
+        """Return an upper triangle with a value for each pair."""
+        starts = np.searchsorted(self.low, np.arange(self.size + 1))
+        return sparse.csr_array((values, self.high, starts), shape=(self.size, self.size))
 
     @cached_property
     def _diagonal(self) -> Floats:
@@ -125,13 +128,9 @@ class Curvature:
     def _iterate(self, right: Floats, accuracy: float) -> Floats:
         """Return H⁻¹ times a vector by conjugate gradients, H scaled to a unit diagonal."""
         scale = 1.0 / np.sqrt(self._diagonal)
-        matrix = self.matrix
-
-        def product(v: Floats) -> Floats:
-            return np.asarray(scale * (matrix @ (scale * v)))
-
-        shape = (self.size, self.size)
-        scaled = LinearOperator(shape, product, dtype=np.float64)
+        upper = self._upper(self.weight * scale[self.low] * scale[self.high])
+        lower = upper.T
+        scaled = LinearOperator(upper.shape, lambda v: v - upper @ v - lower @ v, dtype=np.float64)
         solution, failed = cg(scaled, scale * right, rtol=accuracy, atol=0.0)
         if failed:
             raise AccuracyError("the ratings' covariance was not found; give a smaller prior_sd")
@@ -140,8 +139,8 @@ class Curvature:
 
 def sums_by_player(
     players: int,
-    low: NDArray[np.intp],
-    high: NDArray[np.intp],
+    low: Places,
+    high: Places,
     for_low: Floats,
     for_high: Floats | None = None,
 ) -> Floats:

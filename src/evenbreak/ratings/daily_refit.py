@@ -2,8 +2,8 @@
 
 The model is that of `evenbreak.ratings.posterior`. Little changes from one day to the next,
 so a few Newton steps from yesterday's mode find today's. Newton systems, and the variances
-of today's differences, are solved by conjugate gradients: no slower than a factorisation
-here, and no threads that wait for each other.
+of today's differences, are solved by conjugate gradients, which here take no longer than a
+factorisation and start no threads that wait for each other.
 """
 
 from __future__ import annotations
@@ -12,15 +12,12 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.special import expit
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.covariance import sums_by_player
 from evenbreak.ratings.newton import damped, find_zero, tolerance
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 GRADIENT = 1e-6
 """How small the gradient has to become, in games, times τ where that is below 1."""

@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats
 from evenbreak.checks import positive
 from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 
 
-def day_of(value: Any, name: str = "as_of") -> np.datetime64:
+def day_of(value: Any) -> np.datetime64:
     """Return a day: a date, a `numpy.datetime64`, or text such as '2026-01-31'.
 
     Raises
@@ -28,11 +29,11 @@ def day_of(value: Any, name: str = "as_of") -> np.datetime64:
     except (TypeError, ValueError):
         day = np.datetime64("NaT", "D")
     if np.isnat(day):
-        raise InputError(f"{name} is {value!r}; give a day, such as 2026-01-31")
+        raise InputError(f"as_of is {value!r}; give a day, such as 2026-01-31")
     return day
 
 
-def until(results: Results, as_of: np.datetime64) -> NDArray[np.bool_]:
+def until(results: Results, as_of: np.datetime64) -> Bools:
     """Return which matches were played by the end of a day.
 
     Raises
@@ -44,9 +45,7 @@ def until(results: Results, as_of: np.datetime64) -> NDArray[np.bool_]:
     return np.asarray(date <= as_of)
 
 
-def match_weights(
-    results: Results, half_life: float, as_of: np.datetime64 | None = None
-) -> NDArray[np.float64]:
+def match_weights(results: Results, half_life: float, as_of: np.datetime64 | None = None) -> Floats:
     """Return the weight of each match: 1 on the day `as_of`, 1/2 `half_life` days before.
 
     A game of weight w enters the likelihood with the power w, so it counts as w games.

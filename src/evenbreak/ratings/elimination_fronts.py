@@ -9,11 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import spilu
 
-Ints = NDArray[np.intp]
+from evenbreak.arrays import Places
 
 _ONE_FRONT_UP_TO = 300
 _PADDING, _PADDING_PER_ROW = 64, 20
@@ -28,8 +27,8 @@ class Front:
     this front takes up; they come before it.
     """
 
-    pivots: Ints
-    rows: Ints
+    pivots: Places
+    rows: Places
     children: list[int] = field(default_factory=list)
 
 
@@ -65,7 +64,7 @@ def _fills_in(matrix: sparse.csc_array) -> bool:
     return bool(np.median(reached) > size / 6)
 
 
-def _minimum_degree(matrix: sparse.csc_array) -> Ints:
+def _minimum_degree(matrix: sparse.csc_array) -> Places:
     """Return the columns in the order of elimination.
 
     SuperLU orders before it factorises, and an incomplete factor that drops all it may
@@ -82,13 +81,13 @@ def _minimum_degree(matrix: sparse.csc_array) -> Ints:
     return np.argsort(factor.perm_c)
 
 
-def _gather(matrix: sparse.csc_array, order: Ints) -> list[Front]:
+def _gather(matrix: sparse.csc_array, order: Places) -> list[Front]:
     """Return the fronts for an order, in the names of the matrix."""
     size = len(order)
     rank = np.empty(size, dtype=np.intp)
     rank[order] = np.arange(size)
     pivots: list[list[int]] = []
-    rows: list[Ints] = []
+    rows: list[Places] = []
     children: list[list[int]] = []
     waiting: list[list[int]] = [[] for _ in range(size)]  # fronts, by the first of their rows
     for k in range(size):

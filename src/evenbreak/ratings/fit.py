@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of, match_weights, until
@@ -28,7 +28,7 @@ PRIOR_SD = math.log(2.0)
 That is 30 points in the NPL and 100 on the Fargo scale. The NPL's own range, from beginners
 at 20 to professionals at 130, is four of them wide. A season of snooker professionals, who are
 closer to each other, is predicted best with 0.36 (see `evenbreak.ratings.prior`); there ln 2
-costs 0.0024 of log-loss a frame. It weighs as much as eight games against an equal opponent,
+costs 0.0024 of log-loss a frame. The prior weighs as much as eight games against an equal opponent,
 so after a few matches the results dominate.
 """
 
@@ -115,16 +115,26 @@ def fit(
     pairs = count_pairs(
         len(results.players), scored.player_a, scored.player_b, scored.score_a, scored.score_b
     )
+    played: PairCounts | LikelihoodTerms = pairs
+    advantage = break_precision = None
+    break_games = 0.0
     if not len(won_only) and half_life is None and break_advantage is None:
-        found = _by_games(pairs, prior_sd)
+        mode = find_mode(pairs, prior_sd**-2)
+        skill = mode.point
     else:
+        breaks = break_advantage is not None
+        known = _known_advantage(break_advantage, scale) if breaks else 0.0
         weights = _weights(scored, won_only, half_life, day)
-        breaks = _break(break_advantage, scale)
-        found = _by_all(
-            likelihood_terms(scored, won_only, weights, breaks=breaks.enters), prior_sd, breaks
+        played = terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
+        break_games = terms.games_with_breaker if breaks else 0.0
+        break_precision = BREAK_SD**-2 if known is None and break_games else None
+        mode = find_mixed_mode(
+            terms, prior_sd**-2, advantage=known or 0.0, break_precision=break_precision
         )
-    component = _components(found.played.graph)
-    rating = centre + scale.points_per_log_odds * found.skill
+        skill = mode.point[:-1]
+        advantage = float(mode.point[-1]) if break_games else None
+    component = _components(played.graph)
+    rating = centre + scale.points_per_log_odds * skill
     races_won, races_lost = _races(won_only)
     return Ratings(
         players=results.players,
@@ -136,8 +146,8 @@ def fit(
         scale=scale,
         anchor=centre,
         prior_sd=prior_sd,
-        iterations=found.iterations,
-        gradient=found.gradient,
+        iterations=mode.iterations,
+        gradient=mode.gradient,
         matches=len(scored) + len(won_only),
         forfeits=forfeits,
         empty=empty,
@@ -147,11 +157,11 @@ def fit(
         half_life=None if half_life is None else float(half_life),
         as_of=day,
         later=len(results) - len(in_time),
-        break_advantage=None if found.advantage is None else scale.points(found.advantage),
-        break_games=found.break_games,
-        _played=found.played,
-        _skill=found.skill,
-        _break_precision=found.break_precision,
+        break_advantage=None if advantage is None else scale.points(advantage),
+        break_games=break_games,
+        _played=played,
+        _skill=skill,
+        _break_precision=break_precision,
     )
 
 
@@ -161,59 +171,11 @@ def checked_prior(prior_sd: Any) -> float:
     return number(prior_sd, "prior_sd", low=NARROWEST, high=WIDEST, wanted=wanted)
 
 
-class _Found(NamedTuple):
-    """The mode, and what the uncertainty of the ratings follows from."""
-
-    skill: NDArray[np.float64]
-    gradient: float
-    iterations: int
-    played: PairCounts | LikelihoodTerms
-    advantage: float | None = None
-    break_precision: float | None = None
-    break_games: float = 0.0
-
-
-class _Break(NamedTuple):
-    """Whether the break matters, whether its advantage is estimated, and what it is if not."""
-
-    enters: bool
-    estimated: bool
-    advantage: float
-
-
-def _by_games(pairs: PairCounts, prior_sd: float) -> _Found:
-    """Return the mode where every game counts alike."""
-    mode = find_mode(pairs, prior_sd**-2)
-    return _Found(mode.point, mode.gradient, mode.iterations, pairs)
-
-
-def _by_all(terms: LikelihoodTerms, prior_sd: float, breaks: _Break) -> _Found:
-    """Return the mode where matches differ in weight, in what is known, or in who broke."""
-    known = terms.games_with_breaker if breaks.enters else 0.0
-    estimated = breaks.estimated and known > 0.0
-    break_precision = BREAK_SD**-2 if estimated else None
-    mode = find_mixed_mode(
-        terms, prior_sd**-2, advantage=breaks.advantage, break_precision=break_precision
-    )
-    enters = breaks.enters and known > 0.0
-    return _Found(
-        mode.skill,
-        mode.gradient,
-        mode.iterations,
-        terms,
-        mode.advantage if enters else None,
-        break_precision,
-        known,
-    )
-
-
-def _break(value: Any, scale: Scale) -> _Break:
-    if value is None:
-        return _Break(False, False, 0.0)
+def _known_advantage(value: Any, scale: Scale) -> float | None:
+    """Return the break advantage in log-odds; None where it is estimated."""
     if value == "fit":
-        return _Break(True, True, 0.0)
-    points = number(value, "break_advantage", wanted="points, 'fit' or None")
-    return _Break(True, False, scale.log_odds(points))
+        return None
+    return scale.log_odds(number(value, "break_advantage", wanted="points, 'fit' or None"))
 
 
 def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float, dict[str, float]]:
@@ -232,11 +194,11 @@ def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float
 
 
 def _shifted(
-    rating: NDArray[np.float64],
+    rating: Floats,
     named: Mapping[str, float],
     players: tuple[str, ...],
-    component: NDArray[np.int64],
-) -> NDArray[np.float64]:
+    component: Ints,
+) -> Floats:
     """Return the ratings, each component shifted so that its named players fit on average."""
     at = np.array([players.index(name) for name in named], dtype=np.int64)
     missing = np.array(list(named.values())) - rating[at]
@@ -248,7 +210,7 @@ def _shifted(
 
 def _weights(
     scored: Results, won_only: Results, half_life: float | None, day: np.datetime64 | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """Return the weight of each match; ages are counted from the last match of all."""
     if half_life is None:
         return np.ones(len(scored)), np.ones(len(won_only))
@@ -260,7 +222,7 @@ def _weights(
     return match_weights(scored, half_life, day), match_weights(won_only, half_life, day)
 
 
-def _races(won_only: Results) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _races(won_only: Results) -> tuple[Ints, Ints]:
     """Return how many matches known by their winner alone each player won and lost."""
     players = len(won_only.players)
     a_won = np.zeros(0, bool) if won_only.winner is None else won_only.winner == 1
@@ -279,7 +241,7 @@ def _refuse_nonsense(scored: Results, won_only: Results) -> None:
             )
 
 
-def _components(graph: sparse.csr_array) -> NDArray[np.int64]:
+def _components(graph: sparse.csr_array) -> Ints:
     """Return the component of each player, numbered from 1, the largest first."""
     number, label = connected_components(graph, directed=False)
     size = np.bincount(label, minlength=number)

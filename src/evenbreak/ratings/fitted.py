@@ -8,16 +8,13 @@ from dataclasses import KW_ONLY, dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.errors import InputError
 from evenbreak.ratings.covariance import Curvature
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
 from evenbreak.ratings.pairs import PairCounts
 from evenbreak.ratings.scale import Scale
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +84,7 @@ class Ratings:
     _break_precision: float | None = field(default=None, repr=False)
 
     @property
-    def idle(self) -> NDArray[np.bool_]:
+    def idle(self) -> Bools:
         """Which players have no result that counts: theirs is the prior's rating."""
         return np.asarray(self.games + self.races_won + self.races_lost == 0)
 
@@ -228,7 +225,7 @@ class Ratings:
             self._skill, advantage, self.prior_sd**-2, self._break_precision
         )
 
-    def _levels(self) -> list[tuple[NDArray[np.bool_], Floats]]:
+    def _levels(self) -> list[tuple[Bools, Floats]]:
         """Return the players of each anchored component, and each one's share in its level."""
         at = np.array([self._position(name) for name, _ in self.named], dtype=np.int64)
         levels = []

@@ -13,14 +13,12 @@ and of S⁻¹ only the entries that the block touches are needed (Takahashi, Fag
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import lapack
 
+from evenbreak.arrays import Floats
 from evenbreak.ratings.approximate_diagonal import approximate_diagonal, not_definite
 from evenbreak.ratings.elimination_fronts import Front, fronts_of
-
-Floats = NDArray[np.float64]
 
 _TRACE = 1e-100
 _NOTHING = np.zeros((0, 0))

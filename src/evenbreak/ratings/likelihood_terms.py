@@ -19,14 +19,12 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.special import expit
 
+from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.ratings.covariance import Curvature, sums_by_player
 from evenbreak.ratings.own_break_wins import BreakWinsTerms
 from evenbreak.ratings.race_likelihood import race_slopes
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.who_broke import count_broken
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,13 +49,13 @@ class LikelihoodTerms:
     """
 
     players: int
-    low: Ints
-    high: Ints
-    pair: Ints
+    low: Places
+    high: Places
+    pair: Places
     broke: NDArray[np.int8]
     won: Floats
     lost: Floats
-    race_pair: Ints
+    race_pair: Places
     race_side: Floats
     race_m: Floats
     race_n: Floats
@@ -188,7 +186,7 @@ def likelihood_terms(
     )
 
 
-def _pair_codes(results: Results) -> NDArray[np.int64]:
+def _pair_codes(results: Results) -> Ints:
     low = np.minimum(results.player_a, results.player_b)
     high = np.maximum(results.player_a, results.player_b)
     return np.asarray(low * len(results.players) + high)

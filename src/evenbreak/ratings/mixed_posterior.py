@@ -9,27 +9,15 @@ player broke, the sum is still concave in θ, though not necessarily in β.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
-from evenbreak.ratings.newton import find_zero, tolerance
-
-Floats = NDArray[np.float64]
+from evenbreak.ratings.newton import Mode, find_zero, step_accuracy, tolerance
 
 _FULL_STEP = 1e-6
 """Newton steps shorter than this are taken whole: the value can no longer measure their gain."""
-
-
-class MixedMode(NamedTuple):
-    """Where the posterior is highest, and how well it was found."""
-
-    skill: Floats
-    advantage: float
-    gradient: float
-    iterations: int
 
 
 def find_mixed_mode(
@@ -39,8 +27,8 @@ def find_mixed_mode(
     advantage: float = 0.0,
     break_precision: float | None = None,
     start: Floats | None = None,
-) -> MixedMode:
-    """Return the skills, and the break advantage, that are most likely a posteriori.
+) -> Mode:
+    """Return the skills, and then the break advantage, that are most likely a posteriori.
 
     Parameters
     ----------
@@ -81,8 +69,7 @@ def find_mixed_mode(
         def step() -> Floats:
             nonlocal value
             curvature = terms.curvature(skill, advantage, precision, break_precision)
-            accuracy = max(min(0.1, float(np.abs(whole).max())), 1e-9)
-            full = np.append(*curvature.newton_step(gradient, slope, accuracy))
+            full = np.append(*curvature.newton_step(gradient, slope, step_accuracy(whole)))
             length, longest = 1.0, float(np.abs(full).max())
             while True:
                 new = cost(point + length * full)
@@ -95,5 +82,4 @@ def find_mixed_mode(
         return whole, step
 
     most = max(float(terms.race_m.max(initial=0)), terms.amount)
-    mode = find_zero(begin, gradient_at, tolerance(precision, most))
-    return MixedMode(mode.point[:-1], float(mode.point[-1]), mode.gradient, mode.iterations)
+    return find_zero(begin, gradient_at, tolerance(precision, most))

@@ -7,11 +7,9 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Places
 from evenbreak.errors import AccuracyError
-
-Floats = NDArray[np.float64]
 
 MOST_STEPS = 200
 GRADIENT_TOLERANCE = 1e-8
@@ -79,7 +77,18 @@ def find_zero(
     )
 
 
-def damped(step: Floats, low: NDArray[np.intp], high: NDArray[np.intp]) -> Floats:
+def step_accuracy(gradient: Floats) -> float:
+    """Return how exactly to solve for a Newton step: more exactly as the gradient gets smaller.
+
+    The error of an inexact step adds to the squared error of the exact one.
+
+    >>> step_accuracy(np.array([0.01, -0.02]))
+    0.02
+    """
+    return max(min(0.1, float(np.abs(gradient).max())), 1e-9)
+
+
+def damped(step: Floats, low: Places, high: Places) -> Floats:
     """Return a Newton step, shortened where it would change a skill difference by much.
 
     Where the skills of opponents change by at most β, log(1 + β)/β of the step always goes

@@ -18,10 +18,9 @@ from math import comb, log
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import logsumexp
 
-Floats = NDArray[np.float64]
+from evenbreak.arrays import Floats
 
 
 class BreakWins(NamedTuple):

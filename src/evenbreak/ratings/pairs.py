@@ -5,14 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.special import expit
 
+from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.ratings.covariance import Curvature
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,8 +23,8 @@ class PairCounts:
     won: Ints
     lost: Ints
     games: sparse.csr_array
-    low: NDArray[np.intp]
-    high: NDArray[np.intp]
+    low: Places
+    high: Places
 
     @property
     def graph(self) -> sparse.csr_array:

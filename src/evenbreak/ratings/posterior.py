@@ -18,16 +18,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, cg
 from scipy.special import expit
 
-from evenbreak.ratings.covariance import sums_by_player
-from evenbreak.ratings.newton import Mode, damped, find_zero, tolerance
+from evenbreak.arrays import Floats
+from evenbreak.ratings.covariance import Curvature, sums_by_player
+from evenbreak.ratings.newton import Mode, damped, find_zero, step_accuracy, tolerance
 from evenbreak.ratings.pairs import PairCounts
-
-Floats = NDArray[np.float64]
 
 
 def find_mode(pairs: PairCounts, precision: float) -> Mode:
@@ -57,7 +53,7 @@ def find_mode(pairs: PairCounts, precision: float) -> Mode:
     start = np.log((pairs.won + 2.0 * precision) / (pairs.lost + 2.0 * precision))
     games = pairs.games.data
     ends = len(pairs.won), pairs.low, pairs.high
-    # Written over in each step: to allocate them anew would cost a tenth of the time.
+    # Written over in each step, since allocating them each time takes a tenth longer.
     p_low, surplus = np.empty_like(games), np.empty_like(games)
 
     def gradient_at(skill: Floats) -> tuple[Floats, Callable[[], Floats]]:
@@ -66,29 +62,11 @@ def find_mode(pairs: PairCounts, precision: float) -> Mode:
         gradient = sums_by_player(*ends, surplus, games - surplus) - pairs.won + precision * skill
 
         def step() -> Floats:
-            full = _newton_step(pairs, surplus * (1.0 - p_low), gradient, precision)
+            curvature = Curvature(*ends, surplus * (1.0 - p_low), precision)
+            full, _ = curvature.newton_step(gradient, 0.0, step_accuracy(gradient))
             return damped(full, pairs.low, pairs.high)
 
         return gradient, step
 
     most = float((pairs.won + pairs.lost).max(initial=0))
     return find_zero(start, gradient_at, tolerance(precision, most))
-
-
-def _newton_step(pairs: PairCounts, weight: Floats, gradient: Floats, precision: float) -> Floats:
-    """Return -H⁻¹g by conjugate gradients, H scaled to a unit diagonal."""
-    diagonal = sums_by_player(len(pairs.won), pairs.low, pairs.high, weight) + precision
-    scale = 1.0 / np.sqrt(diagonal)
-    upper = _with_data(pairs.games, weight * scale[pairs.low] * scale[pairs.high])
-    lower = upper.T
-    shape = pairs.games.shape
-    scaled = LinearOperator(shape, lambda v: v - upper @ v - lower @ v, dtype=np.float64)
-    right = -scale * gradient
-    # The error of an inexact step adds to the squared error of the exact one.
-    accuracy = min(0.1, float(np.abs(right).max()))
-    solution, _ = cg(scaled, right, rtol=max(accuracy, 1e-9), atol=0.0)
-    return scale * np.asarray(solution)
-
-
-def _with_data(matrix: sparse.csr_array, data: Floats) -> sparse.csr_array:
-    return sparse.csr_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)

@@ -15,9 +15,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import betainc, betaln, expit, hyp2f1, log_expit
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 
 _FAR = 1e-200
@@ -27,9 +28,9 @@ _FAR = 1e-200
 class RaceSlopes(NamedTuple):
     """log W(p(d); m, n), and its first and second derivative in d, elementwise."""
 
-    log_win: NDArray[np.float64]
-    slope: NDArray[np.float64]
-    curvature: NDArray[np.float64]
+    log_win: Floats
+    slope: Floats
+    curvature: Floats
 
 
 def race_slopes(difference: ArrayLike, m: ArrayLike, n: ArrayLike) -> RaceSlopes:

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from evenbreak.arrays import Bools, Ints
 from evenbreak.checks import column
 from evenbreak.errors import InputError
 
@@ -93,21 +94,21 @@ class Results:
     """
 
     players: tuple[str, ...]
-    player_a: NDArray[np.int64]
-    player_b: NDArray[np.int64]
-    score_a: NDArray[np.int64]
-    score_b: NDArray[np.int64]
+    player_a: Ints
+    player_b: Ints
+    score_a: Ints
+    score_b: Ints
     _: KW_ONLY
     date: NDArray[np.datetime64] | None = None
-    race_a: NDArray[np.int64] | None = None
-    race_b: NDArray[np.int64] | None = None
+    race_a: Ints | None = None
+    race_b: Ints | None = None
     winner: NDArray[np.int8] | None = None
     first_break: NDArray[np.int8] | None = None
     break_format: NDArray[np.int8] | None = None
     racks: NDArray[np.object_] | None = None
     event: NDArray[np.object_] | None = None
-    forfeit: NDArray[np.bool_] | None = None
-    unscored: NDArray[np.bool_] | None = None
+    forfeit: Bools | None = None
+    unscored: Bools | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "players", tuple(self.players))
@@ -164,7 +165,7 @@ class Results:
         return len(self.player_a)
 
     @property
-    def races(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def races(self) -> tuple[Ints, Ints]:
         """The games that a and b needed to win each match, 0 where not stated."""
         zeros = np.zeros(len(self), dtype=np.int64)
         return (
@@ -173,7 +174,7 @@ class Results:
         )
 
     @property
-    def given_away(self) -> NDArray[np.bool_]:
+    def given_away(self) -> Bools:
         """Which matches were forfeits."""
         return np.zeros(len(self), dtype=bool) if self.forfeit is None else self.forfeit
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import column
 from evenbreak.errors import InputError
 
@@ -55,11 +56,11 @@ class Roster:
     """
 
     players: tuple[str, ...]
-    rating: NDArray[np.float64]
-    standard_error: NDArray[np.float64]
-    games: NDArray[np.int64]
-    component: NDArray[np.int64]
-    matches: NDArray[np.int64]
+    rating: Floats
+    standard_error: Floats
+    games: Ints
+    component: Ints
+    matches: Ints
 
     def __init__(
         self,

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.calibration import (
     Estimate,
     bootstrap_ratio,
@@ -22,7 +22,6 @@ from evenbreak.ratings.prior import WIDTHS
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.walk_forward import Forecasts, walk_forward
 
-Floats = NDArray[np.float64]
 Of = Literal["game", "match"]
 How = Literal["plug-in", "integrated"]
 
@@ -123,7 +122,7 @@ class Predictions:
 
     def scored(
         self,
-        cluster: NDArray[np.int64],
+        cluster: Ints,
         rng: np.random.Generator,
         as_it_went: float | None = None,
     ) -> Scored:

@@ -12,18 +12,15 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import expit
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.daily_refit import DailyRefit
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
 from evenbreak.ratings.results import Results
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 NODES = 31
 """Nodes of the Gauss-Hermite rule that integrates a prediction over a rating difference."""
@@ -93,7 +90,7 @@ class Forecasts:
         return self.results.score_a + self.results.score_b
 
     @property
-    def new(self) -> NDArray[np.bool_]:
+    def new(self) -> Bools:
         """Whether one of the two players had not played before."""
         return np.asarray((self.known_a == 0) | (self.known_b == 0))
 

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.errors import InputError
 from evenbreak.ratings.own_break_wins import BreakWinsTerms, break_wins
 from evenbreak.ratings.results import FORMATS, Results
@@ -25,9 +26,9 @@ class Broken(NamedTuple):
     which row of `own_breaks` applies, else -1; won and lost then hold its middle.
     """
 
-    won: NDArray[np.float64]
-    lost: NDArray[np.float64]
-    pattern: NDArray[np.int64]
+    won: Floats
+    lost: Floats
+    pattern: Ints
     own_breaks: BreakWinsTerms
 
 
@@ -122,13 +123,13 @@ def _last_winner(results: Results) -> NDArray[np.int8]:
 
 def _by_score(
     results: Results,
-    rows: NDArray[np.intp],
+    rows: Places,
     form: NDArray[np.int8],
     first: NDArray[np.int8],
     last: NDArray[np.int8],
-    won: NDArray[np.float64],
-    lost: NDArray[np.float64],
-) -> tuple[NDArray[np.int64], BreakWinsTerms]:
+    won: Floats,
+    lost: Floats,
+) -> tuple[Ints, BreakWinsTerms]:
     """Fill in the games of matches known by their score, and return how they may be divided."""
     pattern = np.full(len(results), -1)
     keys = np.column_stack([form, first, last, results.score_a, results.score_b])[rows]

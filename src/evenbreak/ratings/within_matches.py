@@ -11,14 +11,11 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import expit
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.calibration import two_sided
 from evenbreak.ratings.walk_forward import Forecasts
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 REPLICAS = 300
 """Simulated seasons."""
@@ -86,7 +83,7 @@ def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | N
         won, games = play_races(drawn, m, n, rng)
         played[k] = _spread(won, games, p)
     mean = float(played.mean())
-    # In simulated seasons a rating's error is drawn anew in every match.
+    # In simulated seasons a rating's error is drawn again for every match.
     z = (seen - mean) / max(float(played.std(ddof=1)), 1e-300)
     return Dispersion(seen, mean, two_sided(z), int(rows.sum()))
 

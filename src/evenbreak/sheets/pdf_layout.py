@@ -1,7 +1,5 @@
 """How large everything on the paper sheet is, so that the table fills the page."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,11 +1,11 @@
 """The fair-race sheet on paper: the race against each opponent, and each rating, to pin up."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.figure import Figure
 
 from evenbreak.answers.left_out import left_out
 from evenbreak.answers.report_frames import file_name
@@ -43,9 +43,6 @@ from evenbreak.sheets.pdf_page import (
 )
 from evenbreak.sheets.race_blocks import Block, parts_of, race_blocks
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, Tick, player_lines
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MOST_PAIRED = 48
 """Players that are put on paper; the files hold all."""

@@ -1,7 +1,5 @@
 """The fair-race sheet as one HTML file: for a phone, a screen, a printer and a screen reader."""
 
-from __future__ import annotations
-
 from evenbreak.answers.left_out import left_out
 from evenbreak.answers.remarks import warnings_of
 from evenbreak.answers.report_frames import count_groups, file_name

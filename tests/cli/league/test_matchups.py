@@ -51,7 +51,7 @@ def test_all_pairs_as_csv(run, roster):
     assert list(rows[0]) == COLUMNS
     assert (rows[1]["chart_race_a"], rows[1]["chart_race_b"]) == ("6", "4")
     assert rows[1]["difference_error"] == ""
-    assert "npl scale" in result.stderr
+    assert "NPL scale" in result.stderr
 
 
 def test_pairs_in_the_order_of_the_list(run, roster):
@@ -206,7 +206,7 @@ def test_stdin(run):
         (("--race-to", "7", "--starter-sd", "-1"), "'-1'"),
         (("--race-to", "7", "--starter-sd", "151"), "150"),
         (("--race-to", "7", "--scale", "x"), "npl, fargo, elo"),
-        (("--race-to", "7", "--pairs", "-", "--chart", "-"), "stdin"),
+        (("--race-to", "7", "--pairs", "-", "--chart", "-"), "standard input"),
     ],
 )
 def test_wrong_use_says_how_to_mend_it(run, roster, words, remedy):

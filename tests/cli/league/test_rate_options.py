@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from evenbreak.cli.league.rate_options import DAYS, Day, PointsOr, prior_in_log_odds
+from evenbreak.cli.league.rate_options import DAYS, PointsOr, prior_in_log_odds, read_day
 from evenbreak.ratings import scale_of
 
 
@@ -26,13 +26,13 @@ def test_other_words_are_refused_with_the_one_that_is_known(text):
 
 @pytest.mark.parametrize("text", ["2026-01-31", "31.1.2026", "2026/1/31"])
 def test_a_day_as_results_files_write_it(text):
-    assert read(Day(), text) == "2026-01-31"
+    assert read_day(text) == "2026-01-31"
 
 
 @pytest.mark.parametrize("text", ["soon", "3/1/2026", "2026-02-30"])
 def test_other_days_are_refused(text):
     with pytest.raises(click.BadParameter, match="2026-01-31"):
-        read(Day(), text)
+        read_day(text)
 
 
 def test_days_of_a_half_life():

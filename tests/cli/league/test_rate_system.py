@@ -48,20 +48,15 @@ def test_next_weeks_list_into_a_pipe(rate):
 def test_in_text_who_gained_and_why_and_the_list(rate):
     result = rate("night.csv", "--chart", "npl_10", "--text")
     assert result.exit_code == 0
-    lines = result.stdout.splitlines()
-    start = lines.index("  played    was  is  change  why")
+    lines = [" ".join(line.split()) for line in result.stdout.splitlines()]
+    start = lines.index("player was now change why")
     assert lines[start + 1 : start + 5] == [
-        "  Ann        92  94      +2  beat Diaz, Bo 5-3 (race 5:4)",
-        "                             beat Cy 6-2 (race 6:4)",
-        "  Diaz, Bo   80  79      -1  lost to Ann 3-5 (race 4:5)",
-        "  Cy         71  70      -1  lost to Ann 2-6 (race 4:6)",
+        "Ann 92 94 +2 beat Diaz, Bo 5-3 (race 5:4)",
+        "beat Cy 6-2 (race 6:4)",
+        "Diaz, Bo 80 79 -1 lost to Ann 3-5 (race 4:5)",
+        "Cy 71 70 -1 lost to Ann 2-6 (race 4:6)",
     ]
-    assert lines[-4:] == [
-        "  1  Ann           94    156",
-        "  2  Diaz, Bo      79    128",
-        "  3  Cy            70",
-        "  4  =cmd()        60      0",
-    ]
+    assert lines[-4:] == ["1 Ann 94 156", "2 Diaz, Bo 79 128", "3 Cy 70", "4 =cmd() 60 0"]
 
 
 def test_json(rate):
@@ -164,10 +159,10 @@ def test_the_chart_of_a_fixed_length_system_is_taken_by_itself(rate):
 @pytest.mark.parametrize(
     ("system", "message"),
     [
-        ("fide", "--system is 'fide'; give npl, step UP [DOWN], margin [MOST]"),
-        ("step", "--system is 'step'; write it as step UP [DOWN], in whole numbers"),
-        ("elo 0", "--system is 'elo 0': k is 0; give a whole number, 1 or more"),
-        ("fixed 8", "--system is 'fixed 8': games is 8"),
+        ("fide", "system is 'fide'; give npl, step UP [DOWN], margin [MOST]"),
+        ("step", "system is 'step'; write it as step UP [DOWN], in whole numbers"),
+        ("elo 0", "system is 'elo 0': k is 0"),
+        ("fixed 8", "system is 'fixed 8': games is 8"),
     ],
 )
 def test_a_system_that_there_is_not_is_refused(rate, system, message):
@@ -182,25 +177,27 @@ def test_a_race_beside_the_chart_is_warned_of(rate, tmp_path):
     )
     result = rate("night.csv", "--chart", "npl_10")
     assert result.exit_code == 0
-    assert "night.csv:2: 'Ann' - 'Cy' was a race 5:5; the chart npl_10 has 6:4" in result.stderr
+    assert (
+        "night.csv:2: 'Ann' - 'Cy' played a race 5:5, but the chart npl_10 has 6:4" in result.stderr
+    )
 
 
 def test_without_a_chart_the_only_one_that_fits_is_used_and_named(rate):
     result = rate("night.csv")
     assert (result.exit_code, result.stdout) == (0, LIST)
-    assert "npl_10, the only one" in result.stderr
+    assert "npl_10" in result.stderr
 
 
 @pytest.mark.parametrize(
     ("words", "code", "remedy"),
     [
-        (["open.csv"], 3, "--chart NAME serves for all"),
+        (["open.csv"], 3, "--chart NAME settles them all"),
         (["night.csv", "--chart", "npl_8"], 3, "5-3 does not finish the race 4:3"),
         (["night.csv", "--chart", "npl_9"], 3, "no chart has this name"),
         (["night.csv", "--chart", "apa_8ball"], 2, "give one of rating differences"),
         (["none.csv", "--chart", "npl_10"], 3, "there is no such file"),
         (["night.csv", "--roster", "none.csv"], 3, "there is no such file"),
-        (["night.csv", "--system", "fide"], 2, "--system is 'fide'; give npl"),
+        (["night.csv", "--system", "fide"], 2, "system is 'fide'; give npl"),
         (["-", "--roster", "-"], 2, "which only one file can be"),
         (["night.csv", "--roster", "night.csv"], 3, "there is no column 'player'"),
         (["night.csv", "--aliases", "last.csv"], 3, "there is no column 'name'"),

@@ -226,7 +226,7 @@ def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
     short = "".join(season[:81])
     words = ("--prior", "best", "--half-life", "180", "--as-of", "2024-10-20")
     result = run("report", "-", "--out", str(tmp_path), *words, stdin=short)
-    assert "of 12 spreads this one" in " ".join(result.stdout.split())
+    assert "of 12 values tried" in " ".join(result.stdout.split())
     listed = list(csv.DictReader(io.StringIO(run("rate", "-", *words, stdin=short).stdout)))
     columns = ("player", "rating", "standard_error")
     assert [[row[name] for name in columns] for row in listed] == (

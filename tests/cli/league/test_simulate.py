@@ -168,10 +168,10 @@ def test_what_may_be_wrong_is_a_warning(run, tmp_path, options, warnings):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--random", "--round-robin"), "--round-robin and --random exclude each other"),
-        (("--random", *FIXTURES), "--schedule and --random exclude each other"),
-        (("--matches", "2", *FIXTURES), "--schedule and --matches exclude each other"),
-        (("--jobs", "2", "--dask", "tcp://x:1"), "--dask and --jobs exclude each other"),
+        (("--random", "--round-robin"), "--round-robin and --random cannot be combined"),
+        (("--random", *FIXTURES), "--schedule and --random cannot be combined"),
+        (("--matches", "2", *FIXTURES), "--schedule and --matches cannot be combined"),
+        (("--jobs", "2", "--dask", "tcp://x:1"), "--dask and --jobs cannot be combined"),
         (("--dask", " "), "--dask is empty"),
         (("--out", " "), "--out is empty"),
         (("--weeks", "0"), "'0'"),

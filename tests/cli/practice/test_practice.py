@@ -157,7 +157,7 @@ def test_plot_of_nearly_nothing(run, tmp_path, text):
     [
         ("", 2, "SCORES.csv"),
         ("- --new 53 --versus -", 2, "--new and --versus"),
-        ("- --versus -", 2, "stdin"),
+        ("- --versus -", 2, "standard input"),
         ("- --new much", 2, "'much' is not a score"),
         ("- --new 48,5", 2, "48.5"),
         ("- --new nan", 2, "'nan' is not a score"),
@@ -166,7 +166,7 @@ def test_plot_of_nearly_nothing(run, tmp_path, text):
         ("- --confidence 95", 2, "'95' is not a confidence"),
         ("- --plot scores.pdf", 2, "scores.pdf"),
         ("no.csv", 3, "no.csv: there is no such file"),
-        ("- --new 5", 3, "stdin: has no two scores that differ"),
+        ("- --new 5", 3, "stdin: --new needs"),
         (f"- --versus {BEFORE}", 3, "stdin: has 1 score"),
         (f"{BEFORE} --versus -", 3, "--new"),
     ],

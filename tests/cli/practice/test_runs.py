@@ -98,8 +98,8 @@ def test_plot(run, tmp_path, line, name):
 @pytest.mark.parametrize(
     ("line", "wrong"),
     [
-        ("", "--mean and --p"),
-        ("--mean 3 --p 0.5", "--mean and --p"),
+        ("", "--mean or --p"),
+        ("--mean 3 --p 0.5", "--mean or --p"),
         ("--mean -1", "'-1'"),
         ("--mean 1e9", "'1e9'"),
         ("--mean nan", "'nan'"),

@@ -38,7 +38,7 @@ def test_a_system_is_its_own_name():
         ("step -2", "write it as step"),
         ("step 1.5", "write it as step"),
         ("step ²", "write it as step"),
-        ("elo 0", "system is 'elo 0': k is 0; give a whole number, 1 or more"),
+        ("elo 0", "system is 'elo 0': k is 0"),
         ("fixed 8", "system is 'fixed 8': games is 8"),
     ],
 )

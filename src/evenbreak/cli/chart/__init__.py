@@ -1,7 +1,5 @@
 """`evenbreak chart`: charts of races, with each of its commands in a module of its own."""
 
-from __future__ import annotations
-
 import click
 
 from evenbreak.cli.kit.groups import Entry, LazyGroup

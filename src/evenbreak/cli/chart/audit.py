@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak import handicaps
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import scale_option
 from evenbreak.cli.kit.plot import plot_option_for, write_plot
 from evenbreak.cli.kit.values import refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.handicaps.charts.audit import ChartAudit
-    from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import Scale
 
 SAME_SCALE = 0.1
 """Charts whose scales differ by a smaller share are drawn on the same scale."""
@@ -37,23 +33,22 @@ def command(chart: str, scale: Scale | None, beside: str | None, plot: str | Non
     """Check how fair a chart is, race by race, and which ratings it was made for.
 
     NAME_OR_FILE is a chart from `evenbreak chart list` or a CSV file, which may have gaps
-    and overlaps. The plot shows the stronger player's chance over the rating difference.
+    and overlaps. The plot shows the stronger player's chance by rating difference.
     """
     from evenbreak.answers.chart_audit import chart_audit_answer, level_audit_answer
     from evenbreak.files.chart import find_chart_file
-    from evenbreak.handicaps.charts.audit import audit
-    from evenbreak.handicaps.charts.level_audit import audit_levels
-    from evenbreak.handicaps.charts.level_chart import LevelChart
 
     if beside is not None and plot is None:
         refuse("--beside adds a chart to the plot; give --plot FILE, or leave --beside out")
     file = find_chart_file(chart)
     warnings = (*file.warnings, *file.problems)
-    if isinstance(file.found, LevelChart):
+    if isinstance(file.found, handicaps.LevelChart):
         if plot is not None:
             refuse("a chart by skill level has no rating differences to plot; leave --plot out")
-        return level_audit_answer(audit_levels(file.found, scale=scale or "npl"), warnings=warnings)
-    report = audit(file.found, scale=scale)
+        return level_audit_answer(
+            handicaps.audit_levels(file.found, scale=scale or "npl"), warnings=warnings
+        )
+    report = handicaps.audit(file.found, scale=scale)
     if plot is not None:
         from evenbreak.plots.charts import chart_figure
 
@@ -62,17 +57,19 @@ def command(chart: str, scale: Scale | None, beside: str | None, plot: str | Non
     return chart_audit_answer(report, warnings=warnings)
 
 
-def other_chart(chart: str, scale: Scale) -> ChartAudit:
+def other_chart(chart: str, scale: Scale) -> handicaps.ChartAudit:
     """Return the audit of the chart beside, on the same scale if it was made for about that."""
     from evenbreak.files.chart import find_chart_file
-    from evenbreak.handicaps.charts.audit import audit
-    from evenbreak.handicaps.charts.level_chart import LevelChart
 
     found = find_chart_file(chart).found
-    if isinstance(found, LevelChart):
+    if isinstance(found, handicaps.LevelChart):
         refuse("--beside names a chart by skill level, which has no rating differences to plot")
-    on_same = audit(found, scale=scale)
+    on_same = handicaps.audit(found, scale=scale)
     if on_same.best_fit is None:
         return on_same
     own = on_same.best_fit.points_per_doubling
-    return on_same if abs(own / scale.points_per_doubling - 1.0) < SAME_SCALE else audit(found)
+    return (
+        on_same
+        if abs(own / scale.points_per_doubling - 1.0) < SAME_SCALE
+        else handicaps.audit(found)
+    )

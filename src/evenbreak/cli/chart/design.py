@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.chart.design_options import design_options, options_named, task_of
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -13,8 +14,9 @@ from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.values import refuse
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.chart_design import Design, DesignTask
+    from evenbreak.answers.chart_design import DesignTask
+    from evenbreak.handicaps.charts.chart import Chart
+
 
 EXAMPLES = """\b
 Examples:
@@ -35,8 +37,8 @@ Examples:
 def command(pareto: bool, plot: str | None, **wishes: Any) -> Answer:
     """Design the fairest chart for given ratings, within limits on its races.
 
-    Unfairness is how far the stronger player's chance is from the target. In a pipe or a
-    file the chart is a CSV file that the other commands read.
+    Unfairness is how far the stronger player's chance is from the target. Into a pipe or
+    a file the chart is written as a CSV file that the other commands read.
     """
     from evenbreak.answers.chart_design import chart_design_answer
 
@@ -46,17 +48,17 @@ def command(pareto: bool, plot: str | None, **wishes: Any) -> Answer:
             return _pareto(task, plot)
         design = task.design()
     if plot is not None:
-        _draw(task, design, plot)
+        _draw(task, design[0], plot)
     return chart_design_answer(task, design)
 
 
-def _draw(task: DesignTask, design: Design, plot: str) -> None:
+def _draw(task: DesignTask, made: Chart, plot: str) -> None:
     from evenbreak.handicaps.charts.audit import audit
     from evenbreak.plots.charts import chart_figure
 
     if not task.rules.is_plain:
         refuse("--plot draws plain races; leave it out, or --win-by and --breaks")
-    reports = [audit(one, scale=task.rules.scale) for one in (design.chart, *task.beside[:1])]
+    reports = [audit(one, scale=task.rules.scale) for one in (made, *task.beside[:1])]
     write_plot(chart_figure(*reports), plot)
 
 

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import Command, scale_option
+from evenbreak import handicaps
+from evenbreak.cli.kit.options import Command, scale_option, with_options
+from evenbreak.cli.kit.systems import chart_by_difference
 from evenbreak.cli.kit.values import CHANCE, PAIR, SPAN, Number, Whole, refuse
 from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     from evenbreak.answers.chart_design import DesignTask
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.ratings.scale import Scale
+
 
 MOST = 1_000_000
 """The largest number of rows, games or points that an option can have."""
@@ -33,25 +35,25 @@ _PARAMETER = re.compile(
 
 def design_options(command: Command) -> Command:
     """Add the options that describe the chart to be designed."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--beside",
             metavar="NAME_OR_FILE",
             multiple=True,
-            help="A chart to compare with; may be given several times.",
+            help="A chart to compare with; can be repeated.",
         ),
         click.option(
             "--up-to",
             type=Whole(1, MOST),
             metavar="D",
-            help="The last difference that counts.  [default: where the last race of every chart "
-            "beside, or the hardest race allowed, is even]",
+            help="The last difference that counts.  [default: where the last race of each --beside "
+            "chart is even, or else the hardest race allowed]",
         ),
         click.option(
             "--rule",
             type=click.Choice(["mean", "worst", "nearest"]),
             default="mean",
-            show_default=True,
             help="Minimise the mean unfairness over all whole-point differences, or the largest; "
             "or take the nearest race at each difference by itself.",
         ),
@@ -60,7 +62,6 @@ def design_options(command: Command) -> Command:
             metavar="T",
             type=CHANCE,
             default=0.5,
-            show_default=True,
             help="Where in its band a race should be on target: 0 at the start (the stronger "
             "player is never the underdog), 1 at the end.",
         ),
@@ -69,7 +70,6 @@ def design_options(command: Command) -> Command:
             metavar="P",
             type=CHANCE,
             default=0.5,
-            show_default=True,
             help="The chance that the stronger player should have.",
         ),
         scale_option(),
@@ -78,6 +78,7 @@ def design_options(command: Command) -> Command:
             type=POINTS,
             metavar="B",
             default=0.0,
+            show_default=False,
             help="What the break is worth in rating points; goes with --breaks.",
         ),
         click.option(
@@ -90,7 +91,6 @@ def design_options(command: Command) -> Command:
             type=Whole(1, 20),
             metavar="K",
             default=1,
-            show_default=True,
             help="By how many games a race must be won.",
         ),
         click.option(
@@ -109,7 +109,7 @@ def design_options(command: Command) -> Command:
             "--games-p90",
             type=Whole(1, MOST),
             metavar="K",
-            help="9 of 10 matches must end within K games, at every difference.",
+            help="9 out of 10 matches must end within K games, at every difference.",
         ),
         click.option(
             "--rows", type=Whole(1, MOST), metavar="N", help="The chart may have at most N rows."
@@ -125,7 +125,6 @@ def design_options(command: Command) -> Command:
             metavar="M:N",
             type=PAIR,
             default="1:1",
-            show_default=True,
             help="The fewest games that the stronger and the weaker player may need.",
         ),
         click.option(
@@ -135,9 +134,7 @@ def design_options(command: Command) -> Command:
             required=True,
             help="Races whose longest possible match has LO to HI games.",
         ),
-    ):
-        command = add(command)
-    return command
+    )
 
 
 @contextmanager
@@ -174,8 +171,6 @@ def task_of(
     """Return what is asked for, or refuse options that contradict each other."""
     from evenbreak.answers.chart_design import DesignTask
     from evenbreak.games.breaks import BREAK_FORMATS
-    from evenbreak.handicaps.charts.match_rules import MatchRules
-    from evenbreak.handicaps.charts.race_limits import RaceLimits
 
     if (minutes is None) != (minutes_per_game is None):
         refuse("--minutes and --minutes-per-game go together; give both")
@@ -194,16 +189,11 @@ def task_of(
             "--tilt out"
         )
     breaking = None if breaks is None else BREAK_FORMATS[breaks]
-    rules = MatchRules(scale, win_by, breaking, break_points)
-    limits = RaceLimits(games, *least, games_p90)
-    return DesignTask(rules, limits, beside=tuple(map(_chart_beside, beside)), **others)
-
-
-def _chart_beside(name: str) -> Chart:
-    from evenbreak.files.chart import find_chart
-    from evenbreak.handicaps.charts.chart import Chart
-
-    found = find_chart(name)
-    if not isinstance(found, Chart):
-        refuse("--beside names a chart by skill level; name one by rating difference")
-    return found
+    rules = handicaps.MatchRules(scale, win_by, breaking, break_points)
+    limits = handicaps.RaceLimits(games, *least, games_p90)
+    return DesignTask(
+        rules,
+        limits,
+        beside=tuple(chart_by_difference("--beside", name) for name in beside),
+        **others,
+    )

@@ -1,15 +1,9 @@
 """`evenbreak chart list`: the charts that come with evenbreak."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 
 @click.command("list")
@@ -17,7 +11,7 @@ if TYPE_CHECKING:
 def command() -> Answer:
     """List the charts that come with evenbreak.
 
-    Each with the number of its different races, and the games of its longest match.
+    Each is shown with its number of different races and the length of its longest match.
     """
     from evenbreak.answers.chart_list import chart_list_answer
 

@@ -1,15 +1,9 @@
 """`evenbreak chart show`: the races of a chart."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 EXAMPLES = """\b
 Examples:
@@ -25,8 +19,8 @@ Examples:
 def command(chart: str) -> Answer:
     """Show a chart: who needs how many games.
 
-    NAME_OR_FILE is a chart from `evenbreak chart list` or a CSV file. In a pipe or a
-    file the chart is such a CSV file, which you can edit and use.
+    NAME_OR_FILE is a chart from `evenbreak chart list` or a CSV file. Into a pipe or
+    a file the chart is written as such a CSV file, which you can edit and use.
     """
     from evenbreak.answers.chart_show import chart_show_answer
     from evenbreak.files.chart import find_chart_file

@@ -2,53 +2,42 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak import files, handicaps
 from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.values import refuse
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.system import System
-    from evenbreak.ratings.scale import Scale
+from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale
 
 SCALE_OFF = 0.25
 """How much the scale that a chart fits best may differ from the system's without a warning."""
 
 
-class SystemName(click.ParamType):  # type: ignore[type-arg]
-    """A handicap system by its name."""
-
-    name = "system"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> System:
-        """Return the system."""
-        from evenbreak.errors import InputError
-        from evenbreak.handicaps.systems.catalogue import system_of
-
-        try:
-            return system_of(value)
-        except InputError as error:
-            self.fail(str(error), param, ctx)
+def read_system(name: str) -> handicaps.System:
+    """Return the system of this name, as a type of an option does."""
+    try:
+        return handicaps.system_of(name)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
 
 
 def system_option(default: str | None = "npl") -> Decorator[Any]:
     """Return the option --system; without a default, a command gets None for npl."""
     return click.option(
         "--system",
-        type=SystemName(),
+        type=read_system,
         metavar="NAME",
         default=default,
+        show_default=False,
         help="How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].  "
         "[default: npl]",
     )
 
 
-def on_scale(system: System, scale: Scale | None) -> System:
+def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:
     """Return a system on another scale (None: its own), or refuse what does not go together."""
     from dataclasses import replace
 
@@ -64,11 +53,17 @@ def on_scale(system: System, scale: Scale | None) -> System:
     return replace(system, scale=scale)
 
 
-def chart_for(system: System, name: str | None) -> tuple[Chart, list[str]]:
+def chart_by_difference(option: str, name: str) -> handicaps.Chart:
+    """Return a chart of rating differences, or refuse one of skill levels."""
+    found = files.find_chart(name)
+    if not isinstance(found, handicaps.Chart):
+        refuse(f"{option} {name!r} is a chart of skill levels; give one of rating differences")
+    return found
+
+
+def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Chart, list[str]]:
     """Return the chart of --chart (None: the system's own), and warnings about it."""
     from evenbreak.files.chart import find_chart_file
-    from evenbreak.handicaps.charts.audit import audit
-    from evenbreak.handicaps.charts.chart import Chart
 
     if name is None:
         chart: Any = system.usual_chart()
@@ -76,12 +71,15 @@ def chart_for(system: System, name: str | None) -> tuple[Chart, list[str]]:
     else:
         file = find_chart_file(name)
         chart, warnings = file.chart, list(file.warnings)
-    if not isinstance(chart, Chart):
+    if not isinstance(chart, handicaps.Chart):
         refuse(
             f"--chart {name!r} is a chart of skill levels, which do not change match by match; "
             "give a chart of rating differences"
         )
-    best, own = audit(chart, scale=system.scale).best_fit, system.scale.points_per_doubling
+    best, own = (
+        handicaps.audit(chart, scale=system.scale).best_fit,
+        system.scale.points_per_doubling,
+    )
     if best is not None and abs(best.points_per_doubling / own - 1.0) > SCALE_OFF:
         warnings.append(
             f"the races of {chart.name} fit a scale on which about "

@@ -1,8 +1,7 @@
 """The two streams of a command: the answer on stdout, everything else on stderr."""
 
-from __future__ import annotations
-
 import sys
+from pathlib import PurePath
 
 import click
 
@@ -19,6 +18,15 @@ def write(text: str) -> None:
     """Write text to stdout; letters that the terminal cannot show become question marks."""
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     click.echo(text.encode(encoding, "replace"), nl=False)
+
+
+def write_file(path: str, content: bytes) -> None:
+    """Write one file, and say so."""
+    from evenbreak.files.folder import write_files
+
+    place = PurePath(path)
+    write_files(str(place.parent), {place.name: content})
+    say(f"Wrote {path}")
 
 
 def say(message: str) -> None:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.plot import write_plot
 from evenbreak.cli.kit.systems import chart_for
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.ladder.opponents import opponents_of_options, why_no_long_run
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.answers.ladder_comparison import LadderComparison
+
 
 ALLOWED = ("autocorrelated", "equal_skill", "league", "skill")
 """The options that --compare goes with, besides --chart and --plot."""
@@ -29,14 +30,14 @@ def comparison(chart_name: str | None, asked: dict[str, Any], plot: str | None) 
             refuse(f"--compare goes through several systems; leave --{option} out")
     npl = system_of("npl")
     chart, warnings = chart_for(npl, chart_name)
-    chosen = opponents_of_options(asked, npl.scale)
+    opponents, name, doubts = opponents_of_options(asked, npl.scale)
     try:
-        found = compare_ladders(chart, chosen.opponents, chosen.name)
+        found = compare_ladders(chart, opponents, name)
     except AccuracyError as error:
-        raise AccuracyError(why_no_long_run(error, chosen.opponents)) from None
+        raise AccuracyError(why_no_long_run(error, opponents)) from None
     if plot is not None:
         _draw(found, plot)
-    return ladder_comparison_answer(found, [*warnings, *chosen.warnings])
+    return ladder_comparison_answer(found, [*warnings, *doubts])
 
 
 def _draw(found: LadderComparison, path: str) -> None:

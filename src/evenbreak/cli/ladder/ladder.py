@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak import handicaps
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -16,10 +18,8 @@ from evenbreak.cli.kit.values import Number, Whole, refuse
 from evenbreak.cli.ladder.opponents import opponents_of_options, why_no_long_run
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.answers.ladder_findings import LadderFindings, LadderQuestion
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.systems.system import System
+
 
 LARGEST = 10_000
 """The largest error that can be typed, in points; a ladder says where it ends itself."""
@@ -115,7 +115,7 @@ Examples:
     help="How near to the skill a rating counts as settled.  [default: a sixth of a doubling of "
     "the odds]",
 )
-@click.option("--newcomer", is_flag=True, help="Move that player by the system's newcomer steps.")
+@click.option("--newcomer", is_flag=True, help="Use the system's longer steps for newcomers.")
 @click.option("--compare", is_flag=True, help="Compare systems, charts and step sizes.")
 @plot_option
 @faces()
@@ -141,28 +141,28 @@ def command(chart: str | None, *, compare: bool, plot: str | None, **asked: Any)
     return ladder_answer(found, warnings)
 
 
-def _ladder(chart_name: str | None, asked: dict[str, Any]) -> tuple[Ladder, str, list[str]]:
+def _ladder(
+    chart_name: str | None, asked: dict[str, Any]
+) -> tuple[handicaps.Ladder, str, list[str]]:
     """Return the ladder that is asked for, the word for its opponents, and warnings."""
     from evenbreak.errors import AccuracyError
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.systems.catalogue import system_of
 
     if asked["system"] is not None and asked["step"] is not None:
-        refuse(f"--step {asked['step']} is a system of its own; leave --system out, or --step")
+        refuse(f"--step {asked['step']} is a system of its own; leave out --system or --step")
     if asked["matches_a_night"] is not None and not asked["day_sd"]:
         refuse("--matches-a-night is how long a night's form lasts; give --day-sd, or leave it out")
     step = asked["step"]
-    system = asked["system"] or system_of("npl" if step is None else f"step {step}")
+    system = asked["system"] or handicaps.system_of("npl" if step is None else f"step {step}")
     system = on_scale(system, asked["scale"])
     chart, warnings = chart_for(system, chart_name)
-    chosen = opponents_of_options(asked, system.scale)
+    opponents, name, doubts = opponents_of_options(asked, system.scale)
     _refuse_much(asked, system)
     matches = asked["matches_a_night"] or 1
     try:
-        built = Ladder(
+        built = handicaps.Ladder(
             system,
             chart,
-            opponents=chosen.opponents,
+            opponents=opponents,
             day_sd=asked["day_sd"] or 0.0,
             match_sd=asked["match_sd"] or 0.0,
             matches_a_night=matches,
@@ -171,11 +171,11 @@ def _ladder(chart_name: str | None, asked: dict[str, Any]) -> tuple[Ladder, str,
         say_if_long(built)
         built.law()
     except AccuracyError as error:
-        raise AccuracyError(why_no_long_run(error, chosen.opponents)) from None
-    return built, chosen.name, [*warnings, *chosen.warnings]
+        raise AccuracyError(why_no_long_run(error, opponents)) from None
+    return built, name, [*warnings, *doubts]
 
 
-def _refuse_much(asked: dict[str, Any], system: System) -> None:
+def _refuse_much(asked: dict[str, Any], system: handicaps.System) -> None:
     """Refuse form that varies by more than a ladder of this scale can hold."""
     most = MOST_SD * system.scale.points_per_doubling
     for name in ("day_sd", "match_sd"):
@@ -186,11 +186,9 @@ def _refuse_much(asked: dict[str, Any], system: System) -> None:
             )
 
 
-def say_if_long(ladder: Ladder) -> None:
+def say_if_long(ladder: handicaps.Ladder) -> None:
     """Say beforehand that nights of several matches take long where moves differ much."""
-    from evenbreak.handicaps.systems.match_table import match_table
-
-    moves = len(set(match_table(ladder.system, ladder.chart).moves.ravel().tolist()))
+    moves = len(set(handicaps.match_table(ladder.system, ladder.chart).moves.ravel().tolist()))
     if ladder.matches_a_night > 1 and moves > MANY_MOVES:
         say(
             f"The system {ladder.system.name} has {moves} different moves, so nights of three "
@@ -198,7 +196,7 @@ def say_if_long(ladder: Ladder) -> None:
         )
 
 
-def _question(ladder: Ladder, asked: dict[str, Any], opponents: str) -> LadderQuestion:
+def _question(ladder: handicaps.Ladder, asked: dict[str, Any], opponents: str) -> LadderQuestion:
     """Return what is asked of the ladder, or refuse what it cannot answer."""
     from evenbreak.answers.ladder_findings import LadderQuestion
 
@@ -219,15 +217,10 @@ def _question(ladder: Ladder, asked: dict[str, Any], opponents: str) -> LadderQu
 
 
 def _draw(found: LadderFindings, title: str, path: str) -> None:
-    from itertools import accumulate
+    from evenbreak.plots.ladders import ladder_figure
 
-    from evenbreak.plots.ladders import SettlingCurve, ladder_figure
-
-    asked, curve = found.question, None
-    if found.settling is not None:
-        settled = [*accumulate(found.settling.chances)]
-        curve = SettlingCurve(asked.start, asked.within, settled)
+    within, curve = found.question.within, found.settling
     figure = ladder_figure(
-        found.law, natural=found.natural, within=asked.within, curve=curve, title=title
+        found.law, natural=found.natural, within=within, curve=curve, title=title
     )
     write_plot(figure, path)

@@ -2,57 +2,45 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
+from evenbreak import files, handicaps
 from evenbreak.cli.kit.values import refuse
-
-if TYPE_CHECKING:
-    from evenbreak.errors import AccuracyError
-    from evenbreak.handicaps.ladders.opponents import Opponents
-    from evenbreak.ratings.scale import Scale
+from evenbreak.errors import AccuracyError
+from evenbreak.ratings.scale import Scale
 
 MOST_APART = 20.0
 """Doublings of the odds that an opponent may be from the player: a game in a million."""
 
 
-class Chosen(NamedTuple):
-    """The opponents that are asked for, the word for them, and warnings about their list."""
-
-    opponents: Opponents
-    name: str
-    warnings: list[str]
-
-
-def opponents_of_options(asked: dict[str, Any], scale: Scale) -> Chosen:
-    """Return the opponents that are asked for, or refuse options that exclude each other."""
-    from evenbreak.handicaps.ladders.opponents import AUTOCORRELATED, EQUAL_SKILL, NATURAL
-
+def opponents_of_options(
+    asked: dict[str, Any], scale: Scale
+) -> tuple[handicaps.Opponents, str, list[str]]:
+    """Return the opponents asked for, the word for them, and warnings about their list."""
     given = [name for name in ("autocorrelated", "equal_skill", "league") if asked[name]]
     if len(given) > 1:
         *before, last = (f"--{name.replace('_', '-')}" for name in given)
-        refuse(f"{', '.join(before)} and {last} exclude each other; keep one")
+        refuse(f"{', '.join(before)} and {last} cannot be combined; keep one")
     if asked["skill"] is not None and asked["league"] is None:
         refuse("--skill is the player's own in a league; give --league ROSTER.csv, or leave it out")
     if asked["league"] is not None:
         opponents, warnings = _of_league(asked["league"], asked["skill"], scale)
-        return Chosen(opponents, "league", warnings)
+        return opponents, "league", warnings
     if asked["autocorrelated"]:
-        return Chosen(AUTOCORRELATED, "autocorrelated", [])
+        return handicaps.AUTOCORRELATED, "autocorrelated", []
     if asked["equal_skill"]:
-        return Chosen(EQUAL_SKILL, "equal skill", [])
-    return Chosen(NATURAL, "natural", [])
+        return handicaps.EQUAL_SKILL, "equal skill", []
+    return handicaps.NATURAL, "natural", []
 
 
-def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[Opponents, list[str]]:
+def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[handicaps.Opponents, list[str]]:
     """Return opponents drawn from the rated players of a list, or refuse a skill far from them."""
     import numpy as np
 
     from evenbreak.answers.scale_doubts import league_doubts
     from evenbreak.errors import DataError
-    from evenbreak.files.roster import read_roster
-    from evenbreak.handicaps.ladders.opponents import opponents_of
 
-    file = read_roster(path)
+    file = files.read_roster(path)
     ratings = file.roster.rating[~np.isnan(file.roster.rating)]
     if not len(ratings):
         raise DataError([f"{file.source}: no player has a rating; write one for each player"])
@@ -66,10 +54,10 @@ def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[Opponents, l
             f"{file.source} are from {low:g} to {high:g}; no opponent may be more than {most:.0f} "
             "points from the player, so give a --skill nearer to all of them"
         )
-    return opponents_of(ratings, about=about), warnings
+    return handicaps.opponents_of(ratings, about=about), warnings
 
 
-def why_no_long_run(error: AccuracyError, opponents: Opponents) -> str:
+def why_no_long_run(error: AccuracyError, opponents: handicaps.Opponents) -> str:
     """Return why a ladder does not settle, and what to do about it on the command line."""
     if "at every difference" in str(error):
         return str(error)

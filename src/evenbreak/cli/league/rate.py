@@ -8,17 +8,19 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak import answers, files, handicaps
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, chart_option, scale_option
+from evenbreak.cli.kit.systems import read_system
 from evenbreak.cli.kit.values import NUMBER, refuse
 from evenbreak.cli.league.rate_options import PointsOr, how_to_rate, rated
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.results import Results
-    from evenbreak.ratings.scale import Scale
+
 
 FIT_ONLY = {
     "anchors": "--anchor",
@@ -48,16 +50,16 @@ Examples:
     "anchors",
     multiple=True,
     metavar="POINTS|NAME=POINTS",
-    help="The mean rating; or the rating of a named player, which may be given for several: they "
-    "then have these ratings on average.  [default: the middle of the scale]",
+    help="The mean rating, or the rating of a named player; can be repeated for several players, "
+    "who then have these ratings on average.  [default: the middle of the scale]",
 )
 @how_to_rate
 @click.option(
     "--break-advantage",
     metavar="POINTS|fit",
     type=PointsOr("fit", -1e6),
-    help="By how much the breaker of a rack plays better; fit: estimate it, where the file says "
-    "who broke.  [default: the break does not matter]",
+    help="How many points better the breaker plays; fit: estimate this, where the file says who "
+    "broke.  [default: the break does not matter]",
 )
 @click.option(
     "--pair",
@@ -65,10 +67,11 @@ Examples:
     nargs=2,
     multiple=True,
     metavar="A B",
-    help="Show how far apart two players are, and how certain that is; may be given again.",
+    help="Show how far apart two players are, and how certain that is; can be repeated.",
 )
 @click.option(
     "--system",
+    type=read_system,
     metavar="NAME",
     help="Apply a league's own rule to --roster instead, such as npl or 'step 2'.",
 )
@@ -85,7 +88,7 @@ Examples:
 @faces()
 def command(
     results: str,
-    system: str | None,
+    system: handicaps.System | None,
     roster: str | None,
     chart: str | None,
     aliases: str | None,
@@ -94,8 +97,8 @@ def command(
     """Rate players from their results, and show how certain each rating is.
 
     RESULTS.csv has one match a row, with the columns player_a, player_b, score_a and
-    score_b; or race_a, race_b and winner where no more is known; or racks. - reads
-    standard input.
+    score_b. Where the score is not known, race_a, race_b and winner will do; racks (who
+    won each rack, such as abba) can replace the score. - reads standard input.
     """
     if system is not None:
         given = [FIT_ONLY[name] for name, value in options.items() if value not in (None, ())]
@@ -122,11 +125,9 @@ def _rate(
     break_advantage: float | str | None,
     **how: Any,
 ) -> Answer:
-    from evenbreak.answers.rate import rate_answer
-    from evenbreak.files.results import read_results
     from evenbreak.ratings.scale import scale_of
 
-    file = read_results(path, aliases=aliases)
+    file = files.read_results(path, aliases=aliases)
     ratings, choice = rated(
         file,
         scale or scale_of("npl"),
@@ -141,10 +142,10 @@ def _rate(
             "nothing; add break_format and first_break, with races or racks"
         )
     chosen = [_pair(ratings, pair) for pair in pairs]
-    return rate_answer(file, ratings, choice, pairs=chosen, warnings=warnings)
+    return answers.rate_answer(file, ratings, choice, pairs=chosen, warnings=warnings)
 
 
-def _anchor(file: ResultsFile, texts: Sequence[str]) -> float | dict[str, float] | None:
+def _anchor(file: files.ResultsFile, texts: Sequence[str]) -> float | dict[str, float] | None:
     """Return the mean, or the ratings of named players, that --anchor gives."""
     means, named = [], {}
     for text in texts:
@@ -157,7 +158,7 @@ def _anchor(file: ResultsFile, texts: Sequence[str]) -> float | dict[str, float]
         else:
             means.append(float(number))
     if len(means) + bool(named) > 1:
-        refuse("--anchor gives the mean once, or ratings of named players; not both")
+        refuse("--anchor gives either one mean or the ratings of named players, not both")
     return named or (means[0] if means else None)
 
 
@@ -169,6 +170,4 @@ def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
 
 
 def _places(players: Ratings | Results, names: Sequence[str], option: str) -> list[int]:
-    from evenbreak.answers.chosen_players import find_players
-
-    return find_players(players, names, said=option)
+    return answers.find_players(players, names, said=option)

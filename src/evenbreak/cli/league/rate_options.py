@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.cli.kit.options import Command, Decorator, with_options
 from evenbreak.cli.kit.values import Number, refuse
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.cli.kit.options import Command, Decorator
     from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
-    from evenbreak.ratings.scale import Scale
 
 
 class PointsOr(Number):
@@ -30,19 +30,14 @@ class PointsOr(Number):
         return super().convert(value, param, ctx)
 
 
-class Day(click.ParamType):  # type: ignore[type-arg]
-    """A day, written in any way that a cell of a results file may have; it returns 2026-01-31."""
+def read_day(text: str) -> str:
+    """Return a day, written in any way that a cell of a results file may have, as 2026-01-31."""
+    from evenbreak.files.cells import read_date
 
-    name = "day"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the day as an ISO date."""
-        from evenbreak.files.cells import read_date
-
-        day = read_date(str(value).strip())
-        if day is None:
-            self.fail(f"{value!r}; give a day, such as 2026-01-31 or 31.1.2026", param, ctx)
-        return str(day)
+    day = read_date(text.strip())
+    if day is None:
+        raise click.BadParameter(f"{text!r}; give a day, such as 2026-01-31 or 31.1.2026")
+    return str(day)
 
 
 DAYS = Number(0.01, 1e6, "; give a number of days from 0.01 to 1,000,000, such as 180")
@@ -54,8 +49,8 @@ def prior_option(default: str) -> Decorator[Any]:
         "--prior",
         metavar="POINTS|best",
         type=PointsOr("best", 0.0),
-        help="How far apart players are assumed to be before any result: the standard deviation; "
-        f"best: the one that predicts best.  [default: {default}]",
+        help="How far apart players are assumed to be before any result (standard deviation); "
+        f"best: the value that predicts best.  [default: {default}]",
     )
 
 
@@ -63,24 +58,23 @@ half_life_option = click.option(
     "--half-life",
     metavar="DAYS",
     type=DAYS,
-    help="A match counts half after so many days.  [default: it always counts in full]",
+    help="After this many days a match counts half.  [default: it always counts in full]",
 )
 
 
 def how_to_rate(command: Command) -> Command:
     """Add the options --prior, --half-life and --as-of."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--as-of",
             metavar="DATE",
-            type=Day(),
-            help="Rate as of this day: leave later matches out.  [default: the last date]",
+            type=read_day,
+            help="Rate as of this day, without later matches.  [default: the last date]",
         ),
         half_life_option,
         prior_option("what doubles the odds"),
-    ):
-        command = add(command)
-    return command
+    )
 
 
 def rated(

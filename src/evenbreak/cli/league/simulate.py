@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak import league, plots
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import chart_option, scale_option, seed_option
+from evenbreak.cli.kit.options import chart_option, out_option, scale_option, seed_option
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.systems import system_option
 from evenbreak.cli.kit.terminal import say
@@ -20,12 +22,11 @@ from evenbreak.cli.league.simulate_season import (
     refuse_contradictions,
     season_of_options,
 )
+from evenbreak.files.csv_writer import to_csv
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.answers.season_tables import SeasonTables
-    from evenbreak.league.season import Season
-    from evenbreak.league.tally import Tally
+
 
 MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
 
@@ -45,13 +46,7 @@ Examples:
 
 @click.command("simulate", epilog=EXAMPLES)
 @click.argument("roster", metavar="ROSTER.csv")
-@click.option(
-    "--out",
-    required=True,
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="The folder for the tables and pictures; it is made if it does not exist.",
-)
+@out_option("The folder for the tables and pictures; created if needed.")
 @system_option()
 @scale_option("the system's", fixed=False)
 @chart_option()
@@ -83,7 +78,6 @@ Examples:
     "--day-sd",
     type=Number(0.0, 1000.0, "; give points from 0 to 1,000"),
     default="0",
-    show_default=True,
     metavar="POINTS",
     help="How much a player's form varies from day to day (standard deviation), where the roster "
     "does not say.",
@@ -95,7 +89,6 @@ Examples:
     "--replicas",
     type=Whole(1, MOST_REPLICAS),
     default=1000,
-    show_default=True,
     metavar="R",
     help="How many seasons are simulated.",
 )
@@ -104,15 +97,14 @@ Examples:
     "--jobs",
     type=Whole(1, MOST_JOBS),
     default=1,
-    show_default=True,
     metavar="J",
-    help="How many processes work at a time; the answer does not depend on it.",
+    help="How many processes work at a time; the answer is the same.",
 )
 @click.option(
     "--dask",
     "cluster",
     metavar="ADDRESS",
-    help="Work on the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
+    help="Use the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
 )
 @click.option("--no-matches", is_flag=True, help="Do not write matches.csv and truth.csv.")
 @faces()
@@ -126,7 +118,7 @@ def command(
     no_matches: bool,
     **played: Any,
 ) -> Answer:
-    """Simulate a league's season many times: how accurate, how fair, who gains.
+    """Simulate a season many times: how accurate ratings are, how fair matches, who gains.
 
     ROSTER.csv has one player per row, with the columns player and rating and, optionally,
     standard_error, matches, skill, day_sd, drift, joins, leaves and absence; - reads standard
@@ -139,7 +131,7 @@ def command(
     from evenbreak.files.folder import check_folder, write_files
     from evenbreak.files.league import read_league
 
-    refuse_contradictions(roster, out, jobs, cluster, played)
+    refuse_contradictions(roster, jobs, cluster, played)
     file = read_league(roster, day_sd=played["day_sd"])
     season, warnings = season_of_options(file, played)
     check_folder(out)
@@ -166,22 +158,21 @@ def command(
     return answer
 
 
-def _simulated(season: Season, replicas: int, seed: int, jobs: int, cluster: str | None) -> Tally:
+def _simulated(
+    season: league.Season, replicas: int, seed: int, jobs: int, cluster: str | None
+) -> league.Tally:
     from evenbreak.cli.league.cluster import cluster_at
-    from evenbreak.league.simulate import simulate
 
     with (
         nullcontext() if cluster is None else cluster_at(cluster) as client,
         Progress("seasons") as progress,
     ):
-        return simulate(
+        return league.simulate(
             season, replicas=replicas, seed=seed, executor=client, jobs=jobs, progress=progress
         )
 
 
 def _tables(tables: SeasonTables) -> dict[str, bytes]:
-    from evenbreak.files.csv_writer import to_csv
-
     return {
         "standings.csv": to_csv(tables.standings),
         "ratings_by_week.csv": to_csv(tables.weeks),
@@ -189,14 +180,12 @@ def _tables(tables: SeasonTables) -> dict[str, bytes]:
     }
 
 
-def _one_season(season: Season, seed: int) -> dict[str, bytes]:
+def _one_season(season: league.Season, seed: int) -> dict[str, bytes]:
     from evenbreak.answers.one_season_tables import matches_frame, truth_frame
-    from evenbreak.files.csv_writer import to_csv
-    from evenbreak.league.one_season import season_matches
 
     if len(season.players) * season.weeks > MANY:
         say("Playing one season rack by rack; --no-matches leaves it out")
-    played = season_matches(season, seed)
+    played = league.season_matches(season, seed)
     return {
         "matches.csv": to_csv(matches_frame(played)),
         "truth.csv": to_csv(truth_frame(season, played)),
@@ -204,7 +193,6 @@ def _one_season(season: Season, seed: int) -> dict[str, bytes]:
 
 
 def _pictures(tables: SeasonTables) -> dict[str, bytes]:
-    from evenbreak.plots.diagram import image_bytes
     from evenbreak.plots.seasons import errors_figure, gaps_figure, standings_figure
 
     figures = {
@@ -213,7 +201,7 @@ def _pictures(tables: SeasonTables) -> dict[str, bytes]:
         "standings": standings_figure(tables.standings),
     }
     return {
-        f"{name}.{kind}": image_bytes(figure, kind)
+        f"{name}.{kind}": plots.image_bytes(figure, kind)
         for name, figure in figures.items()
         for kind in ("png", "svg")
     }

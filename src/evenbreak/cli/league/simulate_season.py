@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from evenbreak import files, league
 from evenbreak.cli.kit.systems import chart_for, on_scale
 from evenbreak.cli.kit.values import refuse
-
-if TYPE_CHECKING:
-    from evenbreak.files.league import LeagueFile
-    from evenbreak.league.schedule import Schedule
-    from evenbreak.league.season import Season
 
 WEEKS = 30
 """The length of a season where neither --weeks nor a schedule says it."""
 
 
 def refuse_contradictions(
-    roster: str, out: str, jobs: int, cluster: str | None, played: dict[str, Any]
+    roster: str, jobs: int, cluster: str | None, played: dict[str, Any]
 ) -> None:
     """Refuse options that exclude each other or are empty."""
     ways = {
@@ -27,23 +23,22 @@ def refuse_contradictions(
     }
     chosen = [name for name, given in ways.items() if given]
     if len(chosen) > 1:
-        refuse(f"{' and '.join(chosen)} exclude each other; leave all but one out")
+        refuse(f"{' and '.join(chosen)} cannot be combined; leave all but one out")
     if ways["--schedule"] and played["matches"] is not None:
-        refuse("--schedule and --matches exclude each other; the schedule sets the matches")
+        refuse("--schedule and --matches cannot be combined; the schedule sets the matches")
     if cluster is not None and jobs > 1:
-        refuse("--dask and --jobs exclude each other; the cluster has workers of its own")
+        refuse("--dask and --jobs cannot be combined; the cluster has workers of its own")
     if cluster is not None and not cluster.strip():
         refuse("--dask is empty; give the scheduler's address, such as tcp://10.0.0.5:8786")
-    if not out.strip():
-        refuse("--out is empty; name a folder, or . for this one")
     if [roster, played["schedule_path"], played["chart"]].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
 
 
-def season_of_options(file: LeagueFile, played: dict[str, Any]) -> tuple[Season, list[str]]:
+def season_of_options(
+    file: files.LeagueFile, played: dict[str, Any]
+) -> tuple[league.Season, list[str]]:
     """Return the season that is asked for, and warnings about roster, chart and schedule."""
     from evenbreak.answers.scale_doubts import league_doubts
-    from evenbreak.league.season import Season
 
     system = on_scale(played["system"], played["scale"])
     chart, of_chart = chart_for(system, played["chart"])
@@ -51,20 +46,19 @@ def season_of_options(file: LeagueFile, played: dict[str, Any]) -> tuple[Season,
     play = "racks" if played["racks"] else "matches"
     doubts = league_doubts(system.scale, file.players.rating, "--scale sets the scale")
     warnings = [*file.warnings, *of_chart, *of_schedule, *doubts]
-    return Season(file.players, system, chart, schedule, weeks, play), warnings
+    return league.Season(file.players, system, chart, schedule, weeks, play), warnings
 
 
-def _schedule(file: LeagueFile, played: dict[str, Any]) -> tuple[Schedule, int, list[str]]:
+def _schedule(
+    file: files.LeagueFile, played: dict[str, Any]
+) -> tuple[league.Schedule, int, list[str]]:
     """Return who plays whom, for how many weeks, and warnings."""
-    from evenbreak.files.schedule import read_schedule
-    from evenbreak.league.schedule import RandomPairing, RoundRobin
-
     matches, weeks = played["matches"] or 1, played["weeks"]
     if played["schedule_path"] is None:
         if played["by_lot"]:
-            return RandomPairing(matches), weeks or WEEKS, []
-        return RoundRobin(len(file.players), matches), weeks or WEEKS, []
-    fixtures = read_schedule(played["schedule_path"], file.roster)
+            return league.RandomPairing(matches), weeks or WEEKS, []
+        return league.RoundRobin(len(file.players), matches), weeks or WEEKS, []
+    fixtures = files.read_schedule(played["schedule_path"], file.roster)
     last, warnings = fixtures.schedule.weeks, list(fixtures.warnings)
     if weeks is not None and weeks < last:
         warnings.append(f"{fixtures.source}: matches after week {weeks} are not played")
@@ -73,13 +67,11 @@ def _schedule(file: LeagueFile, played: dict[str, Any]) -> tuple[Schedule, int, 
     return fixtures.schedule, weeks or last, warnings
 
 
-def matches_to_play(season: Season) -> int:
+def matches_to_play(season: league.Season) -> int:
     """Return how many matches one season has, if everybody is always there."""
-    from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
-
     match season.schedule:
-        case FixedSchedule(week=week):
+        case league.FixedSchedule(week=week):
             return int((week <= season.weeks).sum())
-        case RandomPairing(matches_a_week=many) | RoundRobin(matches_a_week=many):
+        case league.RandomPairing(matches_a_week=many) | league.RoundRobin(matches_a_week=many):
             return season.weeks * many * (len(season.players) // 2)
     return 0

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak import answers, files, ratings
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, scale_option, seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.league.rate_options import half_life_option, prior_in_log_odds, prior_option
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import Scale
 
 EXAMPLES = """\b
 Examples:
@@ -43,20 +40,17 @@ def command(
 ) -> Answer:
     """Find out whether the ratings of a league can be trusted.
 
-    RESULTS.csv is a file as for rate, with dates; - reads standard input. Each date is
+    RESULTS.csv is a file as for `rate`, with dates; - reads standard input. Each date is
     predicted from the results of earlier dates alone, and then compared with what happened.
     """
-    from evenbreak.answers.validate import validate_answer
     from evenbreak.cli.kit.progress import Progress
     from evenbreak.errors import DataError, InputError
-    from evenbreak.files.results import read_results
-    from evenbreak.ratings.validate import validate
 
     prior_sd = prior_in_log_odds(prior, scale) if isinstance(prior, float) else None
-    file = read_results(results, aliases=aliases)
+    file = files.read_results(results, aliases=aliases)
     try:
         with Progress("steps") as progress:
-            found = validate(
+            found = ratings.validate(
                 file.results, prior_sd=prior_sd, half_life=half_life, seed=seed, progress=progress
             )
     except InputError as error:  # the options have been checked, so it is the data
@@ -65,4 +59,4 @@ def command(
         from evenbreak.plots.calibration import calibration_figure
 
         write_plot(calibration_figure(found), plot)
-    return validate_answer(file, found, scale, seed=seed)
+    return answers.validate_answer(file, found, scale, seed=seed)

@@ -1,7 +1,5 @@
 """`evenbreak physics`: ball, cloth and cue, a command a module."""
 
-from __future__ import annotations
-
 import click
 
 from evenbreak.cli.kit.groups import Entry, LazyGroup
@@ -12,7 +10,7 @@ COMMANDS = {
     "aim": Entry("physics.aim", "Find where to aim to allow for throw."),
     "deflect": Entry("physics.deflect", "Find where the cue ball goes after the hit."),
     "strike": Entry("physics.strike", "Find the spin and speed that a hit off centre gives."),
-    "breakcue": Entry("physics.breakcue", "Find which cue breaks best for an arm."),
+    "breakcue": Entry("physics.breakcue", "Find the weight of the cue that breaks best."),
     "shot": Entry("physics.shot", "Trace a whole shot, and draw it."),
 }
 """Each command, in the module of its name, with its line of help."""

@@ -1,20 +1,16 @@
 """`evenbreak physics aim`: where to aim to allow for throw."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.hit_options import hit_of, hit_options
 from evenbreak.cli.physics.measures import LENGTH, metric_option
 from evenbreak.errors import InputError
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.shot_units import Units
 
 EXAMPLES = """\b
 Examples:

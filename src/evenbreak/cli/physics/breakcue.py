@@ -1,19 +1,14 @@
 """`evenbreak physics breakcue`: which cue breaks best for an arm."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.equipment_options import ball_of, ball_option
 from evenbreak.cli.physics.measures import WEIGHT, Measure, metric_option
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.shot_units import Units
 
 EXAMPLES = """\b
 Examples:
@@ -35,7 +30,7 @@ Examples:
 @metric_option
 @faces()
 def command(forearm: float, ball: float | None, stick: float | None, units: Units) -> Answer:
-    """Find which cue breaks best for an arm.
+    """Find the weight of the cue that breaks best.
 
     The best cue passes the largest share of the stroke's energy, that of arm and cue
     together, on to the cue ball. The forearm is taken as a uniform rod swinging from the elbow.

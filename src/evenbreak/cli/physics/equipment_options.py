@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak import physics
+from evenbreak.answers.shot_units import Units
+from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.physics.measures import WEIGHT, Measure
-
-if TYPE_CHECKING:
-    from evenbreak.answers.shot_units import Units
-    from evenbreak.cli.kit.options import Command
-    from evenbreak.physics import Ball, Cue
 
 ball_option = click.option("--ball", type=WEIGHT, help="Weight of a ball.  [default: 6 ounces]")
 """The option --ball."""
@@ -22,6 +19,7 @@ _OPTIONS = (
         "--tip-mu",
         type=Measure("mu", 0.01, 10.0, "0.6"),
         default=1.0 / math.sqrt(3.0),
+        show_default=False,
         help="Static friction between tip and ball.  "
         "[default: 0.577, a miscue beyond half the radius]",
     ),
@@ -29,7 +27,6 @@ _OPTIONS = (
         "--cloth-mu",
         type=Measure("mu", 0.01, 1.0, "0.2"),
         default=0.2,
-        show_default=True,
         help="Sliding friction between ball and cloth.",
     ),
     ball_option,
@@ -39,22 +36,16 @@ _OPTIONS = (
 
 def equipment_options(command: Command) -> Command:
     """Add the options --stick, --ball, --cloth-mu and --tip-mu."""
-    for option in _OPTIONS:
-        command = option(command)
-    return command
+    return with_options(command, *_OPTIONS)
 
 
-def ball_of(weight: float | None, units: Units) -> Ball:
+def ball_of(weight: float | None, units: Units) -> physics.Ball:
     """Return a pool ball, of another weight if one was typed."""
-    from evenbreak.physics import Ball
-
-    return Ball() if weight is None else Ball(mass=weight * units.mass.size)
+    return physics.Ball() if weight is None else physics.Ball(mass=weight * units.mass.size)
 
 
-def cue_of(weight: float | None, tip_mu: float, units: Units) -> Cue:
+def cue_of(weight: float | None, tip_mu: float, units: Units) -> physics.Cue:
     """Return a cue with such a tip, of another weight if one was typed."""
-    from evenbreak.physics import Cue
-
     if weight is None:
-        return Cue(tip_friction=tip_mu)
-    return Cue(mass=weight * units.mass.size, tip_friction=tip_mu)
+        return physics.Cue(tip_friction=tip_mu)
+    return physics.Cue(mass=weight * units.mass.size, tip_friction=tip_mu)

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.physics.measures import CUT, FRICTION, OFFSET, SPIN
 
 if TYPE_CHECKING:
     from evenbreak.answers.hit import Hit
-    from evenbreak.cli.kit.options import Command
+
 
 _FRICTION = (
     click.option(
         "--friction",
         type=click.Choice(["limited", "shepard"]),
         default="limited",
-        show_default=True,
         help="limited: it ends when the balls no longer slip; shepard: the law of the source "
         "text, without that limit.",
     ),
@@ -26,6 +26,7 @@ _FRICTION = (
         "--mu",
         type=FRICTION,
         default=4.0 / 72.0,
+        show_default=False,
         help="Friction between the two balls.  [default: 4/72 = 0.0556]",
     ),
 )
@@ -35,14 +36,12 @@ _HIT = (
         "--side",
         type=SPIN,
         default=0.0,
-        show_default=True,
         help="Sidespin: right english above 0, left english below.",
     ),
     click.option(
         "--topspin",
         type=SPIN,
         default=1.0,
-        show_default=True,
         help="1 is natural roll, 0 stun, below 0 draw.",
     ),
     click.option(
@@ -56,12 +55,12 @@ _HIT = (
 
 def friction_options(command: Command) -> Command:
     """Add the options --mu and --friction."""
-    return _with(_FRICTION, command)
+    return with_options(command, *_FRICTION)
 
 
 def hit_options(command: Command) -> Command:
     """Add the options --cut, --topspin, --side, --mu and --friction; see `hit_of`."""
-    return _with(_HIT, command)
+    return with_options(command, *_HIT)
 
 
 def hit_of(*, cut: float, topspin: float, side: float, mu: float, friction: str) -> Hit:
@@ -76,13 +75,7 @@ def tip_options(**offset: Any) -> Callable[[Command], Command]:
     side = "How far the tip hits to the right of the centre; below 0 to the left."
     up = "How far the tip hits above the centre, in ball radii; below 0 for draw."
     options = (
-        click.option("--side-offset", type=OFFSET, default=0.0, show_default=True, help=side),
+        click.option("--side-offset", type=OFFSET, default=0.0, help=side),
         click.option("--offset", type=OFFSET, help=up, **offset),
     )
-    return lambda command: _with(options, command)
-
-
-def _with(options: tuple[Callable[[Any], Any], ...], command: Command) -> Command:
-    for option in options:
-        command = option(command)
-    return command
+    return lambda command: with_options(command, *options)

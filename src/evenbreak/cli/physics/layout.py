@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
+from evenbreak import physics
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.values import refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.shot_units import Units
-    from evenbreak.physics import AimedShot, Pocket, PoolTable, Shot, Strike
 
 Place = tuple[float, float]
 
@@ -34,12 +32,12 @@ class Layout:
     """
 
     units: Units
-    table: PoolTable
+    table: physics.PoolTable
     cut: float | None
     distance: float | None
     cue_ball: Place | None
     object_ball: Place | None
-    pocket: Pocket | None
+    pocket: physics.Pocket | None
 
     def metres(self, place: Place) -> Place:
         """Return a place in metres."""
@@ -65,8 +63,6 @@ def layout_of(
     table_length: float | None,
 ) -> Layout:
     """Return the layout that the options describe, or refuse half of one or two."""
-    from evenbreak.physics import POCKET_NAMES, PoolTable, pockets
-
     by_angle = {"--cut": cut, "--distance": distance}
     by_place = {"--object-ball": object_ball, "--pocket": pocket}
     angles, places = (
@@ -78,25 +74,26 @@ def layout_of(
         refuse(f"{angles[0]} and {places[-1]} say twice where the balls are; {ways}")
     if len(angles or places) != 2:
         refuse(f"it is not clear where the balls are; {ways}")
-    table = PoolTable()
+    table = physics.PoolTable()
     if table_length is not None:
         length = table_length * units.length.size
-        table = PoolTable(length=length, width=0.5 * length)
+        table = physics.PoolTable(length=length, width=0.5 * length)
     goal = None
     if pocket is not None:
-        if pocket not in POCKET_NAMES:
-            refuse(f"--pocket {pocket!r}; give one of {', '.join(POCKET_NAMES)}")
-        goal = pockets(table)[POCKET_NAMES.index(pocket)]
+        if pocket not in physics.POCKET_NAMES:
+            refuse(f"--pocket {pocket!r}; give one of {', '.join(physics.POCKET_NAMES)}")
+        goal = physics.pockets(table)[physics.POCKET_NAMES.index(pocket)]
     return Layout(units, table, cut, distance, cue_ball, object_ball, goal)
 
 
-def traced_shot(strike: Strike, layout: Layout, **kit: Any) -> Shot | AimedShot:
+def traced_shot(
+    strike: physics.Strike, layout: Layout, **kit: Any
+) -> physics.Shot | physics.AimedShot:
     """Return the shot of a layout, or refuse one in which it cannot be played.
 
     `kit` is the cloth and the friction between the balls.
     """
     from evenbreak.errors import InputError
-    from evenbreak.physics import pocketed_shot, shot
 
     length, pocket = layout.units.length, layout.pocket
     _check_places(layout, strike.ball.radius)
@@ -104,7 +101,7 @@ def traced_shot(strike: Strike, layout: Layout, **kit: Any) -> Shot | AimedShot:
     if pocket is None or layout.object_ball is None:
         cut, distance = layout.cut or 0.0, layout.distance or 0.0
         try:
-            return shot(
+            return physics.shot(
                 strike, math.radians(cut), distance * length.size, cue_ball=layout.start, **kit
             )
         except InputError:
@@ -116,7 +113,7 @@ def traced_shot(strike: Strike, layout: Layout, **kit: Any) -> Shot | AimedShot:
             "away from the pocket, or give --cut and --distance"
         )
     try:
-        found = pocketed_shot(strike, layout.start, standing, pocket, **kit)
+        found = physics.pocketed_shot(strike, layout.start, standing, pocket, **kit)
     except InputError:
         _refuse_places(layout, math.dist(layout.start, standing), strike.ball.diameter)
     if found.shot.collision is None and found.shot.approach.ending != "rest":

@@ -1,15 +1,9 @@
 """The numbers that players type for a shot, and the option --metric."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.values import Number
-
-if TYPE_CHECKING:
-    from evenbreak.answers.shot_units import Units
 
 
 class Measure(Number):

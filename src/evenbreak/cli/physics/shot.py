@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak import physics, plots
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.values import NUMBER, refuse
+from evenbreak.cli.kit.values import numbers, refuse
 from evenbreak.cli.physics.equipment_options import ball_of, cue_of, equipment_options
 from evenbreak.cli.physics.hit_options import friction_options, tip_options
 from evenbreak.cli.physics.layout import layout_of, traced_shot
 from evenbreak.cli.physics.measures import LENGTH, Measure, metric_option
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.shot_units import Units
-    from evenbreak.physics import Strike
 
 EXAMPLES = """\b
 Examples:
@@ -33,24 +30,14 @@ Examples:
 PACE = Measure("speed", 0.0, 1e4, "80")
 
 
-class Place(click.ParamType):  # type: ignore[type-arg]
-    """A place on the table: two numbers with a comma between them."""
-
-    name = "place"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, float]:
-        """Return the two numbers that were typed."""
-        parts = [part.strip() for part in re.split(r"[,;]", value)]
-        if len(parts) != 2 or not all(NUMBER.fullmatch(part) for part in parts):
-            self.fail(
-                f"{value!r}; give two numbers with a comma between them, such as 25,16: along "
-                "the table from the head cushion, and across it from the right cushion",
-                param,
-                ctx,
-            )
-        return float(parts[0]), float(parts[1])
+PLACE = numbers(
+    "[,;]",
+    range(2, 3),
+    -math.inf,
+    math.inf,
+    "give two numbers with a comma between them, such as 25,16: along "
+    "the table from the head cushion, and across it from the right cushion",
+)
 
 
 @click.command("shot", epilog=EXAMPLES)
@@ -61,10 +48,10 @@ class Place(click.ParamType):  # type: ignore[type-arg]
 @click.option(
     "--cue-ball",
     metavar="X,Y",
-    type=Place(),
+    type=PLACE,
     help="Where it is: X from the head cushion, Y from the right one.  [default: 25,25 inches]",
 )
-@click.option("--object-ball", metavar="X,Y", type=Place(), help="Where it is, in place of --cut.")
+@click.option("--object-ball", metavar="X,Y", type=PLACE, help="Where it is, in place of --cut.")
 @click.option(
     "--pocket",
     metavar="NAME",
@@ -72,12 +59,11 @@ class Place(click.ParamType):  # type: ignore[type-arg]
 )
 @click.option("--speed", type=PACE, help="Speed of the cue ball just after the tip.")
 @click.option("--stick-speed", type=PACE, help="Speed of the cue, in place of --speed.")
-@tip_options(default=0.0, show_default=True)
+@tip_options(default=0.0)
 @click.option(
     "--table-speed",
     type=Measure("number", 5.0, 1000.0, "100"),
     default=100.0,
-    show_default=True,
     help="How fast the table is, as found by `physics speed`.",
 )
 @click.option(
@@ -99,29 +85,24 @@ def command(units: Units, plot: str | None, **how: Any) -> Answer:
     """
     from evenbreak.answers.shot import shot_answer
     from evenbreak.answers.shot_units import unit_doubts
-    from evenbreak.physics import Cloth
 
     places = ("cut", "distance", "cue_ball", "object_ball", "pocket", "table_length")
     layout = layout_of(units, **{name: how[name] for name in places})
-    cloth = Cloth(mu_slide=how["cloth_mu"], mu_roll=1.0 / how["table_speed"])
+    cloth = physics.Cloth(mu_slide=how["cloth_mu"], mu_roll=1.0 / how["table_speed"])
     friction = {"mu": how["mu"], "friction": how["friction"]}
     traced = traced_shot(_strike(how, units), layout, cloth=cloth, **friction)
     if plot is not None:
-        from evenbreak.plots.traced_shot import shot_on_table
-
-        write_plot(shot_on_table(traced), plot)
+        write_plot(plots.shot_on_table(traced), plot)
     typed = {name: how[name] for name in ("stick", "ball", "speed", "stick_speed")}
     return replace(shot_answer(traced, units, layout.pocket), warnings=unit_doubts(units, **typed))
 
 
-def _strike(how: dict[str, Any], units: Units) -> Strike:
+def _strike(how: dict[str, Any], units: Units) -> physics.Strike:
     """Return the hit of the tip, or refuse it."""
-    from evenbreak.physics import miscue_offset, strike, strike_for_speed
-
     if (how["speed"] is None) == (how["stick_speed"] is None):
         refuse("give either --speed, that of the cue ball, or --stick-speed, that of the cue")
     up, right = how["offset"], how["side_offset"]
-    most = miscue_offset(how["tip_mu"])
+    most = physics.miscue_offset(how["tip_mu"])
     if math.hypot(up, right) > most:
         refuse(
             f"--offset {up:g} with --side-offset {right:g} is a miscue: the tip slips beyond "
@@ -129,5 +110,7 @@ def _strike(how: dict[str, Any], units: Units) -> Strike:
         )
     ball, cue = ball_of(how["ball"], units), cue_of(how["stick"], how["tip_mu"], units)
     if how["speed"] is not None:
-        return strike_for_speed(how["speed"] * units.speed.size, up, right, ball=ball, cue=cue)
-    return strike(how["stick_speed"] * units.speed.size, up, right, ball=ball, cue=cue)
+        return physics.strike_for_speed(
+            how["speed"] * units.speed.size, up, right, ball=ball, cue=cue
+        )
+    return physics.strike(how["stick_speed"] * units.speed.size, up, right, ball=ball, cue=cue)

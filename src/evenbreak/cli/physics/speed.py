@@ -1,18 +1,12 @@
 """`evenbreak physics speed`: how fast a table is, from the time of a lag."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.measures import LENGTH, Measure, metric_option
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.shot_units import Units
 
 EXAMPLES = """\b
 Examples:

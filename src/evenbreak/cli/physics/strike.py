@@ -1,22 +1,17 @@
 """`evenbreak physics strike`: what a hit off the centre of the cue ball gives."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.equipment_options import ball_of, cue_of, equipment_options
 from evenbreak.cli.physics.hit_options import tip_options
 from evenbreak.cli.physics.measures import SPEED, Measure, metric_option
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.shot_units import Units
 
 EXAMPLES = """\b
 Examples:

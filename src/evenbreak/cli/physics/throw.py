@@ -1,16 +1,12 @@
 """`evenbreak physics throw`: how friction between the balls turns the object ball off its line."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.hit_options import hit_of, hit_options
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 EXAMPLES = """\b
 Examples:

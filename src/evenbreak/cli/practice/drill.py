@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 import click
 
+from evenbreak import files, games, practice
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.values import CHANCE, NUMBER, Whole, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.values import CHANCE, Whole, numbers, refuse
 
 MOST_LEVELS = 100
 LEVELS = 9
 SEED = 1
-HIGHEST_SEED = 2**32 - 1
 
 MOST_DRAWS = 20_000_000
 """The most attempts simulated for a test, so that a long log takes seconds."""
@@ -29,54 +26,36 @@ Examples:
 """
 
 
-class Chances(click.ParamType):  # type: ignore[type-arg]
-    """Chances with commas between them, such as 0.9,0.8,0.5."""
-
-    name = "chances"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, ...]:
-        """Return the chances that were typed."""
-        parts = [part.strip() for part in value.split(",")]
-        numbers = tuple(float(part) for part in parts if NUMBER.fullmatch(part))
-        if len(parts) > MOST_LEVELS or len(numbers) < len(parts) or not _chances(numbers):
-            self.fail(
-                f"{value!r}; give up to {MOST_LEVELS} numbers from 0 to 1 with commas between "
-                "them, such as 0.9,0.8,0.5",
-                param,
-                ctx,
-            )
-        return numbers
-
-
-def _chances(numbers: tuple[float, ...]) -> bool:
-    return all(0.0 <= number <= 1.0 for number in numbers)
+_chances = numbers(
+    ",",
+    range(1, MOST_LEVELS + 1),
+    0.0,
+    1.0,
+    f"give up to {MOST_LEVELS} numbers from 0 to 1 with commas between them, such as 0.9,0.8,0.5",
+)
 
 
 @click.command("drill", epilog=EXAMPLES)
 @click.option(
-    "--p", metavar="P", type=CHANCE, help="The chance of a shot; level i takes i - 1 of them."
+    "--p",
+    metavar="P",
+    type=CHANCE,
+    help="The chance of making a shot; level i takes i - 1 in a row.",
 )
 @click.option(
     "--success",
     metavar="P,P,...",
-    type=Chances(),
+    type=_chances,
     help="Or the chance of success at each level.",
 )
-@click.option("--log", metavar="LOG.csv", help="Or a log of attempts; - is stdin.")
+@click.option("--log", metavar="LOG.csv", help="Or a log of attempts; - reads standard input.")
 @click.option(
     "--levels",
     type=Whole(1, MOST_LEVELS),
     metavar="N",
     help="How many levels there are.  [default: 9 with --p, the highest in the log with --log]",
 )
-@click.option(
-    "--seed",
-    type=Whole(0, HIGHEST_SEED),
-    metavar="N",
-    help=f"The seed of the simulations that test a log.  [default: {SEED}]",
-)
+@seed_option(f"The seed of the simulations that test a log.  [default: {SEED}]", default=None)
 @plot_option
 @faces()
 def command(
@@ -94,7 +73,7 @@ def command(
     if there are several sessions.
     """
     if sum(which is not None for which in (p, success, log)) != 1:
-        refuse("give one of --p, --success and --log")
+        refuse("give exactly one of --p, --success and --log")
     if success is not None and levels is not None:
         refuse("--success already says how many levels there are; leave --levels out")
     if log is None and seed is not None:
@@ -102,16 +81,14 @@ def command(
     if log is not None:
         return _log(log, levels, SEED if seed is None else seed, plot)
     from evenbreak.answers.drill import drill_answer
-    from evenbreak.games.drill import Drill
-    from evenbreak.practice.drills import drill_statistics
 
     if p is None:
-        drill = Drill(success or ())
+        drill = games.Drill(success or ())
         description = "A drill with the given chance of success at each level"
     else:
-        drill = Drill.progressive(p, LEVELS if levels is None else levels)
+        drill = games.Drill.progressive(p, LEVELS if levels is None else levels)
         description = f"A drill in which level i takes i - 1 good shots, each with chance {p:g}"
-    statistics = drill_statistics(drill)
+    statistics = practice.drill_statistics(drill)
     if plot is not None:
         from evenbreak.plots.drills import drill_figure
 
@@ -123,12 +100,10 @@ def _log(path: str, levels: int | None, seed: int, plot: str | None) -> Answer:
     import numpy as np
 
     from evenbreak.answers.drill_log import drill_log_answer
-    from evenbreak.files.drill_log import read_drill_log
-    from evenbreak.practice.log_analysis import analyse_log
 
-    file = read_drill_log(path, levels=levels)
+    file = files.read_drill_log(path, levels=levels)
     replicas = min(1999, max(199, MOST_DRAWS // len(file.log)))
-    analysis = analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
+    analysis = practice.analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
     if plot is not None:
         from evenbreak.plots.drills import log_figure
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.wording import count_of
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -14,12 +15,12 @@ from evenbreak.errors import DataError
 from evenbreak.stats.confidence import LARGEST
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
     from evenbreak.files.scores import ScoresFile
+
 
 SCORE = Number(-LARGEST, LARGEST, " is not a score; give a number, such as 53")
 CONFIDENCE = Number(
-    1e-9, 1.0 - 1e-9, " is not a confidence; give a number between 0 and 1, such as 0.95"
+    1e-9, 1.0 - 1e-9, " is not a confidence level; give a number between 0 and 1, such as 0.95"
 )
 
 EXAMPLES = """\b
@@ -39,8 +40,7 @@ Examples:
     metavar="C",
     type=CONFIDENCE,
     default=0.95,
-    show_default=True,
-    help="The share of such intervals that contain the true value.",
+    help="The confidence of the intervals.",
 )
 @plot_option
 @faces()
@@ -50,14 +50,14 @@ def command(
     """Find out from the scores of a drill whether you are getting better.
 
     With --new: was one more score luck? With --versus: did something help? SCORES.csv has
-    a column score and, if you like, a column date; - is stdin.
+    a column score and, if known, a column date; - reads standard input.
     """
     from evenbreak.files.scores import read_scores
 
     if new is not None and versus is not None:
-        refuse("--new and --versus exclude each other; leave one out")
+        refuse("--new and --versus cannot be combined; leave one out")
     if scores == versus == "-":
-        refuse("both lists cannot come from stdin; name a file for one of them")
+        refuse("only one list can come from standard input; name a file for the other")
     file = read_scores(scores)
     if versus is not None:
         return _versus(file, read_scores(versus), confidence, plot)
@@ -70,9 +70,7 @@ def _one_list(file: ScoresFile, new: float | None, confidence: float, plot: str 
 
     own = interval_of(file, confidence)
     if new is not None and own is None:
-        raise DataError(
-            [f"{file.source}: has no two scores that differ; --new needs them, so add some"]
-        )
+        raise DataError([f"{file.source}: --new needs at least two different scores; add some"])
     if plot is not None:
         from evenbreak.plots.practice_scores import plot_scores
 

@@ -2,45 +2,27 @@
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING, Any
-
 import click
 
+from evenbreak import stats
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import safety_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.values import CHANCE, LONGEST, MOST_BALLS, Number, Whole, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.stats.innings import InningsScore
-    from evenbreak.stats.runs import RunLength
+from evenbreak.cli.kit.values import CHANCE, LONGEST, MOST_BALLS, Number, TwoWhole, Whole, refuse
 
 AVERAGE = Number(0, MOST_BALLS, f"; give a number of balls an inning from 0 to {MOST_BALLS}")
 LINE = Number(0, MOST_BALLS, f"; give a number of balls from 0 to {MOST_BALLS}, such as 20 or 20.5")
 
 
-class BallRange(click.ParamType):  # type: ignore[type-arg]
-    """Numbers of balls from one to another, such as 50..75."""
-
-    name = "balls"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[int, int]:
-        """Return the two ends."""
-        match = re.fullmatch(r"\s*(\d{1,9})\.\.(\d{1,9})\s*", value, re.ASCII)
-        low, high = map(int, match.groups()) if match else (1, 0)
-        if not low <= high <= MOST_BALLS:
-            self.fail(
-                f"{value!r}; give the fewest and the most balls, from 0 to {MOST_BALLS}, with two "
-                "dots between them, such as 50..75",
-                param,
-                ctx,
-            )
-        return low, high
-
+BALLS = TwoWhole(
+    r"\.\.",
+    0,
+    MOST_BALLS,
+    f"give the fewest and the most balls, from 0 to {MOST_BALLS}, with two "
+    "dots between them, such as 50..75",
+    rising=True,
+)
 
 EXAMPLES = """\b
 Examples:
@@ -53,7 +35,7 @@ Examples:
 
 @click.command("runs", epilog=EXAMPLES)
 @click.option(
-    "--mean", metavar="BALLS", type=AVERAGE, help="The player's average, balls an inning."
+    "--mean", metavar="BALLS", type=AVERAGE, help="The player's average, in balls an inning."
 )
 @click.option("--p", metavar="P", type=CHANCE, help="Or the chance that the player makes a shot.")
 @safety_option
@@ -62,11 +44,10 @@ Examples:
     type=Whole(1, LONGEST),
     metavar="M",
     default=1,
-    show_default=True,
-    help="The score of M innings instead of the run of one.",
+    help="Give the score of M innings instead of the run in one.",
 )
 @click.option("--at-least", type=Whole(0, MOST_BALLS), metavar="N", help="The chance of N or more.")
-@click.option("--between", metavar="LO..HI", type=BallRange(), help="The chance of LO to HI.")
+@click.option("--between", metavar="LO..HI", type=BALLS, help="The chance of LO to HI.")
 @click.option("--over", metavar="N", type=LINE, help="A bet on more than N, such as 20 or 20.5.")
 @plot_option
 @faces()
@@ -80,14 +61,14 @@ def command(
     over: float | None,
     plot: str | None,
 ) -> Answer:
-    """Find how long a player's runs are, and what the innings of a match bring.
+    """Find how long a player's runs are, and what several innings score.
 
-    The player: --mean, or --p.
+    Describe the player by --mean or by --p.
     """
     from evenbreak.answers.runs import Asked, runs_answer
 
     if (mean is None) == (p is None):
-        refuse("give one of --mean and --p, and not both")
+        refuse("give either --mean or --p")
     law, asked = _law(mean, p, safety, innings), Asked(at_least, between, over)
     if plot is not None:
         from evenbreak.plots.runs import plot_score
@@ -98,9 +79,10 @@ def command(
 
 def _law(
     mean: float | None, p: float | None, safety: float, innings: int
-) -> RunLength | InningsScore:
-    from evenbreak.stats.innings import InningsScore
-    from evenbreak.stats.runs import RunLength, shot_chance
-
-    chance = shot_chance(mean, safety) if p is None else p
-    return RunLength(chance, safety) if innings == 1 else InningsScore(chance, innings, safety)
+) -> stats.RunLength | stats.InningsScore:
+    chance = stats.shot_chance(mean, safety) if p is None else p
+    return (
+        stats.RunLength(chance, safety)
+        if innings == 1
+        else stats.InningsScore(chance, innings, safety)
+    )

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak import handicaps
+from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.kit.systems import chart_for
 from evenbreak.cli.kit.values import Number, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.cli.kit.options import Command
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.systems.system import System
 
 
 def between(low: float, high: float) -> Number:
@@ -22,11 +17,11 @@ def between(low: float, high: float) -> Number:
 
 def watch_options(command: Command) -> Command:
     """Add the options that say how the watch judges players."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--day-sd",
             default="0",
-            show_default=True,
             metavar="POINTS",
             type=between(0.0, 10_000.0),
             help="How much the form of honest players varies from day to day (standard deviation).",
@@ -35,32 +30,27 @@ def watch_options(command: Command) -> Command:
             "--honest",
             type=click.Choice(["any", "established"]),
             default="any",
-            show_default=True,
             help="Who counts as honest: players of any skill, or players whose ratings are as "
             "accurate as ratings are in the long run.",
         ),
         click.option(
             "--alpha",
             default="0.01",
-            show_default=True,
             metavar="P",
             type=between(1e-9, 0.5),
             help="The largest chance that an honest player is ever flagged.",
         ),
-    ):
-        command = add(command)
-    return command
+    )
 
 
 def watched_ladder(
-    system: System, chart_name: str | None, day_sd: float
-) -> tuple[Ladder, list[str]]:
+    system: handicaps.System, chart_name: str | None, day_sd: float
+) -> tuple[handicaps.Ladder, list[str]]:
     """Return the ladder whose rating errors the watch assumes, and warnings about its chart."""
     from evenbreak.errors import InputError
-    from evenbreak.handicaps.ladders.ladder import Ladder
 
     chart, warnings = chart_for(system, chart_name)
     try:
-        return Ladder(system, chart, day_sd=day_sd), warnings
+        return handicaps.Ladder(system, chart, day_sd=day_sd), warnings
     except InputError as error:
         refuse(f"--{str(error).replace('_', '-', 1)}")

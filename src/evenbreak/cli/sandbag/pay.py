@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak import handicaps
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.systems import chart_for, system_option
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.sandbag.options import between
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.systems.system import System
 
 DOUBLINGS = 4
 """How far off a rating may be: to where the odds of a game are 16 to 1."""
@@ -40,7 +36,6 @@ Examples:
     "--dumped",
     type=Whole(1, 100),
     default=12,
-    show_default=True,
     metavar="D",
     help="The most matches that are lost on purpose.",
 )
@@ -48,7 +43,6 @@ Examples:
     "--earnest",
     type=Whole(1, 500),
     default=20,
-    show_default=True,
     metavar="E",
     help="How many matches are then played in earnest.",
 )
@@ -56,23 +50,20 @@ Examples:
     "--stake",
     type=MONEY,
     default="10",
-    show_default=True,
     metavar="X",
-    help="What a match won in earnest is worth more than one lost.",
+    help="What winning a match in earnest is worth.",
 )
 @click.option(
     "--dumped-stake",
     type=MONEY,
     default="1",
-    show_default=True,
     metavar="X",
-    help="The same for the matches that are dumped.",
+    help="What winning one of the dumped matches would be worth.",
 )
 @click.option(
     "--in-a-row",
     type=Whole(1, 50),
     default=3,
-    show_default=True,
     metavar="K",
     help="How many matches in a row win a tournament.",
 )
@@ -80,7 +71,6 @@ Examples:
     "--prize",
     type=MONEY,
     default="0",
-    show_default=True,
     metavar="X",
     help="What the tournament pays.",
 )
@@ -89,20 +79,19 @@ Examples:
     "start",
     type=Whole(-100, 100),
     default=0,
-    show_default=True,
     metavar="ERROR",
-    help="The rating less the skill before, in points.",
+    help="How far the rating is above the skill at first, in points.",
 )
 @click.option("--compare", is_flag=True, help="Compare the charts of the system.")
 @plot_option
 @faces()
 def command(
-    chart: str | None, system: System, *, compare: bool, plot: str | None, **asked: Any
+    chart: str | None, system: handicaps.System, *, compare: bool, plot: str | None, **asked: Any
 ) -> Answer:
     """Show what it pays to lose matches on purpose.
 
     Opponents are as good as the player and correctly rated. The player loses up to D matches
-    on purpose, then plays E in earnest while the rating climbs back. All of it is exact.
+    on purpose, then plays E in earnest while the rating climbs back. Nothing is simulated.
     """
     from evenbreak.answers.sandbag_pay import (
         PayQuestion,
@@ -128,8 +117,8 @@ def command(
     return sandbag_pay_answer(found, question, warnings)
 
 
-def _wide(system: System, chart: Chart) -> Ladder:
+def _wide(system: handicaps.System, chart: handicaps.Chart) -> handicaps.Ladder:
     """Return a wide ladder against opponents who are correctly rated."""
-    from evenbreak.handicaps.ladders.ladder import Ladder
-
-    return Ladder(system, chart, widest=round(DOUBLINGS * system.scale.points_per_doubling))
+    return handicaps.Ladder(
+        system, chart, widest=round(DOUBLINGS * system.scale.points_per_doubling)
+    )

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak import handicaps, league
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, seed_option
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.systems import system_option
 from evenbreak.cli.kit.values import CHANCE, Whole, refuse
 from evenbreak.cli.sandbag.options import between, watch_options, watched_ladder
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.handicaps.systems.system import System
 
 Kind = tuple[float, int | None]
 
@@ -54,14 +52,13 @@ Examples:
     "--points",
     type=Whole(1, 500),
     metavar="D",
-    help="With --share: how far below their skill players play those.  [default: they lose them "
-    "all, with scores of honest defeats]",
+    help="With --share: how far below their skill they play in the dumped matches.  [default: they "
+    "lose them all, with the scores of honest defeats]",
 )
 @click.option(
     "--matches",
     type=Whole(1, 500),
     default=80,
-    show_default=True,
     metavar="N",
     help="How many matches each player plays.",
 )
@@ -69,7 +66,7 @@ Examples:
     "--marked",
     metavar="P",
     type=between(0.01, 1.0),
-    help="The share of the matches known to be those that may be dumped; S is then a share of "
+    help="The share of the matches that count for little and may be dumped; S is then a share of "
     "these.  [default: any match may be]",
 )
 @watch_options
@@ -77,7 +74,6 @@ Examples:
     "--replicas",
     type=Whole(2, 100_000),
     default=250,
-    show_default=True,
     metavar="R",
     help="How many players of each kind are simulated.",
 )
@@ -85,7 +81,7 @@ Examples:
 @faces()
 def command(
     chart: str | None,
-    system: System,
+    system: handicaps.System,
     *,
     share: float | None,
     points: int | None,
@@ -95,11 +91,10 @@ def command(
 ) -> Answer:
     """Show how soon the watch flags a sandbagger.
 
-    Players who sandbag more or less are simulated and watched. At the start their ratings are
-    as far off as the ladder's are in the long run.
+    Players who dump different shares of their matches are simulated and watched. At the start
+    their ratings are as far off as ratings are in the long run.
     """
     from evenbreak.answers.sandbag_power import sandbag_power_answer
-    from evenbreak.league.sandbag_power import watch_power
 
     if points is not None and share is None:
         refuse("--points is about the matches that are dumped; give their --share")
@@ -111,6 +106,8 @@ def command(
     found = []
     with Progress("kinds of players simulated") as progress:
         for count, (part, depth) in enumerate(kinds, 1):
-            found.append(watch_power(ladder, share=part, points=depth, matches=matches, **asked))
+            found.append(
+                league.watch_power(ladder, share=part, points=depth, matches=matches, **asked)
+            )
             progress(count, len(kinds))
     return sandbag_power_answer(found, ladder.chart.name, warnings=warnings, **asked)

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak import files, handicaps, league
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, chart_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.systems import system_option
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.sandbag.options import watch_options, watched_ladder
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.handicaps.systems.system import System
 
 EXAMPLES = """\b
 Examples:
@@ -41,9 +37,11 @@ Examples:
     "events",
     multiple=True,
     metavar="EVENT",
-    help="An event that counts for little: only its matches may be dumped. Can be repeated.",
+    help="An event that counts for little: only in it are matches dumped. Can be repeated.",
 )
-@click.option("--player", metavar="NAME", help="Show what each match of one player weighs.")
+@click.option(
+    "--player", metavar="NAME", help="Show what each match of one player adds to the evidence."
+)
 @aliases_option
 @plot_option
 @faces()
@@ -52,7 +50,7 @@ def command(
     roster: str,
     *,
     chart: str | None,
-    system: System,
+    system: handicaps.System,
     alpha: float,
     honest: str,
     events: tuple[str, ...],
@@ -63,28 +61,25 @@ def command(
 ) -> Answer:
     """Check the results of a league for sandbagging.
 
-    RESULTS.csv is the file that `report` reads; - is stdin. The ratings of ROSTER.csv are
-    moved night by night. The evidence against a player grows with results that are likelier
-    from a sandbagger than from an honest player; at 1 / alpha the player is flagged. It is
-    evidence, not a verdict.
+    RESULTS.csv is a file as for `report`; - reads standard input. The ratings of ROSTER.csv
+    are updated night by night. The evidence against a player grows with results that are
+    likelier from a sandbagger than from an honest player; at 1 / alpha the player is flagged.
+    It is evidence, not a verdict.
     """
     from evenbreak.answers.sandbag_watch import sandbag_player_answer, sandbag_watch_answer
     from evenbreak.answers.scale_doubts import league_doubts
     from evenbreak.answers.season_nights import events_marked, nights_of_files
-    from evenbreak.files.results import read_results
-    from evenbreak.files.roster import read_roster
-    from evenbreak.league.sandbag_watch import watch
 
     if [results, roster, chart, aliases].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
     ladder, warnings = watched_ladder(system, chart, day_sd)
-    first, season = read_roster(roster), read_results(results, aliases=aliases)
+    first, season = files.read_roster(roster), files.read_results(results, aliases=aliases)
     warnings += [*first.warnings, *season.warnings]
     warnings += league_doubts(system.scale, first.roster.rating, "--system sets the scale")
     marked = events_marked(season.results, events) if events else None
     # Without --chart the results must state the races or the winners.
     nights = nights_of_files(system, first, season, chart=ladder.chart if chart else None)
-    found = watch(
+    found = league.watch(
         nights, system, ladder.law(), alpha=alpha, honest=honest, marked=marked, day_sd=day_sd
     )
     if player is not None:

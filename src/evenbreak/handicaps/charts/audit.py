@@ -15,9 +15,10 @@ from dataclasses import dataclass
 from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import betaincinv
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow
@@ -172,7 +173,7 @@ def audit(chart: Chart | ChartDraft, *, scale: Any = None) -> ChartAudit:
 @overload
 def even_doublings(m: float, n: float) -> float: ...
 @overload
-def even_doublings(m: ArrayLike, n: ArrayLike) -> NDArray[np.float64]: ...
+def even_doublings(m: ArrayLike, n: ArrayLike) -> Floats: ...
 def even_doublings(m: Any, n: Any) -> Any:
     """Return how many times the odds of a game must double to make the race m:n even.
 
@@ -210,7 +211,7 @@ def _in_order(chart: Chart | ChartDraft) -> list[ChartRow]:
     return rows
 
 
-def _best_fit(even: NDArray[np.float64], cuts: NDArray[np.float64]) -> ChartFit | None:
+def _best_fit(even: Floats, cuts: Floats) -> ChartFit | None:
     """Return the scale and the tilt whose cuts are nearest, by least squares."""
     columns = np.column_stack([even[1:], -np.diff(even)])
     (points, tilted), _, rank, _ = np.linalg.lstsq(columns, cuts)
@@ -228,7 +229,7 @@ def _fitted(fit: ChartFit) -> Scale:
     return Scale(f"{fit.points_per_doubling:.4g} points", fit.points_per_doubling)
 
 
-def _fit_on(points: float, even: NDArray[np.float64], cuts: NDArray[np.float64]) -> ChartFit | None:
+def _fit_on(points: float, even: Floats, cuts: Floats) -> ChartFit | None:
     """Return a scale with the tilt whose cuts are nearest."""
     step = points * np.diff(even)
     if not step.any():
@@ -238,9 +239,7 @@ def _fit_on(points: float, even: NDArray[np.float64], cuts: NDArray[np.float64])
     return ChartFit(points, tilt, float(np.sqrt(np.mean((above - tilt * step) ** 2))))
 
 
-def _audited(
-    rows: Sequence[ChartRow], even: NDArray[np.float64], scale: Scale
-) -> Iterator[AuditRow]:
+def _audited(rows: Sequence[ChartRow], even: Floats, scale: Scale) -> Iterator[AuditRow]:
     first = np.array([row.difference_from for row in rows], dtype=float)
     last = np.array([row.difference_to for row in rows], dtype=float)  # None becomes NaN
     ends = np.isfinite(last)

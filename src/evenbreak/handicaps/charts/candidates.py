@@ -8,8 +8,8 @@ from itertools import groupby
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import number_probability, one_of, positive, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -21,8 +21,6 @@ from evenbreak.handicaps.charts.cheapest_path import (
 from evenbreak.handicaps.charts.match_rules import MatchRules
 from evenbreak.handicaps.charts.race_limits import RaceLimits
 from evenbreak.handicaps.charts.rows import ChartRow
-
-Floats = NDArray[np.float64]
 
 _TIE = 1e-12
 _MOST_CELLS = 5_000_000
@@ -151,7 +149,7 @@ class Candidates:
         cost[:, 0] = np.where(np.arange(self.m.size) < self.evens, 0.0, np.inf)
         return cost
 
-    def _short_enough(self, games: Any) -> NDArray[np.bool_]:
+    def _short_enough(self, games: Any) -> Bools:
         """Return at which differences each race ends within `games` in 9 of 10 matches."""
         short = self.rules.ends_within(self.m, self.n, self.points, games) >= 0.9 - _TIE
         if not short.any(axis=0).all() or not short[: self.evens, 0].any():
@@ -162,7 +160,7 @@ class Candidates:
             )
         return np.asarray(short)
 
-    def _chart(self, path: NDArray[np.int64], name: str) -> Chart:
+    def _chart(self, path: Ints, name: str) -> Chart:
         """Return the chart with, at each difference, the race at that place of the list."""
         runs = [(place, len(list(run))) for place, run in groupby(path.tolist())]
         rows, start = [], 0

@@ -8,8 +8,9 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Ints
 from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.rows import ChartRow, catalogue_rows, row_faults
@@ -93,7 +94,7 @@ class Chart:
         m, n = self.races(points)
         return int(m), int(n)
 
-    def races(self, differences: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def races(self, differences: ArrayLike) -> tuple[Ints, Ints]:
         """Return (m, n), two arrays: the games that player 1 and player 2 need, elementwise.
 
         Parameters

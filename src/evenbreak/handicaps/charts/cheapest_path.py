@@ -11,18 +11,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import InputError
-
-Floats = NDArray[np.float64]
 
 
 class NoChartError(InputError):
     """No chart keeps the limits."""
 
 
-def _cheapest(cost: Floats, evens: int, rows: int | None) -> NDArray[np.int64]:
+def _cheapest(cost: Floats, evens: int, rows: int | None) -> Ints:
     """Return the path of least total cost, as the place of a race for each difference.
 
     It has at most `rows` different races; any number of them if that is None.
@@ -56,13 +54,13 @@ def _cheapest(cost: Floats, evens: int, rows: int | None) -> NDArray[np.int64]:
     return path
 
 
-def _mean(values: Floats, path: NDArray[np.int64]) -> float:
+def _mean(values: Floats, path: Ints) -> float:
     return float(values[path, np.arange(path.size)].mean())
 
 
 def cheapest_within(
     cost: Floats, length: Floats, evens: int, budget: float, rows: int | None = None
-) -> NDArray[np.int64]:
+) -> Ints:
     """Return a path within a budget for the mean length, the cheapest of all no longer than it.
 
     Each game is given a price, the lowest at which the cheapest path keeps the budget. `rows`

@@ -16,6 +16,7 @@ from evenbreak.checks import one_of, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
+from evenbreak.handicaps.charts.race_limits import games_range
 from evenbreak.matches.races import next_breaks, race_odds
 
 _TIE = 1e-9
@@ -159,12 +160,7 @@ def longest_matches(games: tuple[int, int] | None, race_to: int | None) -> tuple
     if games is None:
         needs = whole(race_to, "race_to", at_least=1)
         return needs, 2 * needs - 1
-    if len(games) != 2:
-        raise InputError(f"games is {games!r}; give the pair (lo, hi)")
-    low, high = (whole(limit, "games", at_least=1) for limit in games)
-    if low > high:
-        raise InputError(f"games is {games!r}; give the smaller number first")
-    return low, high
+    return games_range(games)
 
 
 def _win_rows(

@@ -13,11 +13,12 @@ from evenbreak.handicaps.charts.race_limits import RaceLimits
 _LONGEST = 999
 
 
-def fixed_length_chart(games: Any, scale: Any = "npl", *, name: str | None = None) -> Chart:
+def fixed_length_chart(games: Any, scale: Any = "npl") -> Chart:
     """Return the chart whose races all last at most a given number of games.
 
     At each difference it has the race m:n with m + n - 1 = games that is nearest to even. The
-    chart ends with the race in which the weaker player needs one game.
+    chart ends with the race in which the weaker player needs one game. For nine games it is
+    named 'fixed_9'.
 
     Parameters
     ----------
@@ -27,8 +28,6 @@ def fixed_length_chart(games: Any, scale: Any = "npl", *, name: str | None = Non
     scale
         what differences mean: 'npl', 'fargo', 'elo', a `Scale`, or the points that double the
         odds.
-    name
-        the name of the chart; None: 'fixed_9' for nine games.
 
     Raises
     ------
@@ -43,13 +42,10 @@ def fixed_length_chart(games: Any, scale: Any = "npl", *, name: str | None = Non
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
     [(0, 3, 3), (17, 4, 2), (56, 5, 1)]
     """
-    longest = whole(games, "games", at_least=1)
+    longest = whole(games, "games", at_least=1, at_most=_LONGEST)
     if longest % 2 == 0:
         raise InputError(
             f"games is {longest}, which leaves no even race for equal players; give "
             f"{longest - 1} or {longest + 1}"
         )
-    if longest > _LONGEST:
-        raise InputError(f"games is {longest}; give {_LONGEST} or less")
-    called = f"fixed_{longest}" if name is None else name
-    return nearest_chart(scale, RaceLimits((longest, longest)), name=called)
+    return nearest_chart(scale, RaceLimits((longest, longest)), name=f"fixed_{longest}")

@@ -17,9 +17,10 @@ from functools import cache
 from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import roots_hermitenorm
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import floats, plain, probability, together, whole
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
@@ -27,8 +28,6 @@ from evenbreak.handicaps.charts.fair import longest_matches
 from evenbreak.matches.length import MatchLength, match_length
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale, scale_of
-
-Floats = NDArray[np.float64]
 
 MOST_DOUBLINGS = 10.0
 """The largest standard error allowed, in doublings of the odds."""
@@ -153,7 +152,7 @@ def fair_races_given_ratings(
     race_to: int | None = None,
     scale: Any = "npl",
     target: float = 0.5,
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+) -> tuple[Ints, Ints]:
     """Return (m, n), two arrays: the race nearest to the target for each difference.
 
     Chances are averaged over the possible differences. Among races equal within 1e-9 the
@@ -223,9 +222,9 @@ def _nearest(
     weights: Floats,
     low: int,
     high: int,
-    fixed: tuple[int, NDArray[np.bool_]] | None,
+    fixed: tuple[int, Bools] | None,
     target: float,
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+) -> tuple[Ints, Ints]:
     """Return m and m + n - 1 of the best race for each column of p, shape (nodes, pairs).
 
     `row[m]` is W(p; m, n) for the races with one m + n - 1, from m = 0 (player 1 has won) on.

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.handicaps.charts.audit import even_doublings
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.matches.win import race_win_probability
@@ -137,9 +137,7 @@ def audit_levels(chart: LevelChart, *, scale: Any = "npl") -> LevelAudit:
     )
 
 
-def _cells(
-    chart: LevelChart, even: NDArray[np.float64], strength: NDArray[np.float64], scale: Scale
-) -> Iterator[LevelCell]:
+def _cells(chart: LevelChart, even: Floats, strength: Floats, scale: Scale) -> Iterator[LevelCell]:
     half = np.diff(strength) / 2.0
     below, above = (np.r_[half[:1], half], np.r_[half, half[-1:]]) if len(half) else ([0.0],) * 2
     low, high = strength - below, strength + above

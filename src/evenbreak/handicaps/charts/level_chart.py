@@ -9,8 +9,9 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Ints
 from evenbreak.checks import together, whole, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.rows import catalogue_rows
@@ -88,9 +89,7 @@ class LevelChart:
     def _wanted(self) -> str:
         return f"a level of the chart: {', '.join(map(str, self.levels))}"
 
-    def races(
-        self, levels_1: ArrayLike, levels_2: ArrayLike
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def races(self, levels_1: ArrayLike, levels_2: ArrayLike) -> tuple[Ints, Ints]:
         """Return (m, n), two arrays: the games that player 1 and player 2 need, elementwise.
 
         Parameters
@@ -111,7 +110,7 @@ class LevelChart:
         needs = np.array(self.needs)
         return needs[i, j], needs[j, i]
 
-    def _places(self, levels: ArrayLike, name: str) -> NDArray[np.int64]:
+    def _places(self, levels: ArrayLike, name: str) -> Ints:
         array = whole_numbers(levels, name, wanted=self._wanted)
         known = np.array(self.levels)
         place = np.minimum(np.searchsorted(known, array), len(known) - 1)

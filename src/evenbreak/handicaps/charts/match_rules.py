@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import betainc
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat
@@ -31,8 +32,6 @@ from evenbreak.matches.length import match_length
 from evenbreak.matches.quantiles import TIE
 from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.ratings.scale import Scale, scale_of
-
-Floats = NDArray[np.float64]
 
 _MOST_DOUBLINGS = 24.0
 """Every race is even at fewer doublings of the odds than this: 1000:1 at 10.5."""

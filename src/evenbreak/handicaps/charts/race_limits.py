@@ -3,9 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
+
+
+def games_range(games: Any) -> tuple[int, int]:
+    """Return the pair (lo, hi) if it holds two whole numbers, the smaller first.
+
+    >>> games_range((5, 7))
+    (5, 7)
+    """
+    if not isinstance(games, tuple | list) or len(games) != 2:
+        raise InputError(f"games is {games!r}; give the pair (lo, hi)")
+    low, high = (whole(limit, "games", at_least=1) for limit in games)
+    if low > high:
+        raise InputError(f"games is {games!r}; give the smaller number first")
+    return low, high
 
 
 @dataclass(frozen=True)
@@ -40,11 +55,7 @@ class RaceLimits:
     games_p90: int | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.games, tuple | list) or len(self.games) != 2:
-            raise InputError(f"games is {self.games!r}; give the pair (lo, hi)")
-        low, high = (whole(limit, "games", at_least=1) for limit in self.games)
-        if low > high:
-            raise InputError(f"games is {self.games!r}; give the smaller number first")
+        low, high = games_range(self.games)
         object.__setattr__(self, "games", (low, high))
         for name in ("stronger_least", "weaker_least"):
             object.__setattr__(self, name, whole(getattr(self, name), name, at_least=1))

@@ -16,10 +16,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -28,9 +29,6 @@ from evenbreak.handicaps.ladders.error_walk import long_run_law
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.handicaps.systems.match_table import MatchTable, match_table
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _SETTLED = 1e-14
 _ROUNDS = 1000
@@ -98,7 +96,7 @@ class ClosedPair:
         return match_table(self.system, self.chart, widest=self.widest)
 
     @cached_property
-    def _chances(self) -> NDArray[np.float64]:
+    def _chances(self) -> Floats:
         return self.table.chances(self.system.scale.win_probability(self.skill_difference))
 
     def moves(self, state: int) -> Mapping[int, float]:

@@ -7,22 +7,17 @@ points of the NPL are one doubling, and so are 100 of Fargo's.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.inflation import inflation
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponent_pairs import opponent_pairs_of
 from evenbreak.handicaps.ladders.opponents import EQUAL_SKILL, Opponents, stretched
 from evenbreak.handicaps.ladders.settling import settling
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE, better_off, unfairness
-from evenbreak.handicaps.systems.step import step_system
 from evenbreak.ratings.scale import SCALES
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
 
 NEAR = 1.0 / 6.0
 """A rating within this share of a doubling is settled: 5 points of the NPL's 30."""
@@ -63,27 +58,6 @@ class SystemRow(NamedTuple):
     inflation: float
 
 
-class StepPoint(NamedTuple):
-    """What a step size is worth.
-
-    Parameters
-    ----------
-    step
-        points that each match moves a rating.
-    sd
-        the standard deviation of the rating error in the long run, in points.
-    settling_mean
-        matches that a rating takes on average from one doubling too low to within a sixth.
-    on_front
-        whether no other listed step is at least as good in both and better in one.
-    """
-
-    step: int
-    sd: float
-    settling_mean: float
-    on_front: bool
-
-
 def mean_games(ladder: Ladder) -> float:
     """Return the mean number of games in a match, over the ladder's rating errors.
 
@@ -96,8 +70,8 @@ def mean_games(ladder: Ladder) -> float:
     return float(np.asarray(ladder.law().probability, float) @ pairs.mean_of(games))
 
 
-def system_row(ladder: Ladder) -> SystemRow:
-    """Return the row that `compare_systems` has for one ladder."""
+def _row(ladder: Ladder) -> SystemRow:
+    """Return a ladder's row."""
     points = ladder.system.scale.points_per_doubling
     sd = ladder.law().sd
     settled = settling(ladder, -round(points), round(NEAR * points))
@@ -167,56 +141,8 @@ def compare_systems(
             day_sd=day_sd * points,
             match_sd=match_sd * points,
         )
-        rows.append(system_row(ladder))
+        rows.append(_row(ladder))
     return rows
-
-
-def step_front(
-    steps: Iterable[int],
-    chart: Chart | None = None,
-    *,
-    opponents: Opponents = EQUAL_SKILL,
-) -> list[StepPoint]:
-    """Return what each step size is worth, and which are not beaten: the Pareto front.
-
-    A long step soon brings a rating where it should be, but does not keep it there.
-
-    Parameters
-    ----------
-    steps
-        points a match, whole numbers from 1 up.
-    chart
-        the races by rating difference on the NPL's scale; None: the NPL's regular chart.
-    opponents
-        as in `compare_systems`.
-
-    Raises
-    ------
-    InputError
-        if there is no step, or one is not such a number.
-
-    Notes
-    -----
-    How soon a long step settles depends on where it lands: from 30 points too low, steps of 5 and
-    of 6 both need five more wins than losses, so the shorter one is better in both.
-
-    >>> for point in step_front([1, 2, 4]):
-    ...     print(point.step, round(point.sd, 2), round(point.settling_mean, 1), point.on_front)
-    1 4.42 62.7 True
-    2 6.22 31.9 True
-    4 9.03 16.8 True
-    """
-    listed, found = [], []
-    for step in steps:
-        ladder = Ladder(step_system(step), chart, opponents=opponents)
-        points = ladder.system.scale.points_per_doubling
-        mean = settling(ladder, -round(points), round(NEAR * points)).mean
-        listed.append(int(step))
-        found.append((ladder.law().sd, mean))
-    if not found:
-        raise InputError("steps is empty; give one step or more, such as 1")
-    front = zip(listed, found, on_front(found), strict=True)
-    return [StepPoint(step, *both, on_front=best) for step, both, best in front]
 
 
 def on_front(points: Sequence[tuple[float, float]]) -> list[bool]:

@@ -8,21 +8,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.chains import Chain, chain_from_arrays
-from evenbreak.errors import InputError
+from evenbreak.checks import whole
 from evenbreak.handicaps.ladders.error_walk import walk_matrix
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.ladder import Ladder
 
 
-def move_matrix(ladder: Ladder, factor: int = 1) -> NDArray[np.float64]:
+def move_matrix(ladder: Ladder, factor: int = 1) -> Floats:
     """Return P(error j after the match | error i before it), shape (errors, errors).
 
     Rows are the errors before. Moves are multiplied by a newcomer's factor; a move beyond an end
@@ -80,14 +77,5 @@ def error_on(widest: int, start: Any, what: str = "rating error") -> int:
     InputError
         if it is none.
     """
-    try:
-        error = int(start)
-        right = bool(error == start) and not isinstance(start, str | bytes)
-    except (TypeError, ValueError, OverflowError):
-        right = False
-    if not right or abs(error) > widest:
-        raise InputError(
-            f"start is {start!r}; give a {what} in whole points from {-widest} to {widest}, or a "
-            "larger widest"
-        )
-    return error
+    wanted = f"a {what} in whole points from {-widest} to {widest}, or a larger widest"
+    return whole(start, "start", at_least=-widest, at_most=widest, wanted=wanted)

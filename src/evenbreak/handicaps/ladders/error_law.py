@@ -12,19 +12,14 @@ exactly the average one: what flows into an error during a night also flows out 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.ladders.error_walk import long_run_law
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.pairing import Pairing
-
-    Floats: TypeAlias = NDArray[np.float64]
+from evenbreak.handicaps.ladders.pairing import Pairing
 
 _SETTLED = 1e-13
 _ROUNDS = 300
@@ -53,7 +48,7 @@ class LongRun(NamedTuple):
         the largest change of a probability in each round of the iteration.
     """
 
-    steps: NDArray[np.int64]
+    steps: Ints
     kernel: Floats
     wins: Floats
     law: Floats
@@ -167,9 +162,7 @@ def _beginning(night: NightModel, chances: list[Floats], fall: float) -> Floats:
     return long_run_law(sums, (moved @ night.weights).T)
 
 
-def _one_match_more(
-    sums: NDArray[np.int64], moved: Floats, steps: NDArray[np.int64], chances: Floats
-) -> tuple[NDArray[np.int64], Floats]:
+def _one_match_more(sums: Ints, moved: Floats, steps: Ints, chances: Floats) -> tuple[Ints, Floats]:
     """Return the sums of moves, and their chances, after one more match.
 
     An error beyond an end moves as it would at that end, and is held there only at the end of
@@ -201,7 +194,7 @@ def _average(chances: list[Floats], joint: list[Floats]) -> Floats:
     return np.where(known, flow / np.where(known, weight, 1.0), chances[0].mean(axis=2))
 
 
-def _after(joint: Floats, steps: NDArray[np.int64], chances: Floats) -> Floats:
+def _after(joint: Floats, steps: Ints, chances: Floats) -> Floats:
     """Return the joint distribution after a match; an error that would pass an end stays."""
     after = np.zeros_like(joint)
     many = len(joint)
@@ -214,9 +207,7 @@ def _after(joint: Floats, steps: NDArray[np.int64], chances: Floats) -> Floats:
     return after
 
 
-def _falling(
-    steps: NDArray[np.int64], chances: Floats, fall: float
-) -> tuple[NDArray[np.int64], Floats]:
+def _falling(steps: Ints, chances: Floats, fall: float) -> tuple[Ints, Floats]:
     """Return moves and chances if errors also fall by `fall`, a whole point at a time.
 
     >>> _falling(np.array([-1, 1]), np.array([[0.5], [0.5]]), 0.25)[0].tolist()

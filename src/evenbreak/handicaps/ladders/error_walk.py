@@ -7,23 +7,18 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.chains.birth_death import birth_death_law
 from evenbreak.checks import number_probabilities
 from evenbreak.errors import InputError
 from evenbreak.game import ArcArrays
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
 
 
 class ErrorWalk:
@@ -35,16 +30,16 @@ class ErrorWalk:
 
     @property
     @abstractmethod
-    def steps(self) -> NDArray[np.int64]:
+    def steps(self) -> Ints:
         """The moves that a match can bring, in points, in increasing order."""
 
     @property
     @abstractmethod
-    def kernel(self) -> NDArray[np.float64]:
+    def kernel(self) -> Floats:
         """P(move | error before the match), shape (errors, steps), the ends not yet applied."""
 
     @property
-    def errors(self) -> NDArray[np.int64]:
+    def errors(self) -> Ints:
         """The rating errors, from -widest to widest."""
         half = len(self.kernel) // 2
         return np.arange(-half, half + 1)
@@ -137,18 +132,18 @@ class RatingLadder(ErrorWalk):
         return len(self.wins) // 2
 
     @property
-    def steps(self) -> NDArray[np.int64]:
+    def steps(self) -> Ints:
         """A point down or a point up."""
         return np.array([-1, 1])
 
     @cached_property
-    def kernel(self) -> NDArray[np.float64]:
+    def kernel(self) -> Floats:
         """P(lost | error) and P(won | error); shape (errors, 2)."""
         wins = np.array(self.wins)
         return np.column_stack([1.0 - wins, wins])
 
 
-def long_run_law(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
+def long_run_law(steps: Ints, kernel: Floats) -> Floats:
     """Return the stationary distribution of a walk by these moves, shape (errors,).
 
     Parameters
@@ -174,7 +169,7 @@ def long_run_law(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArr
     return law
 
 
-def _law_of_class(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
+def _law_of_class(steps: Ints, kernel: Floats) -> Floats:
     """Return the stationary distribution of a walk whose moves have no common divisor."""
     if len(kernel) == 1:
         return np.ones(1)
@@ -190,7 +185,7 @@ def _law_of_class(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDAr
     return _limit_from_the_middle(walk_matrix(steps, kernel))
 
 
-def _eliminated(matrix: NDArray[np.float64], band: int) -> NDArray[np.float64]:
+def _eliminated(matrix: Floats, band: int) -> Floats:
     """Return the stationary distribution of a row-stochastic matrix, without subtractions.
 
     States are eliminated from the highest down: what passes through a state is passed on among
@@ -214,7 +209,7 @@ def _eliminated(matrix: NDArray[np.float64], band: int) -> NDArray[np.float64]:
         return np.asarray(law / law.sum())
 
 
-def _limit_from_the_middle(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+def _limit_from_the_middle(matrix: Floats) -> Floats:
     """Return the limit, started in the middle, of a walk with walls that no match crosses."""
     from evenbreak.chains import chain_from_arrays, stochastic_limit
 
@@ -225,7 +220,7 @@ def _limit_from_the_middle(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(stochastic_limit(chain, many // 2).probability)
 
 
-def walk_matrix(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
+def walk_matrix(steps: Ints, kernel: Floats) -> Floats:
     """Return P(error j after the match | error i before it), shape (errors, errors).
 
     Rows are the errors before. A move that would lead beyond an end is not made.

@@ -7,14 +7,12 @@ convolutions of such arrays, and so are averages of a smooth function over them.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 from scipy.special import ndtr
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from evenbreak.arrays import Floats, Ints
 
 _FARTHEST = 8.3
 """Standard deviations beyond which a normal distribution has no more than 1e-16."""
@@ -26,7 +24,7 @@ _FEW = 1 << 18
 """Up to this many products a sum is faster than a Fourier transform."""
 
 
-def deviations(sd: float) -> NDArray[np.float64]:
+def deviations(sd: float) -> Floats:
     """Return the distribution of a normal deviation rounded to whole points, over -k, ..., k.
 
     >>> deviations(0.0), deviations(0.5)[3:8].round(4)
@@ -42,7 +40,7 @@ def deviations(sd: float) -> NDArray[np.float64]:
     return np.asarray(law / law.sum())
 
 
-def difference_law(*sds: float) -> NDArray[np.float64]:
+def difference_law(*sds: float) -> Floats:
     """Return the distribution of the difference of two players' forms, over -k, ..., k.
 
     Each of the two has deviations with these standard deviations, all of them independent.
@@ -56,9 +54,7 @@ def difference_law(*sds: float) -> NDArray[np.float64]:
     return law
 
 
-def deviation_grid(
-    law: NDArray[np.float64], doubling: float
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def deviation_grid(law: Floats, doubling: float) -> tuple[Ints, Floats]:
     """Return points and weights that stand for a distribution over -k, ..., k in a mean.
 
     Above a standard deviation of 4 points the spacing is half of it, or half a `doubling` of the
@@ -77,7 +73,7 @@ def deviation_grid(
     return points, weights / weights.sum()
 
 
-def averages(values: NDArray[np.float64], law: NDArray[np.float64]) -> NDArray[np.float64]:
+def averages(values: Floats, law: Floats) -> Floats:
     """Return sum over k of law[k] values[..., i + k] for each i at which all of them are known.
 
     Notes

@@ -10,16 +10,14 @@ sum with each match, and no result will ever show it.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.ladders.error_chain import error_on, move_matrix
+from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponent_pairs import opponent_pairs_of
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.ladder import Ladder
 
 _AT_THE_ENDS = 1e-6
 
@@ -84,7 +82,7 @@ def newcomer_inflation(ladder: Ladder, start: int) -> NewcomerInflation:
     ladder
         how ratings move; its system defines the newcomer's steps.
     start
-        the newcomer's rating less his skill, in whole points.
+        the newcomer's rating less their skill, in whole points.
 
     Raises
     ------

@@ -14,10 +14,11 @@ from __future__ import annotations
 import contextlib
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number, whole
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -30,9 +31,6 @@ from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.handicaps.systems.match_table import known_table
 from evenbreak.handicaps.systems.system import System
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _DOUBLINGS = (2.0, 4.0, 8.0)
 _AT_AN_END = 1e-9
@@ -168,17 +166,17 @@ class Ladder(ErrorWalk):
             object.__setattr__(self, name, value)
 
     @property
-    def steps(self) -> NDArray[np.int64]:
+    def steps(self) -> Ints:
         """The moves that a match can bring, in points, in increasing order."""
         return self._long_run.steps
 
     @property
-    def kernel(self) -> NDArray[np.float64]:
+    def kernel(self) -> Floats:
         """P(move | error before the match), shape (errors, steps), the ends not yet applied."""
         return self._long_run.kernel
 
     @property
-    def wins(self) -> NDArray[np.float64]:
+    def wins(self) -> Floats:
         """P(the player wins the match | error before it), shape (errors,)."""
         return self._long_run.wins
 
@@ -227,7 +225,7 @@ class Ladder(ErrorWalk):
         night = NightModel(pairing, weights, matches)
         return long_run(night, self._given_error(), self.drift, conserving=self.system.conserving)
 
-    def _given_error(self) -> NDArray[np.float64] | None:
+    def _given_error(self) -> Floats | None:
         """Return the opponents' error on the line, its ends holding what lies beyond."""
         given = self.opponents.error
         if given is None:
@@ -237,7 +235,7 @@ class Ladder(ErrorWalk):
         weights = np.array(given.probability, dtype=float)
         return np.bincount(places, weights, 2 * self.widest + 1).astype(float)
 
-    def _distribution(self, chances: NDArray[np.float64]) -> Distribution:
+    def _distribution(self, chances: Floats) -> Distribution:
         return Distribution(tuple(self.errors.tolist()), tuple(chances.tolist()))
 
 
@@ -252,7 +250,7 @@ def _system_and_chart(system: Any, chart: Any) -> tuple[System, Chart]:
     return by, by.usual_chart() if chart is None else chart
 
 
-def _at_the_ends(law: NDArray[np.float64]) -> float:
+def _at_the_ends(law: Floats) -> float:
     """Return P(the error is at an end, or within a move of one)."""
     near = max(1, len(law) // 40)
     return float(law[:near].sum() + law[-near:].sum())

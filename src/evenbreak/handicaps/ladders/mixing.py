@@ -12,11 +12,13 @@ three cube roots of unity, and the average over three matches converges.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import scipy.linalg
+from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.chains import stochastic_limit
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.ladders.error_chain import (
@@ -26,11 +28,7 @@ from evenbreak.handicaps.ladders.error_chain import (
     period_of,
     unit_of,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.ladder import Ladder
 
 _MOST_MATCHES = 100_000
 
@@ -81,7 +79,7 @@ def ladder_gap(ladder: Ladder) -> float:
     return gap
 
 
-def _eigenvalues(matrix: NDArray[np.float64]) -> NDArray[Any]:
+def _eigenvalues(matrix: Floats) -> NDArray[Any]:
     if np.abs(matrix - matrix.T).max() <= 1e-9:
         return np.asarray(scipy.linalg.eigvalsh((matrix + matrix.T) / 2.0))
     return np.asarray(scipy.linalg.eigvals(matrix))

@@ -14,17 +14,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.handicaps.ladders.form import deviation_grid, difference_law
+from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.systems.match_table import MatchTable, known_table
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.ladder import Ladder
 
 _RARE = 1e-18
 
@@ -51,19 +49,19 @@ class OpponentPairs:
 
     ladder: Ladder
     table: MatchTable
-    skills: NDArray[np.int64]
-    apart: NDArray[np.int64]
-    ahead: NDArray[np.int64]
-    chance: NDArray[np.float64]
+    skills: Ints
+    apart: Ints
+    ahead: Ints
+    chance: Floats
 
-    def wins(self) -> NDArray[np.float64]:
+    def wins(self) -> Floats:
         """Return P(win | rating difference, difference of skill), shape (differences, skills)."""
         found = np.zeros((2 * self.table.widest + 1, len(self.skills)))
         for p, weight in self._forms():
             found += weight * self.table.wins(p)
         return found
 
-    def mean_of(self, worth: NDArray[Any]) -> NDArray[np.float64]:
+    def mean_of(self, worth: NDArray[Any]) -> Floats:
         """Return the mean of what a final score is worth, given the player's error.
 
         Parameters
@@ -82,11 +80,11 @@ class OpponentPairs:
                 by_pair[:, place] += weight * (self.table.chances(game) * worth).sum(axis=1)
         return np.asarray(by_pair[self.places(), self.ahead] @ self.chance)
 
-    def places(self) -> NDArray[np.int64]:
+    def places(self) -> Ints:
         """Return where the table has each rating difference, shape (errors, kinds)."""
         return self.ladder.errors[:, None] + self.apart + self.table.widest
 
-    def _forms(self) -> Iterator[tuple[NDArray[np.float64], float]]:
+    def _forms(self) -> Iterator[tuple[Floats, float]]:
         """Yield the chances of a game by difference of skill, form by form, with weights."""
         scale = self.ladder.system.scale
         law = difference_law(self.ladder.day_sd, self.ladder.match_sd)

@@ -16,20 +16,17 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.fft import irfftn, next_fast_len, rfftn
 
+from evenbreak.arrays import Floats, Ints
+from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.ladders.form import averages
 from evenbreak.handicaps.ladders.opponents import Opponents, farthest
 from evenbreak.handicaps.systems.match_table import MatchTable, known_table
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.system import System
+from evenbreak.handicaps.systems.system import System
 
 _FEW = 1 << 20
 """Up to this many products a sum is faster than a Fourier transform."""
@@ -58,8 +55,8 @@ class Pairing(ABC):
         table: MatchTable,
         widest: int,
         opponents: Opponents,
-        blur: NDArray[np.float64],
-        days: NDArray[np.int64],
+        blur: Floats,
+        days: Ints,
     ) -> None:
         self.table = table
         self.errors = np.arange(-widest, widest + 1)
@@ -70,7 +67,7 @@ class Pairing(ABC):
         self.chance = np.array(opponents.spread.probability, dtype=float)
         real = table.games[..., 0] >= 0
         self.steps = np.unique(table.moves[..., 0][real])
-        first, self._race = _distinct(table.needs)
+        first, self._race = table.races
         self._races = replace(
             table,
             needs=table.needs[first],
@@ -85,7 +82,7 @@ class Pairing(ABC):
         """Work out what does not depend on the opponents' errors."""
 
     @abstractmethod
-    def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
+    def moves(self, law: Floats) -> Floats:
         """Return P(move | error, form) for each step, and P(win | error, form) last.
 
         Parameters
@@ -98,7 +95,7 @@ class Pairing(ABC):
         array of shape (steps + 1, errors, days)
         """
 
-    def scores(self, low: int, high: int) -> NDArray[np.float64]:
+    def scores(self, low: int, high: int) -> Floats:
         """Return P(final score | race, skill difference), for differences from low to high.
 
         The chances are averaged over the blur; shape (races, outcomes, high - low + 1).
@@ -110,9 +107,9 @@ class Pairing(ABC):
 
     def add(
         self,
-        total: NDArray[np.float64],
-        ratings: NDArray[np.int64],
-        scores: NDArray[np.float64],
+        total: Floats,
+        ratings: Ints,
+        scores: Floats,
         weight: float,
     ) -> None:
         """Add P(move) and P(win), `weight` times, to a total of shape (steps + 1, x, days).
@@ -155,7 +152,7 @@ class SkillGiven(Pairing):
         self._size = tuple(next_fast_len(n, real=True) for n in self._by_difference.shape[1:])
         self._spectrum: NDArray[np.complex128] | None = None
 
-    def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
+    def moves(self, law: Floats) -> Floats:
         """Return the convolution of P(move | differences) with the opponents' distribution."""
         middle = len(law) // 2
         law = law[middle - self._reach : middle + self._reach + 1]
@@ -190,7 +187,7 @@ class RatingGiven(Pairing):
         self._scores = self.scores(-reach, reach)
         self._place = (self.errors[:, None] - days + self._hidden).ravel()
 
-    def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
+    def moves(self, law: Floats) -> Floats:
         """Return P(move), averaged over the opponents' skill on the night."""
         hidden = np.bincount(self._place, law.ravel(), 2 * self._hidden + 1)
         scores = averages(self._scores, hidden.astype(float))
@@ -206,8 +203,8 @@ def pairing_of(
     chart: Chart,
     widest: int,
     opponents: Opponents,
-    blur: NDArray[np.float64],
-    days: NDArray[np.int64],
+    blur: Floats,
+    days: Ints,
 ) -> Pairing:
     """Return the matches of a player against these opponents."""
     apart = widest + opponents.farthest
@@ -217,9 +214,3 @@ def pairing_of(
     reach = widest if opponents.error is None else min(farthest(opponents.error), widest)
     table = known_table(system, chart, widest=apart + reach)
     return SkillGiven(table, widest, opponents, blur, days)
-
-
-def _distinct(needs: NDArray[np.int64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return where each race of a table stands first, and which race is played at each place."""
-    _, first, race = np.unique(needs, axis=0, return_index=True, return_inverse=True)
-    return first, race.reshape(-1)

@@ -1,28 +1,26 @@
 """How many matches a rating that starts wrong takes to become about right.
 
-A rating settles with the first match after which its error is within a band around 0. When that
-is follows from the chain of errors with the band absorbing; under a newcomer schedule each stage
-has a chain of its own, and what has not settled by its end goes on as an established player.
+A rating settles with the first match after which its error is within a band around 0. The number
+of matches follows from the chain of errors with the band made absorbing. Under a newcomer schedule
+each stage has a chain of its own; a rating that has not settled by the end of the schedule goes on
+as that of an established player.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.chains import first_passage
 from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.ladders.error_chain import chain_of_errors, error_on, move_matrix
+from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.ladder import Ladder
 
 _TAIL = 1e-12
 _HORIZON = 100_000

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponent_pairs import opponent_pairs_of
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.ladder import Ladder
 
 CLEAR_FAVOURITE = 0.6
 """A player with at least this chance to win a match is its clear favourite."""

@@ -18,9 +18,10 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import gammaln, xlog1py, xlogy
 
+from evenbreak.arrays import Bools, Floats, Ints, Places
 from evenbreak.checks import probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -72,12 +73,12 @@ class MatchTable:
     system: System
     chart: Chart
     widest: int
-    needs: NDArray[np.int64]
-    games: NDArray[np.int64]
-    moves: NDArray[np.int64]
-    won: NDArray[np.bool_]
+    needs: Ints
+    games: Ints
+    moves: Ints
+    won: Bools
 
-    def wins(self, p: ArrayLike) -> NDArray[np.float64]:
+    def wins(self, p: ArrayLike) -> Floats:
         """Return P(player 1 wins the match | rating difference, chance p to win a game).
 
         Parameters
@@ -100,13 +101,13 @@ class MatchTable:
         array([0.637, 0.5  , 0.363])
         """
         game = np.asarray(probability(p, "p"))
-        races, place = self._races
+        first, place = self.races
         down = (slice(None), *(None,) * game.ndim)
-        m, n = races.T
+        m, n = self.needs[first].T
         by_race = np.asarray(race_win_probability(game, m[down], n[down]))
         return by_race[place]
 
-    def chances(self, p: ArrayLike) -> NDArray[np.float64]:
+    def chances(self, p: ArrayLike) -> Floats:
         """Return P(each final score | rating difference, player 1's chance p to win a game).
 
         Parameters
@@ -126,8 +127,7 @@ class MatchTable:
             if p is not a probability.
         """
         game = np.asarray(probability(p, "p"))
-        _, place = self._races
-        first = np.unique(place, return_index=True)[1]
+        first, place = self.races
         games, won = np.maximum(self.games[first], 0), self.won[first]
         a, b = games[..., 0], games[..., 1]
         # The winner wins the last game; only the games before it can be in any order.
@@ -139,10 +139,10 @@ class MatchTable:
         return by_race[place]
 
     @cached_property
-    def _races(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """The different races of the table, and which of them is played at each difference."""
-        races, place = np.unique(self.needs, axis=0, return_inverse=True)
-        return races, place.reshape(-1)
+    def races(self) -> tuple[Places, Places]:
+        """Where each race of the table stands first, and which of them each difference has."""
+        _, first, place = np.unique(self.needs, axis=0, return_index=True, return_inverse=True)
+        return first, place.reshape(-1)
 
 
 def match_table(system: System, chart: Chart | None = None, *, widest: Any = None) -> MatchTable:
@@ -187,7 +187,7 @@ known_table = lru_cache(maxsize=8)(match_table)
 """`match_table`, with the last tables kept; they are read-only."""
 
 
-def _scores(needs: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+def _scores(needs: Ints) -> tuple[Ints, Bools]:
     """Return the final scores of each race, and which of them player 1 wins."""
     m, n = needs[:, 0, None], needs[:, 1, None]
     place = np.arange(needs.sum(axis=1).max())
@@ -198,9 +198,7 @@ def _scores(needs: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.boo
     return np.where(real[..., None], np.stack([a, b], axis=2), NOBODY), won
 
 
-def _moves(
-    system: System, needs: NDArray[np.int64], games: NDArray[np.int64], won: NDArray[np.bool_]
-) -> NDArray[np.int64]:
+def _moves(system: System, needs: Ints, games: Ints, won: Bools) -> Ints:
     moves = np.zeros_like(games)
     size = len(needs) // 2
     for place, outcome in np.argwhere(games[..., 0] != NOBODY).tolist():

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Ints
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.ratings.consistency import who_won
 from evenbreak.ratings.results import Results
@@ -36,14 +37,14 @@ class NightTable(NamedTuple):
     """
 
     results: Results
-    a: NDArray[np.int64]
-    b: NDArray[np.int64]
-    rated: NDArray[np.bool_]
-    counted: NDArray[np.bool_]
+    a: Ints
+    b: Ints
+    rated: Bools
+    counted: Bools
     winner: NDArray[np.int8]
-    chart_a: NDArray[np.int64]
-    chart_b: NDArray[np.int64]
-    from_chart: NDArray[np.bool_]
+    chart_a: Ints
+    chart_b: Ints
+    from_chart: Bools
 
 
 def night_table(roster: Roster, results: Results, chart: Chart | None) -> NightTable:

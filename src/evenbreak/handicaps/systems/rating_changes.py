@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Ints
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.night_problems import night_problems
@@ -72,8 +73,8 @@ class RatingChanges:
     before: Roster
     after: Roster
     matches: tuple[MatchChange, ...]
-    won: NDArray[np.int64]
-    lost: NDArray[np.int64]
+    won: Ints
+    lost: Ints
     forfeits: int
     empty: int
 

@@ -140,9 +140,6 @@ def points_of(value: Any, name: str, *, at_least: int = 1) -> int:
     >>> points_of(5000, "up")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: up is 5000; give a whole number, 1000 or less
+    evenbreak.errors.InputError: up is 5000; give a whole number from 1 to 1000
     """
-    points = whole(value, name, at_least=at_least)
-    if points > _MOST_POINTS:
-        raise InputError(f"{name} is {points}; give a whole number, {_MOST_POINTS} or less")
-    return points
+    return whole(value, name, at_least=at_least, at_most=_MOST_POINTS)

@@ -3,8 +3,8 @@
 import pytest
 
 from evenbreak.league import LeaguePlayers, Season
-from evenbreak.league.batches import Batching, batching_of
 from evenbreak.league.counting import ALONE
+from evenbreak.league.simulate import Batching, batching_of
 
 
 def season(players, weeks=30):
