@@ -76,3 +76,10 @@ def test_matches_are_kept_and_not_stated_where_nobody_says_them():
 def test_matches_are_counts():
     with pytest.raises(InputError, match="matches is negative somewhere"):
         Roster(["Ann"], [92], matches=[-2])
+    with pytest.raises(InputError, match="games is negative somewhere"):
+        Roster(["Ann"], [92], games=[-2])
+
+
+def test_ratings_are_not_text():
+    with pytest.raises(InputError, match=r"rating is .*; give numbers"):
+        Roster(["Ann", "Bo"], ["92", "71.5"])

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.arrays import Bools, Floats
-from evenbreak.checks import positive
+from evenbreak.checks import column, positive
 from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 
@@ -25,12 +25,12 @@ def day_of(value: Any) -> np.datetime64:
     np.datetime64('2026-01-31')
     """
     try:
-        day = np.datetime64(value, "D")
-    except (TypeError, ValueError):
+        day = column([value], "as_of", 1, "days", "datetime64[D]")[0]
+    except InputError:
         day = np.datetime64("NaT", "D")
     if np.isnat(day):
         raise InputError(f"as_of is {value!r}; give a day, such as 2026-01-31")
-    return day
+    return np.datetime64(day)
 
 
 def until(results: Results, as_of: np.datetime64) -> Bools:

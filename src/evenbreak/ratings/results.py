@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.arrays import Bools, Ints
-from evenbreak.checks import column
+from evenbreak.checks import column, names
 from evenbreak.errors import InputError
 
 FORMATS = ("", "winner", "loser", "alternate", "a", "b")
@@ -85,7 +85,8 @@ class Results:
     Raises
     ------
     InputError
-        if columns differ in length, or a position or code is out of range. Contradictions
+        if columns differ in length, hold what is not of their type (a score of 2.5, a
+        forfeit marked NaN or 'no'), or a position or code is out of range. Contradictions
         that a person may have typed are left to `find_problems`.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 0], [5, 0])
@@ -111,9 +112,7 @@ class Results:
     unscored: Bools | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "players", tuple(self.players))
-        if len(set(self.players)) < len(self.players):
-            raise InputError("players holds a name twice; give each name once")
+        object.__setattr__(self, "players", names(self.players, "players"))
         rows = len(self.player_a)
         for name, kind in _TYPES.items():
             given = getattr(self, name)
@@ -150,14 +149,14 @@ class Results:
 
         The other columns are given by keyword, as `Results` describes them.
         """
-        players = sorted({*player_a, *player_b})
+        players = sorted(names({*player_a, *player_b}, "player_a or player_b"))
         position = {name: k for k, name in enumerate(players)}
         return cls(
             tuple(players),
             np.array([position[name] for name in player_a], dtype=np.int64),
             np.array([position[name] for name in player_b], dtype=np.int64),
-            np.asarray(score_a, dtype=np.int64),
-            np.asarray(score_b, dtype=np.int64),
+            score_a,  # type: ignore[arg-type]  # made an array by __post_init__
+            score_b,  # type: ignore[arg-type]
             **columns,
         )
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import column
+from evenbreak.checks import column, names
 from evenbreak.errors import InputError
 
 NOT_STATED = -1
@@ -48,7 +48,8 @@ class Roster:
     ------
     InputError
         if a name appears twice, the columns differ in length or hold something that is not a
-        number, a rating is infinite, an error is negative or infinite, or matches are negative.
+        number, a rating is infinite, an error is negative or infinite, or games or matches are
+        negative.
 
     >>> club = Roster(["Ann", "Bo"], [92.0, np.nan], games=[140, 0])
     >>> len(club), club.position("Bo"), club.standard_error
@@ -72,11 +73,8 @@ class Roster:
         component: ArrayLike | None = None,
         matches: ArrayLike | None = None,
     ) -> None:
-        names = tuple(players)
-        if len(set(names)) < len(names):
-            raise InputError("players holds a name twice; give each name once")
-        object.__setattr__(self, "players", names)
-        many = len(names)
+        object.__setattr__(self, "players", names(players, "players"))
+        many = len(self.players)
         for name, given, kind, unstated in (
             ("rating", rating, np.float64, math.nan),
             ("standard_error", standard_error, np.float64, math.nan),
@@ -90,8 +88,11 @@ class Roster:
             raise InputError("rating holds infinity; give numbers, NaN for a new player")
         if (self.standard_error < 0).any() or np.isinf(self.standard_error).any():
             raise InputError("standard_error is negative or infinite somewhere; give 0 or more")
-        if (self.matches < NOT_STATED).any():
-            raise InputError("matches is negative somewhere; give 0 or more, NOT_STATED if unknown")
+        for name in ("games", "matches"):
+            if (getattr(self, name) < NOT_STATED).any():
+                raise InputError(
+                    f"{name} is negative somewhere; give 0 or more, NOT_STATED if unknown"
+                )
 
     def __len__(self) -> int:
         return len(self.players)
