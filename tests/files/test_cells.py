@@ -47,6 +47,7 @@ def test_whole_numbers(text, value):
         "seven",
         "1_000",
         "1,000",
+        "1.000",
         "٧",
         "²",
         "0x7",
@@ -116,6 +117,33 @@ def test_numbers(text, value):
         value
     ]
     assert told(table) == []
+
+
+@pytest.mark.parametrize(
+    ("cells", "problems"),
+    [
+        (("1,500", "1,700"), ["1,500' may mean 1500 or 1.5", "1,700' may mean 1700 or 1.7"]),
+        (("1.500", "1.700"), ["1.500' may mean 1500 or 1.5", "1.700' may mean 1700 or 1.7"]),
+        (("-1,500", "85,5"), ["-1,500' may mean -1500 or -1.5"]),
+        (("1.500", "1700"), ["1.500' may mean 1500 or 1.5"]),
+        (("1.500", "1.25"), []),
+        (("85,5", "92,347", "0,125", "1,5", "1,5000"), []),
+        (("85.5", "92.347", "9.512"), []),
+    ],
+)
+def test_a_number_that_reads_two_ways_is_refused(cells, problems):
+    table = table_of(*cells)
+    numbers(table, "x", at_least=-(10**6), at_most=10**6, remedy="", points_may_group=True)
+    assert len(told(table)) == len(problems)
+    for problem, part in zip(told(table), problems, strict=True):
+        assert part in problem
+
+
+def test_a_point_is_a_decimal_point_unless_it_may_group_and_a_comma_where_no_thousand_fits():
+    for text, at_most in (("1.500", 10**6), ("1,500", 9)):
+        table = table_of(text)
+        assert numbers(table, "x", at_least=0, at_most=at_most, remedy="").values.tolist() == [1.5]
+        assert told(table) == []
 
 
 @pytest.mark.parametrize(

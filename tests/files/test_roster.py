@@ -66,6 +66,15 @@ def test_a_list_of_ratings_is_a_roster_with_the_errors_of_differences(tmp_path):
     np.testing.assert_allclose(roster.rating, ratings.rating[at], atol=1e-6)
 
 
+def test_ratings_that_may_be_thousands_are_refused(read):
+    for one, other in (('"1,500"', '"1,700"'), ("1.500", "1.700")):
+        first, second = problems_of(read, f"name,rating\nAnn,{one}\nBo,{other}\n")
+        assert first.startswith(":2: rating ")
+        assert "1500 or 1.5;" in first
+        assert second.startswith(":3: rating ")
+        assert "1700 or 1.7;" in second
+
+
 def test_two_columns_suffice(read):
     roster = read("Name;Skill level\nAnn;5\nBo;4\n").roster
     assert roster.rating.tolist() == [5.0, 4.0]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from datetime import date
 from typing import Any, NamedTuple
 
@@ -19,14 +19,16 @@ from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import TextTable
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
-# A comma before three zeros would group thousands.
-_WHOLE = re.compile(r"[+-]?[0-9]+(\.0*|,00?)?", re.ASCII)
+# A comma or point before three zeros may group thousands.
+_WHOLE = re.compile(r"[+-]?[0-9]+(\.0{0,2}|\.0{4,}|,00?)?", re.ASCII)
+_GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}[.,][0-9]{3}", re.ASCII)
 _TIME = r"([T ]\d{1,2}:\d{2}\S*)?"
 _YEAR_FIRST = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})" + _TIME, re.ASCII)
 _DAY_FIRST = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})" + _TIME, re.ASCII)
 _IN_NUMBERS = "0123456789+-.eE"
 _DECIMAL_COMMA = re.compile(r"[^.,]*,[^.,]*")
 LARGEST_WHOLE = 1_000_000
+LARGEST_GROUPED = 10_000  # 92,347 means 92.347: no rating of 92347 points is in use
 LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of digits
 
 
@@ -140,17 +142,29 @@ def numbers(
     at_most: int,
     remedy: str,
     may_be_empty: bool = False,
+    points_may_group: bool = False,
 ) -> Values:
     """Read a column of numbers from `at_least` to `at_most`; other cells are NaN.
 
-    A comma is read as the decimal point, as spreadsheets in many languages write it, and
-    never groups thousands.
+    A comma is read as the decimal point, as spreadsheets in many languages write it. A cell
+    such as 1,500 is refused where 1500 is possible too. With `points_may_group` so is 1.500,
+    unless another cell, such as 92.5, shows that the point is a decimal point.
     """
 
     def meaning(text: str) -> float | None:
         number = _number(text)
         return number if number is not None and at_least <= number <= at_most else None
 
+    distinct, codes = table.columns[name]
+    two_ways = _read_two_ways(distinct, min(at_most, LARGEST_GROUPED), points=points_may_group)
+    for row in np.flatnonzero(two_ways[codes]):
+        text = distinct[codes[row]]
+        number = float(text.replace(",", "."))
+        table.problems.add(
+            int(table.lines[row]),
+            f"{name} {quoted(text)} may mean {1000 * number:.0f} or {number:g}; write the one that "
+            "is meant",
+        )
     return read_cells(
         table,
         name,
@@ -238,6 +252,25 @@ def read_date(text: str) -> np.datetime64 | None:
         return np.datetime64(date(*map(int, match.group(*order)))) if match else None
     except ValueError:
         return None
+
+
+def _read_two_ways(texts: Sequence[str], at_most: int, *, points: bool) -> NDArray[np.bool_]:
+    """Return which numbers may have a decimal sign or a sign that groups thousands.
+
+    A point is one of them only if `points`, and if no other number shows that it is decimal.
+    """
+    grouped = [_GROUPED.fullmatch(text) is not None for text in texts]
+    others = (text for text, group in zip(texts, grouped, strict=True) if not group)
+    points = points and not any("." in text and _number(text) is not None for text in others)
+    return np.array(
+        [
+            group
+            and (points or "," in text)
+            and abs(float(text.replace(",", "."))) * 1000 <= at_most
+            for text, group in zip(texts, grouped, strict=True)
+        ],
+        dtype=bool,
+    )
 
 
 def _number(text: str) -> float | None:

@@ -133,7 +133,13 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
     most = FARTHEST if season else LARGEST
     remedy = "write points such as 85" + ("" if season else ", or leave it empty for a new player")
     rating = numbers(
-        table, "rating", at_least=-most, at_most=most, remedy=remedy, may_be_empty=not season
+        table,
+        "rating",
+        at_least=-most,
+        at_most=most,
+        remedy=remedy,
+        may_be_empty=not season,
+        points_may_group=True,
     ).values
     error, quasi = (_error(table, name) for name in ("standard_error", "quasi_error"))
     error = np.where(np.isnan(quasi), error, quasi)
