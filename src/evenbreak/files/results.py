@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.files.aliases import AliasesFile, read_aliases
+from evenbreak.files.doubtful_dates import date_warnings
 from evenbreak.files.player_names import PlayerNames
 from evenbreak.files.problems import quoted
 from evenbreak.files.results_columns import INSTEAD, NAMES, OPTIONAL, REQUIRED, results_columns
@@ -96,6 +97,7 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
         *by_alias.warnings,
         *table.warnings,
         *_repeated_rows(table),
+        *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),
         *(
             f"{table.source}: {quoted(text)} is read as {quoted(name)}"
             for text, name in names.merged().items()

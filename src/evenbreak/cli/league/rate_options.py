@@ -31,14 +31,23 @@ class PointsOr(Number):
 
 
 def read_day(text: str) -> str:
-    """Return a day, written in any way that a cell of a results file may have, as 2026-01-31."""
+    """Return a day, written in any way that a cell of a results file may have, as 2026-01-31.
+
+    It may lie up to a year ahead, for a tournament to come; a later one was mistyped.
+    """
+    import numpy as np
+
     from evenbreak.files.cells import read_date
 
     day = read_date(text.strip())
     if day is None:
         raise click.BadParameter(f"{text!r}; give a day, such as 2026-01-31 or 31.1.2026")
+    if day > np.datetime64("today", "D") + _DAYS_AHEAD:
+        raise click.BadParameter(f"{text!r} is more than a year from today; give an earlier day")
     return str(day)
 
+
+_DAYS_AHEAD = 366
 
 DAYS = Number(0.01, 1e6, "; give a number of days from 0.01 to 1,000,000, such as 180")
 
