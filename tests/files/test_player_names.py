@@ -39,6 +39,24 @@ def test_names_that_differ_in_blanks_are_one_and_listed(table):
     assert names.merged() == {"Ann  Lee": "Ann Lee"}
 
 
+def test_the_spelling_of_a_name_is_the_most_frequent_or_the_one_that_is_meant(table):
+    rows = table("ann lee,Bo,", "ann lee,BO,", "Ann Lee,Bob,", "CY,Bo,", "Cy,DI,", "cy,DiDi,")
+    names = PlayerNames(rows, COLUMNS, {"Bob": "BO"})
+    assert names.players == ("BO", "Cy", "DI", "DiDi", "ann lee")
+    assert names.read(rows, "player_b").values.tolist() == [0, 0, 0, 0, 2, 3]
+    assert names.merged() == {"Ann Lee": "ann lee", "Bo": "BO", "CY": "Cy", "cy": "Cy"}
+
+
+def test_aliases_are_found_in_any_case_and_keep_two_players_apart(table):
+    rows = table("Bobby,Ann Lee,", "bobby,ann lee,")
+    means = {"Bobby": "Bob Smith", "Ann Lee": "Ann Lee 1", "ann lee": "Ann Lee 2"}
+    names = PlayerNames(rows, COLUMNS, means)
+    assert names.players == ("Ann Lee 1", "Ann Lee 2", "Bob Smith")
+    assert names.read(rows, "player_a").values.tolist() == [2, 2]
+    assert names.merged() == {}
+    assert names.renamed() == {**means, "bobby": "Bob Smith"}
+
+
 def test_names_that_do_not_print_and_empty_ones_are_problems(table):
     rows = table("An\x1b,Bo,", ",Bo,")
     column = PlayerNames(rows, COLUMNS, {}).read(rows, "player_a")

@@ -119,18 +119,36 @@ def test_all_problems_are_told_at_once_with_line_column_and_remedy(read):
     assert all("; " in text for text in told)
 
 
-def test_a_name_written_with_other_blanks_is_one_name_and_told(read):
-    file = read(f"{HEADER}\n2024-09-03,Ann  Lee,Bo,7,5\n2024-09-04, Ann Lee ,Bo,7,5\n")
+def test_names_that_differ_in_case_or_spaces_are_one_player_and_both_spellings_are_named(read):
+    file = read(
+        f"{HEADER}\n2024-09-03,Ann  Lee,Bo,7,5\n2024-09-04, Ann Lee ,Bo,7,5\n"
+        "2024-09-05,bo,ANN LEE,7,5\n2024-09-06,Bo,AnnLee,7,5\n"
+    )
     assert file.results.players == ("Ann Lee", "Bo")
-    assert [w.partition(": ")[2] for w in file.warnings] == ["'Ann  Lee' is read as 'Ann Lee'"]
+    assert file.results.player_a.tolist() == [0, 0, 1, 1]
+    told = [w.partition(": ")[2].partition(", as")[0] for w in file.warnings]
+    assert told == [
+        "'ANN LEE' is read as 'Ann Lee'",
+        "'Ann  Lee' is read as 'Ann Lee'",
+        "'AnnLee' is read as 'Ann Lee'",
+        "'bo' is read as 'Bo'",
+    ]
+    assert file.similar_names == ()
 
 
-def test_similar_names_are_listed(read):
-    rows = "2024-09-03,Ann Lee,ann lee,7,5\n2024-09-03,Jörg Petersen,Jorg Petersen,7,5\n"
+def test_names_that_differ_in_accents_are_asked_about(read):
+    rows = "2024-09-03,Zoë Lee,Zoe Lee,7,5\n2024-09-03,Jörg Petersen,Jorg Petersen,7,5\n"
     file = read(f"{HEADER}\n{rows}")
-    assert file.similar_names == (("Ann Lee", "ann lee"), ("Jorg Petersen", "Jörg Petersen"))
+    assert file.similar_names == (("Jorg Petersen", "Jörg Petersen"), ("Zoe Lee", "Zoë Lee"))
     assert len(file.warnings) == 2
-    assert "'Ann Lee' and 'ann lee' may be one player" in file.warnings[0]
+    assert "'Jorg Petersen' and 'Jörg Petersen' may be one player" in file.warnings[0]
+
+
+def test_a_player_does_not_play_another_spelling_of_their_name(read):
+    with pytest.raises(DataError) as caught:
+        read(f"{HEADER}\n2024-09-03,Ann Lee,ann lee,7,5\n")
+    (told,) = caught.value.problems
+    assert "('Ann Lee' and 'ann lee' are read as one player)" in told
 
 
 def test_names_a_letter_apart_are_listed_unless_they_met(read):
@@ -141,7 +159,7 @@ def test_names_a_letter_apart_are_listed_unless_they_met(read):
 
 def test_of_many_similar_names_twenty_groups_are_listed(read):
     letters = "abcdefghijklmnopqrstuvwxyz"
-    rows = "".join(f"2024-09-03,Player{a * 9},PLAYER{a * 9},7,5\n" for a in letters)
+    rows = "".join(f"2024-09-03,Zoë L{a * 9},Zoe L{a * 9},7,5\n" for a in letters)
     warnings = read(f"{HEADER}\n{rows}").warnings
     assert len(warnings) == 21
     assert warnings[-1].endswith("and 6 more groups of similar names")

@@ -107,6 +107,11 @@ def test_names_of_all_kinds(read, name):
     assert file.roster.players == (" ".join(name.split()),)
 
 
+def test_names_that_differ_in_case_or_spaces_are_one_player_listed_twice(read):
+    (problem,) = problems_of(read, "player,rating\nAnn Lee,80\nBo,75\nann  lee,71\n")
+    assert problem.startswith(":4: player 'ann lee' is already in line 2 as 'Ann Lee'; ")
+
+
 def test_similar_names_are_a_warning(read):
     (warning,) = read("player,rating\nBo Petersen,80\nBo Peterson,71\n").warnings
     assert "'Bo Petersen' and 'Bo Peterson' may be one player" in warning

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
+from collections import Counter
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -32,8 +33,20 @@ def clean_name(text: str) -> str:
     return clean[1:] if clean.startswith(DEFUSED) else clean
 
 
+def same_name(name: str) -> str:
+    """Return what names have in common that differ in case or blanks alone: one player's.
+
+    >>> same_name("Ann Lee") == same_name("ann  LEE") == same_name("AnnLee")
+    True
+    """
+    return "".join(clean_name(name).casefold().split())
+
+
 class PlayerNames:
     """The players whose names stand in some columns of a table.
+
+    Names that differ in case or blanks alone are one player's. Of the spellings of a name the
+    one in `means` is used, else the most frequent.
 
     Parameters
     ----------
@@ -51,12 +64,40 @@ class PlayerNames:
     """
 
     def __init__(self, table: TextTable, columns: Sequence[str], means: Mapping[str, str]) -> None:
-        self._written = {text for column in columns for text in table.columns[column].distinct}
         self._means = means
+        self._loosely: dict[str, str] = {}
+        for alias, name in means.items():  # one that is ambiguous apart from case is no help
+            key = same_name(alias)
+            self._loosely[key] = name if self._loosely.get(key, name) == name else ""
+        rows: Counter[str] = Counter()
+        for column in columns:
+            distinct, codes = table.columns[column]
+            counts = np.bincount(codes, minlength=len(distinct))
+            rows.update(dict(zip(distinct, counts.tolist(), strict=True)))
+        self._written = set(rows)
+        self._spelling = self._spellings(rows)
         meant = {text: self._meant(text) for text in self._written}
         self.players = tuple(sorted({name for name in meant.values() if _is_name(name)}))
         self._place = {name: place for place, name in enumerate(self.players)}
         self.places = {text: self._place[name] for text, name in meant.items() if _is_name(name)}
+
+    def _spellings(self, rows: Mapping[str, int]) -> dict[str, str]:
+        """Return the spelling to use of all names that differ in case or blanks alone."""
+        counts: Counter[str] = Counter()
+        for text, count in rows.items():
+            counts[self._unaliased(text)] += count
+        meant = set(self._means.values())
+
+        def rank(name: str) -> tuple[bool, int, bool, int]:
+            mixed = name not in (name.lower(), name.upper())
+            return name in meant, counts[name], mixed, name.count(" ")
+
+        spelling: dict[str, str] = {}
+        for name in sorted(counts):
+            key = same_name(name)
+            if key not in spelling or rank(name) > rank(spelling[key]):
+                spelling[key] = name
+        return spelling
 
     def read(self, table: TextTable, name: str) -> Values:
         """Read a column of names, as places in `players`."""
@@ -97,32 +138,50 @@ class PlayerNames:
         return Values(values, ~wrong, stated)
 
     def _exact(self, texts: Sequence[str]) -> NDArray[np.int64]:
-        return np.array([self._place.get(self._meant(text), -1) for text in texts], dtype=np.int64)
-
-    def _loose(self, texts: Sequence[str]) -> NDArray[np.int64]:
-        folded = {
-            alias.casefold(): self._place.get(name, -1) for alias, name in self._means.items()
-        }
-        folded |= {player.casefold(): k for player, k in reversed(self._place.items())}
-        places = [folded.get(clean_name(text).casefold(), -1) for text in texts]
+        places = [
+            self.places.get(text, self._place.get(self._means.get(clean_name(text), ""), -1))
+            for text in texts
+        ]
         return np.array(places, dtype=np.int64)
 
+    def _loose(self, texts: Sequence[str]) -> NDArray[np.int64]:
+        return np.array([self._place.get(self._meant(text), -1) for text in texts], dtype=np.int64)
+
     def merged(self) -> dict[str, str]:
-        """Return the names that differ in blanks from another one, each with that one."""
+        """Return the names that differ in case or blanks from the one they are read as."""
         written = {unicodedata.normalize("NFC", text) for text in self._written}
-        clean = {text: clean_name(text) for text in sorted(written)}
+        meant = {
+            text: self._spelling[same_name(text)]
+            for text in sorted(written)
+            if not self._alias_of(text) and same_name(text) in self._spelling
+        }
         return {
-            text: name for text, name in clean.items() if name not in ("", text) and name in written
+            text: name
+            for text, name in meant.items()
+            if name not in ("", text) and (name != clean_name(text) or name in written)
         }
 
     def renamed(self) -> dict[str, str]:
         """Return the names that mean another one, each with that one."""
-        clean = {clean_name(text) for text in self._written}
-        return {name: self._means[name] for name in sorted(clean & self._means.keys())}
+        clean = sorted({clean_name(text) for text in self._written})
+        return {name: meant for name in clean if (meant := self._alias_of(name))}
+
+    def _alias_of(self, text: str) -> str:
+        """Return the name that a text means by the aliases, '' if it is no alias.
+
+        An alias as written comes before one that differs in case or blanks.
+        """
+        clean = clean_name(text)
+        if clean in self._means:
+            return self._means[clean]
+        return self._loosely.get(same_name(clean), "")
+
+    def _unaliased(self, text: str) -> str:
+        return self._alias_of(text) or clean_name(text)
 
     def _meant(self, text: str) -> str:
-        clean = clean_name(text)
-        return self._means.get(clean, clean)
+        name = self._unaliased(text)
+        return self._spelling.get(same_name(name), name)
 
 
 def _side(places: NDArray[np.int64], a: Values, b: Values) -> NDArray[np.int8]:

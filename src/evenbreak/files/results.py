@@ -62,9 +62,10 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
 
     Encoding, separator and header are read as in `evenbreak.files.text_table`; the columns
     are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double blanks inside,
-    and are put into Unicode's form NFC. `winner` and `first_break` are a, b or the name of one
-    of the two players. A forfeit may leave its scores empty; so may a match whose racks are
-    given, or of which only the race and the winner are known.
+    and are put into Unicode's form NFC; those that differ in case or blanks alone are one
+    player's. `winner` and `first_break` are a, b or the name of one of the two players. A
+    forfeit may leave its scores empty; so may a match whose racks are given, or of which only
+    the race and the winner are known.
 
     Parameters
     ----------
@@ -98,15 +99,24 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
         *table.warnings,
         *_repeated_rows(table),
         *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),
-        *(
-            f"{table.source}: {quoted(text)} is read as {quoted(name)}"
-            for text, name in names.merged().items()
-        ),
+        *_merged(names.merged(), table.source),
         *_renamed(names.renamed(), table.source, by_alias.source),
         *similar_name_warnings(groups, table.source, "if so, use the same name throughout"),
     ]
     sha256 = hashlib.sha256(table.content).hexdigest()
     return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines)
+
+
+def _merged(names: dict[str, str], source: str) -> list[str]:
+    """Return a warning for each name that is read as another spelling of it."""
+    found = [
+        f"{source}: {quoted(text)} is read as {quoted(name)}, as names that differ in case or "
+        "spaces alone mean one player"
+        for text, name in names.items()
+    ]
+    more = len(found) - MOST_RENAMED
+    counted = [f"{source}: and {more:,} more names that are read so"] if more > 0 else []
+    return found[:MOST_RENAMED] + counted
 
 
 def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:

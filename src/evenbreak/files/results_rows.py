@@ -104,7 +104,7 @@ def _add_contradictions(table: TextTable, results: Results, rows: NDArray[np.int
 
 
 def _one_player(table: TextTable, row: int) -> str:
-    """Return the two names of a player on both sides, if aliases made them one."""
+    """Return the two names of a player on both sides, if they are spelt differently."""
     texts = (table.columns[name] for name in NAMES)
     a, b = (clean_name(distinct[codes[row]]) for distinct, codes in texts)
-    return "" if a == b else f" ({quoted(a)} and {quoted(b)} are one player by the aliases)"
+    return "" if a == b else f" ({quoted(a)} and {quoted(b)} are read as one player)"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.files.cells import numbers, whole_numbers
-from evenbreak.files.player_names import clean_name
+from evenbreak.files.player_names import clean_name, same_name
 from evenbreak.files.problems import quoted
 from evenbreak.files.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.text_table import TextTable, read_table
@@ -162,17 +162,20 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
 
 
 def _names(table: TextTable) -> list[str]:
-    """Return the names, noting those that are empty or appear twice."""
+    """Return the names, noting those that are empty or appear twice, in any case and spacing."""
     names = [clean_name(text) for text in table.cells("player")]
-    first: dict[str, int] = {}
+    first: dict[str, tuple[int, str]] = {}
     for name, line in zip(names, table.lines.tolist(), strict=True):
         if not name:
             if "player" in table:
                 table.problems.add(line, "player is empty; write a name")
-        elif first.setdefault(name, line) != line:
+            continue
+        earlier, spelling = first.setdefault(same_name(name), (line, name))
+        if earlier != line:
+            spelt = "" if spelling == name else f" as {quoted(spelling)}"
             table.problems.add(
                 line,
-                f"player {quoted(name)} is already in line {first[name]}; delete one of the two, "
+                f"player {quoted(name)} is already in line {earlier}{spelt}; delete one of the two, "
                 "or give two players of the same name different names, such as 'Ann Lee 2'",
             )
     return names
