@@ -118,7 +118,7 @@ def command(
     no_matches: bool,
     **played: Any,
 ) -> Answer:
-    """Simulate a season many times: how accurate ratings are, how fair matches, who gains.
+    """Simulate a season many times: how accurate ratings are, how fair matches are, who gains.
 
     ROSTER.csv has one player per row, with the columns player and rating and, optionally,
     standard_error, matches, skill, day_sd, drift, joins, leaves and absence; - reads standard
