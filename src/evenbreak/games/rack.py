@@ -9,9 +9,9 @@ from evenbreak.checks import one_of, probability, together
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
     from typing_extensions import TypeVar
+
+    from evenbreak.arrays import Floats
 
     ChanceT = TypeVar("ChanceT", covariant=True, default=Any)
 else:
@@ -74,7 +74,7 @@ class Rack(Generic[ChanceT]):
     @overload
     def chance(self: Rack[float], player: int, breaker: int = 1) -> float: ...
     @overload
-    def chance(self: Rack[Any], player: int, breaker: int = 1) -> NDArray[np.float64]: ...
+    def chance(self: Rack[Any], player: int, breaker: int = 1) -> Floats: ...
     def chance(self: Rack[Any], player: int, breaker: int = 1) -> Any:
         """Return P(`player` wins the rack | `breaker` breaks it)."""
         one_of(player, "player", (1, 2))

@@ -225,10 +225,7 @@ class _Line(NamedTuple):
     ) -> _Line:
         one_of(first_breaker, "first_breaker", (1, 2))
         if isinstance(breaks, str):
-            if breaks not in BREAK_FORMATS:
-                known = ", ".join(BREAK_FORMATS)
-                raise InputError(f"breaks is {breaks!r}; give one of {known}")
-            breaks = BREAK_FORMATS[breaks]
+            breaks = BREAK_FORMATS[one_of(breaks, "breaks", tuple(BREAK_FORMATS))]
         rack_along(0.5, p2=p2, break_odds=break_odds)
         return cls(p2, break_odds, breaks, first_breaker)
 

@@ -17,14 +17,12 @@ from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.matches.quantiles import quantile_of
-
-Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 _MOST_MOVES = 1_000_000  # states times lengths of one exact step
 _WORK = 200_000_000  # matches times matches times simulated runs

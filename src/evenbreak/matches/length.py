@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Generic, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number_probability
 from evenbreak.errors import AccuracyError
 from evenbreak.games.match import Match, Score
@@ -25,8 +25,6 @@ else:
     from typing import TypeVar
 
     MeanT = TypeVar("MeanT", covariant=True)
-
-Floats: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +49,7 @@ class MatchLength(Generic[ChanceT, MeanT]):
         whether there is a longest length.
     """
 
-    games: NDArray[np.int64]
+    games: Ints
     probability: Floats
     mean: MeanT
     sd: MeanT

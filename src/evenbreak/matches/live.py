@@ -20,9 +20,6 @@ from evenbreak.matches.rack_by_rack import racks_within
 from evenbreak.matches.rack_graph import breaker_in, rack_moves
 from evenbreak.matches.score_chain import NEVER, ScoreChain
 
-_LONGEST = 100_000
-"""Racks after which a length that is not reached is given up."""
-
 
 class Standing(NamedTuple):
     """Where a match stands at one moment; all probabilities are given that moment.

@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from evenbreak.checks import number_probability, one_of, whole
+from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
@@ -113,7 +113,7 @@ def race_odds(
     >>> round(race.p_win_1, 12), race.games
     (0.592592592593, [2, 3, 4])
     """
-    rack = Rack(number_probability(p1, "p1"), None if p2 is None else number_probability(p2, "p2"))
+    rack = Rack(p1, p2).of_numbers()
     first_breaker = one_of(first_breaker, "first_breaker", (1, 2))
     need_1 = whole(m, "m") - whole(score[0], "score of player 1")
     need_2 = whole(n, "n") - whole(score[1], "score of player 2")

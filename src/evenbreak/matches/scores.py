@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any, Generic, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import number_probability
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match, Score
@@ -50,7 +50,7 @@ def final_scores(
 @overload
 def final_scores(
     match: Match[Any], score: Score | None = None, *, tail: float = 1e-12
-) -> FinalScores[NDArray[np.float64]]: ...
+) -> FinalScores[Floats]: ...
 def final_scores(
     match: Match, score: Score | None = None, *, tail: float = 1e-12
 ) -> FinalScores[Any]:
@@ -106,9 +106,7 @@ def final_scores(
 @overload
 def hill_hill_probability(match: Match[float], score: Score | None = None) -> float | None: ...
 @overload
-def hill_hill_probability(
-    match: Match[Any], score: Score | None = None
-) -> NDArray[np.float64] | None: ...
+def hill_hill_probability(match: Match[Any], score: Score | None = None) -> Floats | None: ...
 def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     """Return P(the last possible rack decides): the race m:n comes to m - 1 : n - 1.
 

@@ -11,8 +11,7 @@ from evenbreak.matches.outcomes import unit_outcomes
 from evenbreak.matches.parameters import at_score, broadcast, first_breaker, in_shape
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from evenbreak.arrays import Floats
 
 
 @overload
@@ -22,7 +21,7 @@ def shutout_probability(
 @overload
 def shutout_probability(
     match: Match[Any], score: Score | None = None, *, player: int = 1
-) -> NDArray[np.float64] | None: ...
+) -> Floats | None: ...
 def shutout_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins and the other player scores nothing from the start score on).
 

@@ -18,14 +18,11 @@ _EVEN = (0.4, 0.6)
 class EvenPoints(NamedTuple):
     """The points of player 2 that make a match nearest to even.
 
-    `p_win_1` is P(player 1 wins the match) with them; `p_win_1_less` and `p_win_1_more` are the
-    same with a point less and a point more for player 2, None beyond the points allowed.
+    `p_win_1` is P(player 1 wins the match) with them.
     """
 
     points_2: int
     p_win_1: float
-    p_win_1_less: float | None
-    p_win_1_more: float | None
 
     @property
     def is_even(self) -> bool:
@@ -143,9 +140,7 @@ def even_points(
         low, high = (middle, high) if win(middle) < 0.5 else (low, middle)
     # 1 is among them for a player 1 who never wins, whatever player 2 needs.
     nearest = min({1, low or 1, high}, key=lambda points_2: (abs(win(points_2) - 0.5), points_2))
-    less = win(nearest - 1) if nearest > 1 else None
-    more = win(nearest + 1) if nearest < most else None
-    return EvenPoints(nearest, win(nearest), less, more)
+    return EvenPoints(nearest, win(nearest))
 
 
 def _balls_an_inning(p: float | Fraction, safety: float | Fraction) -> Fraction | float:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import betainc
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import one_of, plain, probability, together, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
@@ -25,7 +26,7 @@ def win_probability(
 @overload
 def win_probability(
     match: Match[Any], score: Score | None = None, *, player: int = 1
-) -> NDArray[np.float64]: ...
+) -> Floats: ...
 def win_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins the match).
 
@@ -88,7 +89,7 @@ def _win(match: Match, player: int) -> Any:
 @overload
 def race_win_probability(p: float, m: int, n: int) -> float: ...
 @overload
-def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> NDArray[np.float64]: ...
+def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Floats: ...
 def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     """Return W(p; m, n): P(player 1 wins m games before player 2 wins n), elementwise.
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import number
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats
 from evenbreak.physics.leg import State, on_table, place_of, time_to
 from evenbreak.physics.objects import Cloth, PoolTable
 from evenbreak.physics.shot import Shot, shot, sound_strike, spin_ratios, travel_for

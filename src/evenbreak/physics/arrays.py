@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from evenbreak.arrays import Floats
 from evenbreak.checks import floats
-
-Floats = NDArray[np.float64]
 
 LARGEST = 1e50
 """The largest number accepted, so that products of a few of them still fit into a float."""

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
-from evenbreak.physics.arrays import Floats, numbers, positive
+from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.units import GRAVITY
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 
 def friction_of_incline(angle: Any) -> Any:

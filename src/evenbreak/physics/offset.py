@@ -8,19 +8,18 @@ topspin; J_z above 0, counterclockwise from above, comes from a tip to the right
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import LEAST, Floats, numbers, positive
+from evenbreak.physics.arrays import LEAST, numbers, positive
 from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 NATURAL_ROLL_OFFSET = 0.4
 """The height above the centre, over R, at which a hit gives natural roll at once (P3.5)."""

@@ -11,9 +11,9 @@ from functools import partial
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.physics.aimed import AimedShot, aimed_shot
-from evenbreak.physics.arrays import Floats
 from evenbreak.physics.leg import place_of
 from evenbreak.physics.objects import Cloth, PoolTable
 from evenbreak.physics.pockets import Pocket

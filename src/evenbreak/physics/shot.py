@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import number, one_of
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, place_of, time_to

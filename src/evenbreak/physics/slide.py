@@ -18,17 +18,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
+from evenbreak.physics.arrays import numbers
 from evenbreak.physics.objects import Ball, Cloth
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 
 def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:

@@ -15,9 +15,10 @@ from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
+from evenbreak.physics.arrays import numbers
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.objects import Ball, Cue
 from evenbreak.physics.offset import ball_speed_ratio, spin_of_offset

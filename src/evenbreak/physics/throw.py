@@ -19,16 +19,15 @@ limit; `friction="shepard"` is the law of the source text without it, which can 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import one_of, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+from evenbreak.physics.arrays import numbers
 
 BALL_FRICTION = 4.0 / 72.0
 """The coefficient of friction between two balls, as measured in P1.6."""

@@ -6,15 +6,14 @@ level and moves freely while the tip touches the ball, and the hit is elastic.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
-from evenbreak.physics.arrays import Floats, numbers, positive
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+from evenbreak.physics.arrays import numbers, positive
 
 
 class CentreHit(NamedTuple):

@@ -74,11 +74,6 @@ class Breakers(NamedTuple):
         return first * self.lose_1 + second * self.lose_2
 
     @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of p1 and p2 together."""
-        return np.shape(self.win_1)
-
-    @property
     def first_break(self) -> Any:
         """(r_1 - r_2) / (a + b): infinite if the break never passes on."""
         edge, changes = self.win_1 - self.win_2, self.pass_1 + self.pass_2

@@ -18,8 +18,9 @@ import math
 from typing import Any, NamedTuple, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import number, plain
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
@@ -34,7 +35,7 @@ def long_run_share(
 @overload
 def long_run_share(
     p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
-) -> NDArray[np.float64]: ...
+) -> Floats: ...
 def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
     """Return the fraction of racks that player 1 wins in the long run; elementwise.
 
@@ -81,7 +82,7 @@ def long_run_sd(p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int
 @overload
 def long_run_sd(
     p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
-) -> NDArray[np.float64]: ...
+) -> Floats: ...
 def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
     """Return the standard deviation of the racks that player 1 wins, per square root of racks.
 
@@ -130,7 +131,7 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
 @overload
 def first_break_worth(p1: float, p2: float, breaks: BreakFormat) -> float: ...
 @overload
-def first_break_worth(p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat) -> NDArray[np.float64]: ...
+def first_break_worth(p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat) -> Floats: ...
 def first_break_worth(p1: Any, p2: Any, breaks: BreakFormat) -> Any:
     """Return how many more racks player 1 wins in all by breaking first instead of second.
 

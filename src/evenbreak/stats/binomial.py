@@ -24,7 +24,8 @@ from evenbreak.stats.exact import exact
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from evenbreak.stats.counts import Floats
+    from evenbreak.arrays import Floats
+
 
 _NEAR = 1e-9
 """Where a range comes nearer than this to the coverage wanted, the chance of the scores outside

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from evenbreak.stats.confidence import checked_scores, open_share, sd_of
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from evenbreak.arrays import Floats
 
 
 class Scores(NamedTuple):
@@ -171,7 +170,7 @@ def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
     )
 
 
-def _summary(scores: NDArray[np.float64]) -> Scores:
+def _summary(scores: Floats) -> Scores:
     sd = sd_of(scores)
     return Scores(scores.size, float(scores.mean() if sd else scores[0]), sd)
 
@@ -214,7 +213,7 @@ def _variances(before: Scores, after: Scores) -> Significance:
     return Significance(ratio, freedom, min(1.0, 2.0 * float(smaller)))
 
 
-def _ranks(old: NDArray[np.float64], new: NDArray[np.float64]) -> tuple[float, Significance | None]:
+def _ranks(old: Floats, new: Floats) -> tuple[float, Significance | None]:
     """Return the share of pairs in which the later score is higher, and the test by ranks."""
     from scipy.stats import mannwhitneyu
 
@@ -225,15 +224,13 @@ def _ranks(old: NDArray[np.float64], new: NDArray[np.float64]) -> tuple[float, S
     return wins, Significance(float(found.statistic), (), float(found.pvalue))
 
 
-def _any_equal(old: NDArray[np.float64], new: NDArray[np.float64]) -> bool:
+def _any_equal(old: Floats, new: Floats) -> bool:
     import numpy as np
 
     return np.unique(np.concatenate([old, new])).size < old.size + new.size
 
 
-def _about_the_median(
-    old: NDArray[np.float64], new: NDArray[np.float64]
-) -> tuple[tuple[int, int], tuple[int, int]]:
+def _about_the_median(old: Floats, new: Floats) -> tuple[tuple[int, int], tuple[int, int]]:
     import numpy as np
 
     middle = np.median(np.concatenate([old, new]))
