@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
+import numpy as np
+
+from evenbreak.arrays import Floats
+from evenbreak.stats.binomial import critical_value
 from evenbreak.stats.confidence import checked_scores, open_share, sd_of
-
-if TYPE_CHECKING:
-    from evenbreak.arrays import Floats
 
 
 class Scores(NamedTuple):
@@ -142,17 +143,15 @@ def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
     share = open_share(confidence)
     first, second = _summary(old), _summary(new)
     difference = second.mean - first.mean
-    counts = _about_the_median(old, new)
-    tests: dict[str, Significance | None] = dict.fromkeys(
-        ("welch", "student", "anova", "variances")
-    )
-    low = high = None
+    every = np.concatenate([old, new])
+    middle = np.median(every)
+    sides = [(int(np.sum(scores < middle)), int(np.sum(scores > middle))) for scores in (old, new)]
+    counts = sides[0], sides[1]
+    low = high = welch = student = anova = None
     if first.sd or second.sd:
-        tests["welch"], half = _welch(first, second, share)
+        welch, half = _welch(first, second, share)
         low, high = difference - half, difference + half
-        tests["student"], tests["anova"] = _equal_spreads(first, second)
-    if first.sd and second.sd:
-        tests["variances"] = _variances(first, second)
+        student, anova = _equal_spreads(first, second)
     wins, rank_test = _ranks(old, new)
     return Comparison(
         before=first,
@@ -161,11 +160,14 @@ def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
         low=low,
         high=high,
         confidence=share,
-        **tests,
+        welch=welch,
+        student=student,
+        anova=anova,
+        variances=_variances(first, second) if first.sd and second.sd else None,
         mann_whitney=rank_test,
         chi_squared=_chi_squared(counts),
         counts=counts,
-        ties=_any_equal(old, new),
+        ties=np.unique(every).size < every.size,
         effect=_effect(first, second, share, wins),
     )
 
@@ -224,22 +226,6 @@ def _ranks(old: Floats, new: Floats) -> tuple[float, Significance | None]:
     return wins, Significance(float(found.statistic), (), float(found.pvalue))
 
 
-def _any_equal(old: Floats, new: Floats) -> bool:
-    import numpy as np
-
-    return np.unique(np.concatenate([old, new])).size < old.size + new.size
-
-
-def _about_the_median(old: Floats, new: Floats) -> tuple[tuple[int, int], tuple[int, int]]:
-    import numpy as np
-
-    middle = np.median(np.concatenate([old, new]))
-    before, after = (
-        (int(np.sum(scores < middle)), int(np.sum(scores > middle))) for scores in (old, new)
-    )
-    return before, after
-
-
 def _chi_squared(counts: tuple[tuple[int, int], tuple[int, int]]) -> Significance | None:
     from scipy.stats import chi2_contingency
 
@@ -252,8 +238,6 @@ def _chi_squared(counts: tuple[tuple[int, int], tuple[int, int]]) -> Significanc
 
 def _effect(before: Scores, after: Scores, confidence: float, wins: float) -> Effect:
     from scipy.special import gammaln
-
-    from evenbreak.stats.binomial import critical_value
 
     m, n = before.n, after.n
     freedom = m + n - 2
