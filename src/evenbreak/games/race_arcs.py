@@ -21,7 +21,7 @@ from evenbreak.games.rack import Rack
 
 
 class ScoreStates(Sequence[tuple[int, ...]]):
-    """States (a, b) or (a, b, breaker), each made when it is asked for.
+    """The states (a, b) or (a, b, breaker) of a race, made only when they are read.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def _reached(
 ) -> tuple[Bools, NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return which states can be reached, and the arcs between them by their new positions.
 
-    The other first breaker cannot be reached, nor can a breaker whom the format never names.
+    The other first breaker cannot be reached, nor can a breaker that the format never chooses.
     Row k of `targets` and `probabilities` holds the two arcs out of state `sources[k]`.
     """
     from scipy.sparse import csr_array

@@ -57,7 +57,7 @@ class Rack(Generic[ChanceT]):
         object.__setattr__(self, "p1", probability(self.p1, "p1"))
         if self.p2 is not None:
             object.__setattr__(self, "p2", probability(self.p2, "p2"))
-        _ = self.shape  # an error if there is none
+        _ = self.shape  # raises if p1 and p2 do not broadcast
 
     @property
     def shape(self) -> tuple[int, ...]:

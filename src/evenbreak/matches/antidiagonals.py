@@ -66,7 +66,7 @@ def race_endings(
 def _kinds(
     rack: Rack, breaks: BreakFormat | None, shape: tuple[int, ...]
 ) -> tuple[list[tuple[int, int]], Floats]:
-    """Return the possible outcomes of a rack as (winner, row of the next breaker), losses first.
+    """Return the outcomes of a rack as (winner, row of the next breaker), losses first.
 
     The array holds the probability of each outcome, by row of the breaker and by parameter.
     """
@@ -78,7 +78,7 @@ def _kinds(
             by_row = chance.setdefault(kind, np.zeros((rows, int(np.prod(shape)))))
             by_row[breaker - 1] = np.broadcast_to(rack.chance(winner, breaker), shape).ravel()
     for row in range(rows):
-        # Every row must be written at every rack, so that nothing stays behind in it.
+        # Every row must be written at every rack, or it would keep the scores of an earlier one.
         if not any(after == row for _, after in chance):
             chance[2, row] = np.zeros((rows, int(np.prod(shape))))
     kinds = sorted(chance, reverse=True)

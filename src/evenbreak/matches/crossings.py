@@ -179,7 +179,7 @@ def crossings(
 
 
 def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = None) -> Rack:
-    """Return the rack of the players that `crossings` looks at for p1, a number or an array.
+    """Return the rack of the two players that `crossings` compares at p1, a number or an array.
 
     >>> rack_along(0.6, break_odds=2.25)
     Rack(p1=0.6, p2=0.6)
@@ -191,7 +191,7 @@ def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = N
     if break_odds is None:
         return Rack(p1)
     if not 0.0 < break_odds < np.inf:
-        raise InputError(f"break_odds is {break_odds!r}; give a number above 0")
+        raise InputError(f"break_odds is {break_odds!r}; give a finite number above 0")
     lost = break_odds * (1.0 - np.asarray(p1))
     return Rack(p1, lost / (lost + p1))
 
@@ -208,7 +208,7 @@ def _difference(one: MatchFormat, two: MatchFormat) -> Form:
 
 
 class _Line(NamedTuple):
-    """The pairs of players that matches are compared for: one pair for each p1."""
+    """The pairs of players for which matches are compared: one pair for each p1."""
 
     p2: float | None
     break_odds: float | None
@@ -256,7 +256,7 @@ class _Line(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _log_odds_on_grid(line: _Line, played: MatchFormat) -> Any:
-    """Return the curve of a match, worked out once for all comparisons."""
+    """Return the log-odds of a match on the grid, calculated once for all comparisons."""
     return line.log_odds(played, _P1.copy())
 
 

@@ -1,4 +1,4 @@
-"""After how many racks a match ends, and who wins it then.
+"""After how many racks a match ends, and who wins it.
 
 Races of racks are solved on antidiagonals. Every other match is played rack by rack over all
 its states at once: a rack leads from each state to one of two, depending on who wins it.
@@ -42,9 +42,9 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
     never
         P(the match never ends), of that shape.
     tail
-        a match without a longest length is followed until the probability that it is still
-        going on (and ends some time) is at most this; for 100,000 racks at most, or fewer if
-        there are so many parameters that they would not fit in memory.
+        for a match without a longest length: follow it until P(it is still going on, but will
+        end) is at most this, for 100,000 racks at most, and fewer where so many parameters
+        would not fit in memory.
     """
     winner = match.decided(*match.score)
     rack = match.innermost_rack

@@ -14,7 +14,7 @@ from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import ChanceT
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, broadcast, in_shape
+from evenbreak.matches.parameters import at_score, in_shape
 from evenbreak.matches.quantiles import TIE
 
 if TYPE_CHECKING:
@@ -154,7 +154,7 @@ def match_length(
     >>> round(length.mean, 9), length.span, length.tail_mass < 1e-12
     (4.0, 80, True)
     """
-    match, shape = broadcast(at_score(match, score))
+    match, shape = at_score(match, score)
     tail = number_probability(tail, "tail")
     bounded = is_bounded(match)
     # A race of racks has too many scores for a chain, and no tail.

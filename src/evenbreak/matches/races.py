@@ -46,7 +46,7 @@ class RaceOdds(NamedTuple):
 
     @property
     def p_win_2(self) -> float:
-        """P(player 2 wins the race); summed by itself, so it is accurate even if it is tiny."""
+        """P(player 2 wins the race); a sum of its own, so it is accurate even if it is tiny."""
         return _total(self.win_2)
 
     @property
@@ -155,9 +155,10 @@ def _total(chances: Sequence[float]) -> float:
 
 
 def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, float, int, int]]:
-    """Return for each breaker P(1 wins), P(2 wins) and the place here of the next breaker for each.
+    """Return (P(1 wins), P(2 wins), next breaker if 1 wins, if 2 wins) for each breaker.
 
-    If the break does not matter, one entry stands for both breakers.
+    The next breaker is a position in this list. If the break does not matter, one entry stands
+    for both breakers.
     """
     if breaks is None or not rack.break_matters:
         return [(rack.chance(1), rack.chance(2), 0, 0)]

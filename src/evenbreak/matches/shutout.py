@@ -8,7 +8,7 @@ from evenbreak.checks import one_of
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.matches.outcomes import unit_outcomes
-from evenbreak.matches.parameters import at_score, broadcast, first_breaker, in_shape
+from evenbreak.matches.parameters import at_score, first_breaker, in_shape
 
 if TYPE_CHECKING:
     from evenbreak.arrays import Floats
@@ -54,7 +54,7 @@ def shutout_probability(match: Match, score: Score | None = None, *, player: int
     one_of(player, "player", (1, 2))
     if not isinstance(match, Race):
         return None
-    match, shape = broadcast(at_score(match, score))
+    match, shape = at_score(match, score)
     a, b = match.score
     # P(the run has come this far and this player breaks next), by breaker.
     run: dict[int, Any] = {first_breaker(match): 1.0}

@@ -16,7 +16,7 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, broadcast, in_shape
+from evenbreak.matches.parameters import at_score, in_shape
 
 
 @overload
@@ -64,7 +64,7 @@ def win_probability(match: Match, score: Score | None = None, *, player: int = 1
     array([0.25, 0.81])
     """
     one_of(player, "player", (1, 2))
-    match, shape = broadcast(at_score(match, score))
+    match, shape = at_score(match, score)
     return in_shape(_win(match, player), shape)
 
 

@@ -99,7 +99,7 @@ def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = G
 
 
 def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAVITY) -> Any:
-    """Return dT/dt, the rate at which a sliding block gains energy, in watts: below 0.
+    """Return dT/dt, the rate at which the energy of a sliding block changes, in watts: below 0.
 
     >>> round(sliding_power(2.0, 0.1, 1.0, gravity=10.0), 9)
     -2.0
@@ -147,7 +147,7 @@ def tip_friction_of(offset: Any) -> Any:
 
 
 def _block(speed: Any, friction: Any, gravity: Any, **third: Any) -> tuple[Floats, Floats, Floats]:
-    """Return a block's speed, its deceleration and the third number, or refuse them."""
+    """Return a block's speed, its deceleration and a third number, all checked."""
     found = {
         "speed": numbers(speed, "speed", low=0.0),
         "friction": positive(friction, "friction"),

@@ -163,7 +163,7 @@ def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth
     rolls = 5.0 / 7.0 * z
     lost = np.minimum(slowing * time / speed, np.abs(1.0 - rolls))
     now = 1.0 - np.sign(1.0 - rolls) * lost
-    # What is lost by then may round to all there is.
+    # By then all of the speed may be lost to rounding, so it is kept on its side of `rolls`.
     stretch = 1.0 / np.where(rolls < 1.0, np.maximum(now, rolls), np.minimum(now, rolls))
     return ContactPoint(plain(y * stretch), plain(z * stretch))
 

@@ -31,7 +31,7 @@ from evenbreak.physics.objects import Ball, Cloth
 
 
 def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
-    """Return the speed of a sliding ball, from the speed of its rim now (P2.1).
+    """Return the speed of a sliding ball when its rim has a given speed (P2.1).
 
     Parameters
     ----------
@@ -296,7 +296,7 @@ class Slide:
 
 
 def _vectors(value: Any, name: str, size: int) -> Floats:
-    """Return vectors with `size` components along the last axis, or refuse them."""
+    """Return vectors as a float array, if they have `size` components along the last axis."""
     array = numbers(value, name)
     if array.ndim == 0 or array.shape[-1] != size:
         raise InputError(f"{name} has shape {array.shape}; give (..., {size})")

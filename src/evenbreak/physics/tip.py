@@ -110,7 +110,7 @@ def break_energy_share(stick_ratio: float, forearm_ratio: float) -> float: ...
 @overload
 def break_energy_share(stick_ratio: ArrayLike, forearm_ratio: ArrayLike) -> Floats: ...
 def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
-    """Return the share of the energy of stick and forearm that the ball gets (P3.3).
+    """Return the share of the energy of stick and forearm that goes into the ball (P3.3).
 
     >>> break_energy_share(3.0, 6.0)
     0.45

@@ -1,4 +1,4 @@
-"""Who breaks, rack after rack without end: two states, and who wins in each of them."""
+"""Endless play as two states (who breaks), and who wins the rack in each of them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,8 @@ class Breakers(NamedTuple):
     lose_2: Any
     pass_1: Any  # the break passes from 1 to 2
     pass_2: Any
-    pulls: tuple[int, int]  # by breaker: player 1's next breaks after a win less those after a loss
+    # By breaker: player 1's chance to break next after winning, minus that after losing.
+    pulls: tuple[int, int]
 
     @classmethod
     def of(cls, p1: Any, p2: Any, breaks: BreakFormat) -> Breakers:
@@ -69,7 +70,7 @@ class Breakers(NamedTuple):
         return first * self.win_1 + second * self.win_2
 
     def lost(self, first_breaker: int) -> Any:
-        """Return the fraction that player 1 loses, accurate even if it is tiny."""
+        """Return the fraction of the racks that player 1 loses, accurate even if it is tiny."""
         first, second = self.broken(first_breaker)
         return first * self.lose_1 + second * self.lose_2
 

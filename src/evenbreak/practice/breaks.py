@@ -6,7 +6,7 @@ Then
 
     player 1 breaks the fraction  b / (a + b)  of the racks,
     wins the fraction             W = (b r_1 + a r_2) / (a + b),
-    and the start is forgotten as the powers of the second eigenvalue, 1 - a - b.
+    and the effect of the start fades like the powers of the second eigenvalue, 1 - a - b.
 
 In winner breaks a = 1 - p1 and b = 1 - p2; in loser breaks a = p1 and b = p2; in alternate
 breaks a = b = 1 (P5.24). Only positive numbers are added and multiplied, so no digits are lost.

@@ -17,7 +17,7 @@ MOST_LEVELS = 100
 """The most levels that a drill with a log may have."""
 
 AFTER_START, AFTER_MISS, AFTER_SUCCESS = range(3)
-"""What came before an attempt; the middle index of `DrillLog.outcomes`."""
+"""What preceded an attempt; the middle index of `DrillLog.outcomes`."""
 
 
 @dataclass(frozen=True, eq=False)

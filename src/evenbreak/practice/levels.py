@@ -8,8 +8,9 @@ total lead over the long-run mean, summed over all time, of a player who is now 
     q[i] D[i - 1] - p[i] D[i] = i - mean,    D[0] = D[n] = 0,
     d mean / d p[i] = law[i] (D[i - 1] + D[i]).
 
-Above the mean the climbs are solved from the top, below it from the bottom: then all terms are
-positive and no digits are lost. References: Schweitzer 1968; Karlin and McGregor 1957.
+The climbs are solved from the top for levels above the mean, from the bottom for those below:
+then all terms are positive and no digits are lost. References: Schweitzer 1968; Karlin and
+McGregor 1957.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ def chances_seen(attempts: Ints, successes: Ints) -> Floats:
     """Return the success rate at each level, with a convention for levels that were not tried.
 
     Untried levels below all those tried count as always succeeding: a player who begins at
-    level 4 and never falls below 3 is not held up at level 1. All others count as never
+    level 4 and never falls below 3 would not get stuck at level 1. All others count as never
     succeeding.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Drill logs simulated again: what a log looks like if only the chances decide."""
+"""Simulated drill logs: what a log looks like if nothing but the chances decides."""
 
 from __future__ import annotations
 

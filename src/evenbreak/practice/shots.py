@@ -1,4 +1,4 @@
-"""Which shot to take: the chance of winning the one-ball game, given what a shot makes and leaves.
+"""Which shot to take in the one-ball game, given how often it goes in and what a miss leaves.
 
 Player 1 shoots first and makes the ball with probability p1; after a miss player 2 makes it
 with p2. With q = 1 - p, P(player 1 wins) is
@@ -126,8 +126,8 @@ def critical_p2(p1: Any) -> Any:
 def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> float | None:
     """Return the p2 with which a shot wins the game with chance `win`, given its p1.
 
-    None if there is no such p2, or if any p2 will do. For win = 1/2 it is `critical_p2`, if
-    that is not above 1.
+    None if there is no such p2, or every p2 gives that chance. For win = 1/2 it is
+    `critical_p2`, if that is not above 1.
 
     Raises
     ------

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _HALF = Fraction(1, 2)
 
 _NEAR = 1e-9
-"""Where a tail comes nearer than this, relatively, to the probability wanted, fractions decide."""
+"""If a tail comes nearer than this, relatively, to the level wanted, fractions decide."""
 
 
 class FairLine(NamedTuple):

@@ -171,7 +171,7 @@ class InningsScore(CountLaw):
         return high
 
     def _rises(self, n: int, other: int) -> bool:
-        """Whether the score `other` is more probable than n, decided without rounding."""
+        """Return whether the score `other` is more probable than n, decided without rounding."""
         first, second = self.probability([n, other]).tolist()
         if abs(second - first) > _NEAR * max(first, second):
             return bool(second > first)

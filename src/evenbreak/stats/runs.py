@@ -226,5 +226,5 @@ def checked_shots(p: Any, safety: Any, innings: int = 1) -> tuple[Fraction, Frac
 def _log(x: Fraction) -> float:
     if x == 0:
         return -math.inf
-    # Near 1 the distance to 1 is rounded, not x itself: otherwise the tails lose their digits.
+    # Near 1 the logarithm is taken from 1 - x, or the tails would lose their digits.
     return math.log1p(-float(1 - x)) if x > Fraction(1, 2) else math.log(x)
