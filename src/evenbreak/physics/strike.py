@@ -167,7 +167,7 @@ def strike_for_speed(
 
 
 def _on_the_ball(offset: Any, side_offset: Any, **speed: Floats) -> tuple[Floats, Floats]:
-    """Return both offsets as arrays, if the tip meets the ball and they broadcast with the speed."""
+    """Return both offsets as arrays, if the tip meets the ball and all of them broadcast."""
     up = numbers(offset, "offset", low=-1.0, high=1.0)
     right = numbers(side_offset, "side_offset", low=-1.0, high=1.0)
     together(offset=up, side_offset=right, **speed)
