@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, overload
 
 import numpy as np
 
@@ -17,7 +17,14 @@ from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.parameters import at_score, in_shape
 from evenbreak.matches.quantiles import TIE
 
-MeanT = TypeVar("MeanT", covariant=True)
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
+    MeanT = TypeVar("MeanT", covariant=True, default=Any)
+else:
+    from typing import TypeVar
+
+    MeanT = TypeVar("MeanT", covariant=True)
 
 
 @dataclass(frozen=True, eq=False)
