@@ -17,22 +17,30 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, overload
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
+from evenbreak.chains.arcs import sums
+from evenbreak.chains.chain import labels
 from evenbreak.chains.stationary import laws_of, stationary_laws
-from evenbreak.errors import ChainError
+from evenbreak.checks import one_of
+from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    import pandas as pd
+    from numpy.typing import DTypeLike, NDArray
 
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
 Default = TypeVar("Default")
+Way: TypeAlias = Literal["kernel", "elimination", "eigen"]
+"""A way to the limit."""
+WAYS: tuple[Way, ...] = ("kernel", "elimination", "eigen")
+_ERROR_BY_EIGENVECTORS = 1e-12
 
 _COLUMNS = 64
 _SHOWN = 5
@@ -117,8 +125,32 @@ class Limit(Mapping[Hashable, float]):
         """Return the probability of each state."""
         return dict(zip(self.states, self.probability.tolist(), strict=True))
 
+    def to_series(self) -> pd.Series[float]:
+        """Return the probability of each state as a Series.
 
-def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
+        >>> from evenbreak.chains import chain_of
+        >>> stochastic_limit(chain_of({"rack": {"won": 0.75, "lost": 0.25}}), "rack").to_series()
+        state
+        rack    0.00
+        won     0.75
+        lost    0.25
+        Name: probability, dtype: float64
+        """
+        import pandas as pd
+
+        index = labels(self.states, "state")
+        return pd.Series(self.probability, index=index, name="probability", copy=True)
+
+    def __array__(
+        self, dtype: DTypeLike | None = None, copy: bool | None = None
+    ) -> NDArray[np.float64]:
+        """Return the probabilities, in the order of the states, where numpy asks for an array."""
+        if copy is False:
+            return np.asarray(self.probability, dtype)
+        return np.array(self.probability, dtype)
+
+
+def stochastic_limit(chain: Chain, start: Any = None, *, via: Way | None = None) -> Limit:
     """Return the stochastic limit of the chain: where it ends, or its long-run average.
 
     Each probability is conditional on the start alone. The structure of the graph says
@@ -130,14 +162,22 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
         the chain.
     start
         a state, a density (see `Chain.density`), or None for the chain's own start.
+    via
+        the way to the limit. 'kernel': the closed form for states in a line, from a state.
+        'elimination': elimination of states without subtraction, for any chain. 'eigen': the
+        eigenvectors of eigenvalue 1 (see `spectrum`). None: the kernel where there is one,
+        otherwise elimination.
 
     Raises
     ------
     AccuracyError
         if the limit cannot be guaranteed: it spans more decades than floats do in a class too
-        large for decimal numbers, or a class is too large and mixes too slowly.
+        large for decimal numbers, or a class is too large and mixes too slowly. By
+        eigenvectors, if the sum of the absolute errors may be above 1e-12.
     ChainError
-        if the start is neither a state nor a density.
+        if the start is neither a state nor a density, or the chain has no kernel.
+    InputError
+        if `via` is not a way.
 
     Notes
     -----
@@ -156,21 +196,48 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     >>> limit.to_dict(), limit.period, limit.is_cesaro
     ({'S1': 0.5, 'S2': 0.5}, 2, True)
     """
-    at = chain.start_index(start)
+    if via is not None:
+        one_of(via, "via", WAYS)
+    if via == "eigen":
+        return _limit_by_eigenvectors(chain, start)
+    at = chain.start_index(start) if via != "elimination" else None
     if at is not None and chain.birth_death is not None:
         probability, period = chain.birth_death.limit(at)
         return Limit(chain, probability, period)
+    if via == "kernel":
+        raise ChainError(
+            "there is no closed form for this chain and start: its states do not stand in a line "
+            "in the order given, or the start is a density; use via='elimination'"
+        )
     structure = chain.structure
     if structure.is_acyclic:
         return Limit(chain, ends_of(chain, chain.density(start)))
     mass = absorption(chain, start)
     law, residual = laws_of(chain, mass > 0.0)
     law *= mass[structure.label]
-    reached = closed_classes_reached(chain, chain.density(start))
-    period = math.lcm(*structure.periods[reached].tolist())
+    period = _period_reached(chain, start)
     if "transient" in chain.__dict__:
         residual = largest(chain.transient.residual, residual)
     return Limit(chain, law, period, residual)
+
+
+def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
+    """Return the limit as sum R_i (L_i v) over the eigenvalues 1."""
+    from evenbreak.chains.spectrum import spectrum
+
+    pairs = spectrum(chain, k=int(chain.structure.closed.sum()))
+    if not pairs.limit_error <= _ERROR_BY_EIGENVECTORS:
+        raise AccuracyError(
+            f"the limit by eigenvectors may be wrong by {pairs.limit_error:.1e}: other eigenvalues "
+            "are too close to 1; use via='elimination', which loses no digits there"
+        )
+    return Limit(chain, pairs.limit(start), _period_reached(chain, start), pairs.residual)
+
+
+def _period_reached(chain: Chain, start: Any) -> int:
+    """Return the least common multiple of the periods of the closed classes reached."""
+    reached = closed_classes_reached(chain, chain.density(start))
+    return math.lcm(*chain.structure.periods[reached].tolist())
 
 
 def largest(*residuals: float | None) -> float | None:
@@ -211,7 +278,7 @@ def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
     shape = chain.structure.count, len(chain)
     ends = csc_array((np.ones(len(inside)), (home, inside)), shape=shape)
     part = chain.transient
-    entries = csr_array((ends @ chain.arcs.matrix())[:, part.states])
+    entries = _entries(chain)[:, part.states]
     entered = np.flatnonzero(chain.structure.closed & (np.diff(entries.indptr) > 0))
     for first in range(0, len(entered), _COLUMNS):
         classes = entered[first : first + _COLUMNS]
@@ -220,3 +287,13 @@ def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
         values = chances[row, column]
         ends = ends + csc_array((values, (classes[column], part.states[row])), shape=shape)
     return ends
+
+
+def _entries(chain: Chain) -> csr_array:
+    """Return the chance of entering each closed class, from each state; shape (classes, n)."""
+    n, arcs, structure = len(chain), chain.arcs, chain.structure
+    entering = structure.recurrent[arcs.targets] & ~structure.recurrent[arcs.sources]
+    entered = structure.label[arcs.targets[entering]].astype(np.int64)
+    pairs, place = np.unique(entered * n + arcs.sources[entering], return_inverse=True)
+    chances = sums(place, arcs.chances[entering], len(pairs))
+    return csr_array((chances, (pairs // n, pairs % n)), shape=(structure.count, n))
