@@ -119,8 +119,8 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
         broken * win * lose * (1.0 + pull * worth) ** 2
         for broken, win, lose, pull in zip(
             racks.broken(first_breaker),
-            (racks.win_1, racks.win_2),
-            (racks.lose_1, racks.lose_2),
+            racks.win,
+            racks.lose,
             racks.pulls,
             strict=True,
         )
@@ -241,6 +241,6 @@ def _value(name: str, rack: Rack, win: float, lose: float, first: int) -> BreakF
         points=share * win - loss * lose,
         sd_points=(win + lose) * long_run_sd(p1, p2, breaks, first_breaker=first),
         fair_ratio=loss / share if share > 0.0 else math.inf,
-        memory=float(1.0 - (racks.pass_1 + racks.pass_2)),
+        memory=float(1.0 - racks.changes),
         first_break=float(racks.first_break),
     )
