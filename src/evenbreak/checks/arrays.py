@@ -102,7 +102,7 @@ def floats(
 def whole_numbers(
     values: Any, name: str, *, at_least: int | None = None, wanted: str = ""
 ) -> Floats:
-    """Return `values` as a float array if all of them are whole numbers, none too small.
+    """Return `values` as a float array if all are whole numbers, `at_least` or more.
 
     >>> whole_numbers([1, 2.0], "n")
     array([1., 2.])

@@ -189,7 +189,7 @@ def match_format(text: str) -> MatchFormat:
 
 
 def _half(most: int) -> str:
-    """Return the race that takes at most so many games, or one more.
+    """Return the race that is the best of so many games; of one more if the number is even.
 
     >>> _half(9), _half(10)
     ('5:5', '6:6')

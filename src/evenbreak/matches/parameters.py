@@ -29,7 +29,7 @@ def checked_match(match: AnyMatch) -> AnyMatch:
 
 
 def first_breaker(match: Match) -> int:
-    """Return the first breaker as it stands in states: 1 if the break does not matter."""
+    """Return the first breaker for the states of a match: 1 if the break does not matter."""
     return match.first_breaker if match.break_matters else 1
 
 

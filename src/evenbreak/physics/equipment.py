@@ -79,7 +79,7 @@ def density_range(balls: BallSet) -> tuple[float, float]:
 
 
 def floats_in(balls: BallSet, liquid: str) -> bool:
-    """Return whether every ball of a set floats in one of `LIQUIDS` (P1.2).
+    """Return whether every ball of a set floats in a liquid, one of `LIQUIDS` (P1.2).
 
     Raises
     ------

@@ -282,7 +282,7 @@ def cut_of(cut: Any) -> Floats:
 
 
 def shot_of(cut: Any, topspin: Any, side: Any, **others: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return cut angle, J_y and J_z as arrays, if they broadcast, also with the others."""
+    """Return cut angle, J_y and J_z as arrays, if they and the others broadcast together."""
     cut, topspin, side = cut_of(cut), numbers(topspin, "topspin"), numbers(side, "side")
     together(cut=cut, topspin=topspin, side=side, **others)
     return cut, topspin, side

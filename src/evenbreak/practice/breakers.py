@@ -41,10 +41,10 @@ class Breakers(NamedTuple):
             win[0] * (breaks(1, 1) == 2) + lose[0] * (breaks(1, 2) == 2),
             win[1] * (breaks(2, 1) == 1) + lose[1] * (breaks(2, 2) == 1),
         )
-        after_win, after_loss = (
-            [breaks(breaker, who) == 1 for breaker in (1, 2)] for who in (1, 2)
+        pulls = (
+            (breaks(1, 1) == 1) - (breaks(1, 2) == 1),
+            (breaks(2, 1) == 1) - (breaks(2, 2) == 1),
         )
-        pulls = after_win[0] - after_loss[0], after_win[1] - after_loss[1]
         return cls(win, lose, passes, pulls)
 
     @property
