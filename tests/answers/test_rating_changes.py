@@ -96,10 +96,10 @@ def test_a_chart_that_was_found_is_named(answer_of):
 
 def test_other_races_than_the_charts_and_several_dates_are_warnings(answer_of):
     header = f"date,{HEADER},race_a,race_b\n"
-    one = "2026-11-20,Ann,Bo,5,3,5,4\n2026-11-20,Ann,Cy,5,3,5,5\n"
+    one = "2025-11-20,Ann,Bo,5,3,5,4\n2025-11-20,Ann,Cy,5,3,5,5\n"
     (off,) = answer_of(header + one).warnings
     assert "night.csv:3: " in off
     assert "5:5" in off
     assert "6:4" in off
-    dates, off = answer_of(f"{header}{one}2026-11-27,Bo,Ann,4,2,4,5\n").warnings
+    dates, off = answer_of(f"{header}{one}2025-11-27,Bo,Ann,4,2,4,5\n").warnings
     assert "2 dates" in dates

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+    from evenbreak.arrays import Floats
+
 _WANTED = {
     "i": "whole numbers",
     "b": "True or False",
@@ -30,7 +32,7 @@ def probability(value: float | Fraction, name: str) -> float: ...
 
 
 @overload
-def probability(value: Sequence[Any], name: str) -> NDArray[np.float64]: ...
+def probability(value: Sequence[Any], name: str) -> Floats: ...
 
 
 @overload
@@ -73,7 +75,7 @@ def floats(
     above: float = -math.inf,
     below: float = math.inf,
     wanted: str = "",
-) -> NDArray[np.float64]:
+) -> Floats:
     """Return `values` as a float array if all of them are finite and within the limits.
 
     Parameters
@@ -108,8 +110,8 @@ def floats(
 
 def whole_numbers(
     values: Any, name: str, *, at_least: int | None = None, wanted: str = ""
-) -> NDArray[np.float64]:
-    """Return `values` as a float array if all of them are whole numbers, none too small.
+) -> Floats:
+    """Return `values` as a float array if all are whole numbers, `at_least` or more.
 
     >>> whole_numbers([1, 2.0], "n")
     array([1., 2.])
@@ -258,7 +260,7 @@ def _converted(values: Any, kind: np.dtype[Any]) -> NDArray[Any] | None:
     return found if bool((found == given).all()) else None
 
 
-def _array(values: Any) -> NDArray[np.float64]:
+def _array(values: Any) -> Floats:
     """Return `values` as a float array; NaN for what is not numbers."""
     import numpy as np
 

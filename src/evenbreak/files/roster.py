@@ -175,8 +175,8 @@ def _names(table: TextTable) -> list[str]:
             spelt = "" if spelling == name else f" as {quoted(spelling)}"
             table.problems.add(
                 line,
-                f"player {quoted(name)} is already in line {earlier}{spelt}; delete one of the two, "
-                "or give two players of the same name different names, such as 'Ann Lee 2'",
+                f"player {quoted(name)} is already in line {earlier}{spelt}; delete one of the "
+                "two, or give two players of the same name different names, such as 'Ann Lee 2'",
             )
     return names
 

@@ -253,12 +253,12 @@ def test_wrong_words_on_how_to_rate_write_nothing(run, tmp_path, words, code, re
 
 
 def test_warnings_go_to_stderr(run, tmp_path):
-    season = SMALL + "2024-09-24,ann,Bo,7,5\n"
+    season = SMALL + "2024-09-24,Zoë,Bo,7,5\n2024-09-24,Zoe,Bo,7,5\n"
     result = run("report", "-", "--out", str(tmp_path), stdin=season.replace("date", "when"))
     assert result.exit_code == 0
     unused, alike = [line for line in result.stderr.splitlines() if line.startswith("Warning: ")]
     assert "'when'" in unused
-    assert "'Ann' and 'ann'" in alike
+    assert "'Zoe' and 'Zoë'" in alike
     assert "Warning" not in result.stdout
     assert summary(tmp_path)["groups_of_similar_names"] == "1"
 
@@ -430,3 +430,24 @@ def test_an_end_while_files_take_their_places_leaves_the_new_ones(run, tmp_path,
             process.kill()
         assert b"Traceback" not in process.stderr.read()
     assert content(old) == content(new)
+
+
+@pytest.mark.parametrize("name", ["ratings.csv", "matchups.csv", "summary.csv"])
+def test_the_results_are_never_overwritten(run, tmp_path, name):
+    season = tmp_path / name
+    season.write_bytes(DEMO.read_bytes())
+    result = run("report", str(season), "--out", str(tmp_path))
+    assert result.exit_code == 2
+    assert name in result.stderr
+    assert [file.name for file in tmp_path.iterdir()] == [name]
+    assert season.read_bytes() == DEMO.read_bytes()
+
+
+def test_a_page_never_takes_the_place_of_what_was_read(run, tmp_path):
+    season = tmp_path / "season.html"
+    season.write_bytes(DEMO.read_bytes())
+    assert run("rate", str(season), "--html", str(season)).exit_code == 2
+    assert season.read_bytes() == DEMO.read_bytes()
+    other = str(tmp_path / "page.html")
+    for _ in range(2):  # a page of last time may be written over
+        assert run("rate", str(season), "--html", other).exit_code == 0
