@@ -63,12 +63,13 @@ def evening_words(end: EveningEnd) -> str:
     """Return when an evening ends.
 
     >>> print(evening_words(EveningEnd("chart", 4, 2, 110.2, 120.0, True, 0, 0.0)))
-    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 evenings in 10 end within 2 h 00.
+    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 out of 10 evenings end within
+    2 h 00.
     """
     return (
         f"{KINDS[end.races]}, {count_of(end.matches, 'match', 'matches')} on "
         f"{count_of(end.tables, 'table')} {'take' if end.matches > 1 else 'takes'} "
-        f"{clock(end.mean_minutes)} on average; 9 evenings in 10 end within "
+        f"{clock(end.mean_minutes)} on average; 9 out of 10 evenings end within "
         f"{clock(end.minutes_p90)}."
     )
 

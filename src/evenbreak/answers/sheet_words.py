@@ -69,10 +69,7 @@ def about_ratings(sheet: Sheet) -> Iterator[str]:
         "they are not official ratings."
     )
     if (groups := count_groups(ratings)) > 1:
-        yield (
-            f"{groups:,} groups of players have never met, not even through others: compare "
-            "ratings within a group only."
-        )
+        yield (f"{groups:,} groups of players have never met: compare ratings within a group only.")
     if idle := int(ratings.idle.sum()):
         yield f"{count_of(idle, 'more player has', 'more players have')} no games yet."
 
