@@ -10,9 +10,6 @@ from evenbreak.answers.faces.to_text import WIDTH, paragraph
 from evenbreak.cli.kit.values import refuse
 from evenbreak.files.problems import printable
 
-MOST_NAMED = 20
-"""The most files whose names are said after they are written."""
-
 
 def to_terminal() -> bool:
     """Return whether the output goes to a terminal."""
@@ -48,8 +45,7 @@ def write_folder(out: str, files: Mapping[str, bytes]) -> None:
                 "writes; name another folder with --out"
             )
     write_files(out, files)
-    named = ", ".join(files) if len(files) <= MOST_NAMED else f"{len(files)} files"
-    say(f"Wrote {named} to {out}")
+    say(f"Wrote {', '.join(files)} to {out}")
 
 
 def _named_by(place: Path) -> Iterator[str]:
