@@ -52,8 +52,8 @@ def sandbag_power_answer(
     known = "" if marked is None else f" of the {100 * marked:g}% of the matches that are marked"
     return Answer(
         f"How soon the watch flags a sandbagger: chart {chart}\n{found[0].replicas:,} simulated "
-        f"players of each kind, who dump a share{known}; flagged when the evidence reaches "
-        f"{evidence(1.0 / alpha)}",
+        f"players of each kind, who dump a share{known}; a player is flagged when the evidence "
+        f"reaches {evidence(1.0 / alpha)}",
         [
             _in_words(found, matches),
             _kinds(found, within),
