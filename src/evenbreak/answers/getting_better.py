@@ -108,7 +108,8 @@ def _in_words(file: ScoresFile, own: MeanInterval | None, line: Trend | None) ->
 
 def _average(mean: float, own: MeanInterval | None, line: Trend | None) -> str:
     if own is None:
-        return f"Your average is {mean:.2f}; it takes two different scores to show how certain that is."
+        certain = "it takes two different scores to show how certain that is"
+        return f"Your average is {mean:.2f}; {certain}."
     text = (
         f"Your average is {mean:.2f} so far; in the long run it is between {own.low:.2f} and "
         f"{own.high:.2f}, with {100 * own.confidence:g}% confidence"

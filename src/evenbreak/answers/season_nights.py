@@ -47,7 +47,9 @@ def nights_of_files(
         while True:
             night = replace(season, results=season.results.select(kept), lines=season.lines[kept])
             try:
-                return rating_changes_of_files(system, replace(first, roster=list_), night, chart=chart)
+                return rating_changes_of_files(
+                    system, replace(first, roster=list_), night, chart=chart
+                )
             except DataError as error:
                 problems.update(dict.fromkeys(error.problems))
                 kept = kept[:0]
