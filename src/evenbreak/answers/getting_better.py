@@ -108,8 +108,10 @@ def _in_words(file: ScoresFile, own: MeanInterval | None, line: Trend | None) ->
 
 def _average(mean: float, own: MeanInterval | None, line: Trend | None) -> str:
     if own is None:
-        certain = "it takes two different scores to show how certain that is"
-        return f"Your average is {mean:.2f}; {certain}."
+        return (
+            f"Your average is {mean:.2f}. It takes more scores, not all of them equal, to say how "
+            "certain that is."
+        )
     text = (
         f"Your average is {mean:.2f} so far; in the long run it is between {own.low:.2f} and "
         f"{own.high:.2f}, with {100 * own.confidence:g}% confidence"

@@ -5,7 +5,7 @@ import click
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import out_option
-from evenbreak.cli.kit.terminal import say, write_folder
+from evenbreak.cli.kit.terminal import say
 
 EXAMPLES = """\b
 Examples:
@@ -27,13 +27,13 @@ def command(out: str) -> Answer:
     from collections import Counter
 
     from evenbreak.answers.reproduction import reproduction_answer
-    from evenbreak.files.folder import check_folder
+    from evenbreak.files.folder import check_folder, write_files
     from evenbreak.source_text.findings import differing
     from evenbreak.source_text.reproduce import all_findings, reproduction
 
     check_folder(out)
     files = reproduction(say)
-    write_folder(out, files)
+    write_files(out, files)
     found = all_findings()
     if problems := list(differing(found)):
         raise click.ClickException("\n".join(["the files are written, but", *problems]))
