@@ -154,7 +154,7 @@ def doubtful(tonight: Round) -> bool:
     return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
 
 
-def about_model(tonight: Round) -> str:
-    """Return the model in a sentence."""
+def game_model(tonight: Round) -> str:
+    """Return how a game's chance follows from two ratings, in a sentence."""
     text = game_chance(tonight.scale)
     return f"{text[:1].upper()}{text[1:]}, independently of every other game, whoever breaks."

@@ -101,8 +101,8 @@ def how_rated(sheet: Sheet) -> str:
     return f"{text}{as_of}."
 
 
-def about_model(sheet: Sheet) -> str:
-    """Return the model in a sentence."""
+def rating_model(sheet: Sheet) -> str:
+    """Return how the ratings were estimated, in a sentence or two."""
     ratings = sheet.ratings
     alike = ", and early and late matches count alike" if ratings.half_life is None else ""
     races = ", and on the chance of a race where only its winner is known"
