@@ -92,6 +92,8 @@ ASKED = {
     "sandbag_power": "sandbag power --matches 20 --replicas 50",
     "sandbag_watch": "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv "
     "--dumps-in 'League night'",
+    "sandbag_events": "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv "
+    "--verbose",
     "sandbag_player": "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv "
     "--player 'Vito Drago'",
     "simulate": "simulate data/demo_league_roster.csv --weeks 10 --replicas 40 --no-matches "

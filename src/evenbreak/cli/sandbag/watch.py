@@ -37,7 +37,8 @@ Examples:
     "events",
     multiple=True,
     metavar="EVENT",
-    help="An event that counts for little: only in it are matches dumped. Can be repeated.",
+    help="An event that counts for little: only in it are matches dumped. Can be repeated.  "
+    "[default: each event of the file is tried]",
 )
 @click.option(
     "--player", metavar="NAME", help="Show what each match of one player adds to the evidence."
@@ -68,7 +69,7 @@ def command(
     """
     from evenbreak.answers.sandbag_watch import sandbag_player_answer, sandbag_watch_answer
     from evenbreak.answers.scale_doubts import league_doubts
-    from evenbreak.answers.season_nights import events_marked, nights_of_files
+    from evenbreak.answers.season_nights import events_marked, events_to_try, nights_of_files
 
     if [results, roster, chart, aliases].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
@@ -81,7 +82,14 @@ def command(
     # Without --chart the results must state the races or the winners.
     nights = nights_of_files(system, first, season, chart=ladder.chart if chart else None)
     found = league.watch(
-        nights, system, ladder.law(), alpha=alpha, honest=honest, marked=marked, day_sd=day_sd
+        nights,
+        system,
+        ladder.law(),
+        alpha=alpha,
+        honest=honest,
+        marked=marked,
+        tried=None if events else events_to_try(season.results),
+        day_sd=day_sd,
     )
     if player is not None:
         found = [one for one in found if one.player == player]
