@@ -24,12 +24,12 @@ def test_the_easiest_and_the_hardest_kind_are_named_and_the_honest():
     text = asked(HONEST, HIDDEN, PLAIN).sentences[0]
     assert "Within 4 matches" in text
     assert "90% of players who dump 50%" in text
-    assert "2.0% of players who dump 25%" in text
-    assert "1.0% of honest players" in text
+    assert "2% of players who dump 25%" in text
+    assert "1% of honest players" in text
 
 
 def test_honest_players_alone():
-    assert asked(HONEST).sentences[0].endswith("1.0% of honest players.")
+    assert asked(HONEST).sentences[0].endswith("1% of honest players.")
 
 
 def test_files_have_a_row_for_each_kind_and_quarter():

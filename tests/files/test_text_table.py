@@ -116,7 +116,7 @@ def test_rows_of_the_wrong_width_are_told_and_the_rest_kept(read):
     table = read("name,score\nBo\nCy,5,,\nDi,6,7\nEd,8\n")
     assert table.cells("name") == ["Cy", "Ed"]
     assert [text.split(";")[0] for text in problems(table)] == [
-        ":2: has 1 cells, but the header has 2",
+        ":2: has 1 cell, but the header has 2",
         ":4: has 3 cells, but the header has 2",
     ]
 

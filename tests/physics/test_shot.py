@@ -223,7 +223,7 @@ def test_where_a_ball_meets_a_cushion_its_path_ends():
     ("how", "message"),
     [
         ({"cut": 1.6}, "cut is 1.6; give an angle between"),
-        ({"distance": 0.05}, "where the balls touch, or more"),
+        ({"distance": 0.05}, "where the balls touch"),
         ({"distance": 5.0}, "the object ball is at"),
         ({"cue_ball": (0.0, 0.0)}, "cue_ball is at"),
         ({"cue_ball": 0.5}, "give x and y"),

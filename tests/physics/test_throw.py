@@ -137,7 +137,7 @@ def test_a_full_hit_without_english_is_aimed_straight() -> None:
 
 
 def test_no_cut_is_thinner_than_a_right_angle() -> None:
-    with pytest.raises(InputError, match="cut is so thin"):
+    with pytest.raises(InputError, match="cut is too thin"):
         aim(math.pi / 2.0, 1.0, 0.0)
 
 

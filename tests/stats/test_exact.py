@@ -44,7 +44,7 @@ def test_anything_else_is_refused_by_name(p: object) -> None:
 
 @pytest.mark.parametrize("p", [np.array([0.5]), np.array([0.5, 0.6])])
 def test_an_array_is_no_probability(p: object) -> None:
-    with pytest.raises(InputError, match="not a probability"):
+    with pytest.raises(InputError, match="give one number from 0 to 1"):
         exact(p)
 
 

@@ -47,9 +47,9 @@ def breaks_answer(
         Column("memory", "left after\na rack", _four, detail=True),
     ]
     return Answer(
-        f"A wins a rack that A breaks with probability {rack.p1:g}, B one that B breaks with "
-        f"{rack.chance(2, breaker=2):g}\nA wins {win:g} for each rack won and pays {lose:g} for "
-        "each rack lost",
+        f"The breaker wins a rack with probability {rack.p1:g} (A) or "
+        f"{rack.chance(2, breaker=2):g} (B)\nA wins {win:g} for each rack won and pays {lose:g} "
+        "for each rack lost",
         [
             f"{_who_gains(usual)}\n{_in_a_session(usual[0])}",
             Table("formats", columns, [_row(value, lose) for value in values]),

@@ -75,7 +75,7 @@ class DesignTask:
     def heading(self, up_to: int) -> str:
         """Return what is asked for, in two lines."""
         low, high = self.limits.games
-        words = [f"Races that can last {low} to {high} games"]
+        words = [f"Races whose longest match has {low} to {high} games"]
         if self.rules.win_by > 1:
             words.append(f"won by {self.rules.win_by}")
         if self.rules.break_points:
@@ -177,12 +177,13 @@ def _differing(made: Chart, other: Chart, up_to: int) -> Iterator[_Span]:
 
 def _compared(chart: Chart, found: ChartMeasure, spans: Sequence[_Span]) -> str:
     count = sum(span.last - span.first + 1 for span in spans)
-    races = f"other races at {count} of the" if count else "the same races at all"
+    races = f"different races at {count} of the" if count else "the same races at all"
     return (
-        f"Compared with {chart.name}: its chances are within {100 * found.worst_unfairness:.1f} "
-        f"percentage points, and {100 * found.mean_unfairness:.1f} away on average; its matches "
-        f"take {found.mean_games:.1f} games on average, and 9 out of 10 end within "
-        f"{found.games_p90}. It has {races} {found.up_to + 1} differences."
+        f"For comparison, with {chart.name} the chance is within "
+        f"{100 * found.worst_unfairness:.1f} percentage points, and "
+        f"{100 * found.mean_unfairness:.1f} away on average; a match takes "
+        f"{found.mean_games:.1f} games on average; 9 out of 10 end within {found.games_p90}. The "
+        f"two charts have {races} {found.up_to + 1} differences."
     )
 
 

@@ -26,7 +26,7 @@ def chart_list_answer() -> Answer:
                     Column("what", "full name", left=True),
                     Column("looked_up_by", "looked up by", left=True),
                     Column("races", "races"),
-                    Column("longest_games", "longest,\ngames"),
+                    Column("longest_games", "games\nat most"),
                 ],
                 [_row(name, title) for name, title in {**CHARTS, **LEVEL_CHARTS}.items()],
             ),

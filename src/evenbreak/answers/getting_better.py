@@ -107,9 +107,12 @@ def _in_words(file: ScoresFile, own: MeanInterval | None, line: Trend | None) ->
 
 def _average(mean: float, own: MeanInterval | None, line: Trend | None) -> str:
     if own is None:
-        return f"Your average is {mean:.2f}; equal scores do not show how certain that is."
+        return (
+            f"Your average is {mean:.2f}. It takes more scores, not all of them equal, to say how "
+            "certain that is."
+        )
     text = (
-        f"Your average is {mean:.2f}. Your true average is between {own.low:.2f} and "
+        f"Your average is {mean:.2f} so far; in the long run it is between {own.low:.2f} and "
         f"{own.high:.2f}, with {100 * own.confidence:g}% confidence"
     )
     if line is not None and line.p_value < DRIFTS:

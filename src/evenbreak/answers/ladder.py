@@ -81,17 +81,19 @@ def _heading(found: LadderFindings) -> str:
     ]
     if ladder.day_sd:
         many = count_of(ladder.matches_a_night, "match", "matches")
-        lines.append(f"{_form(ladder.day_sd)} from night to night, {many} a night.")
+        lines.append(f"{_form('night', ladder.day_sd)}; {many} a night.")
     if ladder.match_sd:
-        lines.append(f"{_form(ladder.match_sd)} from match to match.")
+        lines.append(f"{_form('match', ladder.match_sd)}.")
     if ladder.drift:
         way = "rises" if ladder.drift > 0.0 else "falls"
         lines.append(f"The player's skill {way} by {abs(ladder.drift):g} points a match.")
     return "\n".join(lines)
 
 
-def _form(sd: float) -> str:
-    return f"Everybody's form varies, typically by {sd:g} points,"
+def _form(when: str, sd: float) -> str:
+    return (
+        f"Everybody's form varies from {when} to {when}, by up to {sd:g} points two times in three"
+    )
 
 
 def _how_far_off(found: LadderFindings) -> str:
@@ -142,8 +144,8 @@ def _how_soon(found: LadderFindings) -> str:
 def _who_pays(found: LadderFindings) -> str:
     left = found.newcomer_inflation.left
     return (
-        "The other players pay for part of this: their ratings "
-        f"{'fall' if left < 0 else 'rise'} by {abs(left):.1f} points in total."
+        "The longer steps correct only part of the error; the other players' ratings make up for "
+        f"the rest: they {'fall' if left < 0 else 'rise'} by {abs(left):.1f} points in total."
     )
 
 
@@ -179,8 +181,8 @@ def _how_soon_forgotten(found: LadderFindings) -> Iterator[str]:
         half = math.log(0.5) / math.log1p(-found.gap)
         every = "match" if half < 1.5 else f"{half:,.0f} matches"
         yield (
-            f"In the long run, what is left of an old error halves every {every} (a match removes "
-            f"the share {found.gap:.4f} of it: the spectral gap)."
+            f"In the long run, an old error halves every {every}: each match removes a share of "
+            f"{found.gap:.4f} of what is left (the spectral gap)."
         )
     if found.mixing_matches is not None:
         started = f"started {_too(start, str(abs(start)))}" if start else "started right"

@@ -175,8 +175,8 @@ def _advice(found: LadderComparison) -> str:
         f"Ratings are most accurate with {_called(accurate)}. Wrong ratings are corrected "
         f"fastest with {_called(fastest)}, in {fastest.settling_mean:.1f} matches on average. "
         f"With {_called(own)} it takes {own.settling_mean:.1f} matches; {better}. Longer steps for "
-        f"newcomers alone ({new.system}) take {new.settling_mean:.1f} matches and leave everybody "
-        "else's rating as accurate as it is."
+        f"newcomers only ({new.system}) take {new.settling_mean:.1f} matches and leave the other "
+        "ratings as accurate as they are."
     )
 
 

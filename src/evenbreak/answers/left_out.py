@@ -54,7 +54,7 @@ def _unlinked(sheet: Sheet) -> Iterator[Remark]:
             "rated at the mean until there are results",
             idle,
         )
-    why = "they have no opponents in common, not even through others"
+    why = "no chain of opponents links them"
     if apart := int(sheet.paired["race_a"].isna().sum()):
         yield Remark(f"the races of {count_of(apart, 'pair')}", why)
     elif (groups := count_groups(ratings)) > 1:

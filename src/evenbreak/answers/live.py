@@ -14,6 +14,10 @@ from evenbreak.matches.live import LiveOdds, Standing
 _PLACE = ("score_a", "score_b", "set_a", "set_b", "next_break")
 
 
+LARGE_SWING = 0.15
+"""How much a game must change a chance to be called the turning point."""
+
+
 def live_answer(
     players: TwoPlayers, match: Match, odds: LiveOdds, *, comebacks: bool = False
 ) -> Answer:
@@ -152,8 +156,9 @@ def _turning_point(odds: LiveOdds, players: TwoPlayers) -> str:
     before, after = (
         moment.p_win_1 if winner == 1 else moment.p_win_2 for moment in odds.course[most : most + 2]
     )
+    turned = "was the turning point" if after - before >= LARGE_SWING else "changed the odds most"
     return (
-        f"Game {most + 1} was the turning point: it took {players.names[winner - 1]}'s chance from "
+        f"Game {most + 1} {turned}: it took {players.names[winner - 1]}'s chance from "
         f"{percent(before)} to {percent(after)}."
     )
 

@@ -79,8 +79,7 @@ def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
     if apart:
         yield Remark(
             f"{count_of(len(apart), 'pair')} without a race",
-            "the two players have no opponents in common, not even through others, so their "
-            "ratings cannot be compared",
+            "no chain of opponents links the two players, so their ratings cannot be compared",
             apart,
         )
     uneven = _pairs(frame[frame["note"].str.startswith(NOT_FAIR)])

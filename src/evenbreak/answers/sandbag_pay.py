@@ -182,10 +182,11 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
     else:
         yield "Sandbagging does not pay at these stakes, however many matches are dumped."
     if math.isfinite(cheapest.break_even):
+        aside = "Leaving the prize aside, it" if question.prize else "It"
         yield (
-            f"Over {question.earnest} matches in earnest, without a prize, it pays off only if "
-            f"each of them is worth at least {cheapest.break_even:.2f} times as much as a dumped "
-            f"match; that is with {cheapest.dumped} dumped."
+            f"{aside} pays off over {question.earnest} matches in earnest only if a win in earnest "
+            f"is worth at least {cheapest.break_even:.2f} times as much as a win in a dumped match "
+            f"(with {cheapest.dumped} dumped)."
         )
     if cycle is not None and cycle.dumped and cycle.profit > 0.0:
         yield (

@@ -51,10 +51,10 @@ def sandbag_power_answer(
     known = "" if marked is None else f" of the {100 * marked:g}% of the matches that are marked"
     return Answer(
         f"How soon the watch flags a sandbagger: chart {chart}\n{found[0].replicas:,} simulated "
-        f"players of each kind, who dump a share{known}; flagged when the evidence reaches "
-        f"{evidence(1.0 / alpha)}",
+        f"players of each kind, who dump a share{known}; a player is flagged when the evidence "
+        f"reaches {evidence(1.0 / alpha)}",
         [
-            _in_words(found, matches),
+            _in_words(found, matches, "their" if marked is None else "their marked"),
             _kinds(found, within),
             "'Rating error': how far the ratings are above the skill at the end, in points, on "
             "average. 'Won in earnest': per cent of the matches that are not dumped.",
@@ -73,7 +73,7 @@ def sandbag_power_answer(
     )
 
 
-def _in_words(found: Sequence[WatchPower], matches: int) -> str:
+def _in_words(found: Sequence[WatchPower], matches: int, which: str) -> str:
     """Return how many are flagged of the kinds that are easiest and hardest to see."""
     honest, *others = found
     false = f"{percent(float(honest.flagged[-1]))} of honest players"
@@ -81,13 +81,15 @@ def _in_words(found: Sequence[WatchPower], matches: int) -> str:
         return f"Within {matches} matches, the watch flags {false}."
     order = sorted(others, key=lambda one: -float(one.flagged[-1]))
     kinds = [order[0], order[-1]] if len(order) > 1 else order
-    said = [f"{percent(float(one.flagged[-1]))} of players who {_kind(one)}" for one in kinds]
+    said = [
+        f"{percent(float(one.flagged[-1]))} of players who {_kind(one, which)}" for one in kinds
+    ]
     return f"Within {matches} matches, the watch flags {', '.join(said)}, and {false}."
 
 
-def _kind(one: WatchPower) -> str:
+def _kind(one: WatchPower, which: str) -> str:
     how = "losing them" if one.points is None else f"played {one.points} points below their skill"
-    return f"dump {100 * one.share:g}% of their matches ({how})"
+    return f"dump {100 * one.share:g}% of {which} matches ({how})"
 
 
 def _kinds(found: Sequence[WatchPower], within: Sequence[int]) -> Table:
@@ -113,4 +115,4 @@ def _kinds(found: Sequence[WatchPower], within: Sequence[int]) -> Table:
         )
         for one in found
     ]
-    return Table("", columns, rows, "Players flagged within 5, 10, ... matches, in per cent:")
+    return Table("", columns, rows, "Per cent of the players flagged within the first matches:")

@@ -94,9 +94,9 @@ def sandbag_watch_answer(
             "1, rises with each result that is likelier from a sandbagger than from an honest "
             "player, and falls with the others. It is not a verdict: look at the player's matches "
             "(--player), and ask.",
-            f"At most {percent(alpha)} of honest players are ever flagged; with {len(rows):,} "
-            f"honest players that is {alpha * len(rows):.2g} on average. This holds for "
-            f"{HONEST_PLAYER[honest]} whose form varies by no more than --day-sd.",
+            f"The chance that {HONEST_PLAYER[honest]} is ever flagged is at most {percent(alpha)}. "
+            f"If all {len(rows):,} players are honest, at most {alpha * len(rows):.2g} of them are "
+            "flagged on average. This holds if form varies as much as --day-sd says.",
         ],
         details=[
             f"If players were flagged only at {evidence(len(rows) / alpha)}, the chance that even "
@@ -176,8 +176,8 @@ def _tried(one: Watched) -> Iterator[str]:
     if events:
         yield (
             f"Each of the {count_of(len(events), 'event')} ({some_of(events, NAMED)}) was tried as "
-            "the only one in which matches are dumped, besides dumps in any event. The evidence is the "
-            f"average of these {len(one.tried)} e-values, which is an e-value too, so honest "
+            "the only one in which matches are dumped, besides dumps in any event. The evidence is "
+            f"the average of these {len(one.tried)} e-values, which is an e-value too, so honest "
             "players are flagged no more often. With --dumps-in only the event that you name is "
             "tried; choose it before you look at the results."
         )
@@ -218,7 +218,7 @@ def sandbag_player_answer(
     limit = evidence(1.0 / one.alpha)
     said = (
         f"Not flagged: the evidence is {evidence(one.e_value)} now and was never above "
-        f"{evidence(one.largest_e)}; it takes {limit}."
+        f"{evidence(one.largest_e)}; a player is flagged at {limit}."
         if one.alarm is None
         else f"Flagged after match {one.alarm + 1}, when the evidence reached {limit}; it is "
         f"{evidence(one.e_value)} now."

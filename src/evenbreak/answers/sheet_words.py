@@ -56,8 +56,8 @@ def how_even(paired: pd.DataFrame) -> Iterator[str]:
         )
     if missing := len(paired) - len(offered):
         yield (
-            f"A dash marks {count_of(missing, 'pair')} without a race: the players have no "
-            "opponents in common, not even through others, so their ratings cannot be compared."
+            f"A dash marks {count_of(missing, 'pair')} without a race: no chain of "
+            "opponents links the two players, so their ratings cannot be compared."
         )
 
 

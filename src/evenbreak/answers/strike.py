@@ -37,6 +37,9 @@ _DETAILS = {
     "later_offset": ("offset that gives that topspin at once", 3),
 }
 
+MOST_TIP_FRICTION = 1.0
+"""No tip has a higher coefficient of friction."""
+
 
 def strike_answer(
     strike: Strike,
@@ -108,9 +111,14 @@ def tip_words(strike: Strike) -> str:
 def _miscue_words(strike: Strike) -> str:
     needed = math.ceil(1000.0 * tip_friction_of(strike.off_centre)) / 1000.0
     limit = miscue_offset(strike.cue.tip_friction)
+    better_tip = (
+        f", or use a tip whose friction is {needed:g} or more (--tip-mu {needed:g})"
+        if needed <= MOST_TIP_FRICTION
+        else ""
+    )
     return (
-        f"This is a miscue: so far from the centre the tip slips. Hit within {limit:.3f} of "
-        f"the radius, or use a tip whose friction is {needed:g} or more (--tip-mu {needed:g})."
+        "This is a miscue: so far from the centre the tip slips. Hit no farther from it than "
+        f"{limit:.3f} of the radius{better_tip}."
     )
 
 

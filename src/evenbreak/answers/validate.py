@@ -21,6 +21,9 @@ from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validate import Validation
 
+WIDE = 0.4
+"""The width from which the range of a share says nothing about it."""
+
 
 def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed: int = 1) -> Answer:
     """Return whether a league can trust its ratings.
@@ -109,6 +112,15 @@ def _handicaps(found: Validation) -> str:
         return f"The handicaps give too little. {figures}; fair is 50%."
     if off < 0:
         return f"The handicaps give too much. {figures}; fair is 50%."
+    if every.high - every.low > WIDE:
+        return (
+            f"There are too few handicap matches to say whether the handicaps are fair. {figures}."
+        )
+    if not every.low <= 0.5 <= every.high:
+        more = "little" if every.low > 0.5 else "much"
+        return (
+            f"The handicaps may give too {more}. {figures}; fair is 50%, just outside that range."
+        )
     way = clearly_off(share_of(every), every.expected)
     if way:
         under = "under" if way > 0 else "over"

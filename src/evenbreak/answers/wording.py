@@ -20,8 +20,10 @@ def percent(p: float) -> str:
 
     >>> percent(0.653), percent(0.0042), percent(0.99999), percent(1.0), percent(3e-9)
     ('65%', '0.4%', 'more than 99.9%', '100%', 'less than 0.1%')
+    >>> percent(0.01), percent(0.0103)  # a round value, as it was given, and a calculated one
+    ('1%', '1.0%')
     """
-    if p in (0.0, 1.0):
+    if p == round(p, 2):
         return f"{100 * p:.0f}%"
     if p < 0.001:
         return "less than 0.1%"

@@ -13,8 +13,9 @@ from evenbreak.errors import InputError
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    import numpy as np
     from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+    from evenbreak.arrays import Floats
 
 
 @overload
@@ -22,7 +23,7 @@ def probability(value: float | Fraction, name: str) -> float: ...
 
 
 @overload
-def probability(value: Sequence[Any], name: str) -> NDArray[np.float64]: ...
+def probability(value: Sequence[Any], name: str) -> Floats: ...
 
 
 @overload
@@ -65,7 +66,7 @@ def floats(
     above: float = -math.inf,
     below: float = math.inf,
     wanted: str = "",
-) -> NDArray[np.float64]:
+) -> Floats:
     """Return `values` as a float array if all of them are finite and within the limits.
 
     Parameters
@@ -100,8 +101,8 @@ def floats(
 
 def whole_numbers(
     values: Any, name: str, *, at_least: int | None = None, wanted: str = ""
-) -> NDArray[np.float64]:
-    """Return `values` as a float array if all of them are whole numbers, none too small.
+) -> Floats:
+    """Return `values` as a float array if all are whole numbers, `at_least` or more.
 
     >>> whole_numbers([1, 2.0], "n")
     array([1., 2.])
@@ -206,7 +207,7 @@ def plain(array: Any) -> Any:
     return array if getattr(array, "ndim", 0) else float(array)
 
 
-def _array(values: Any) -> NDArray[np.float64]:
+def _array(values: Any) -> Floats:
     """Return `values` as a float array; NaN for what is not numbers."""
     import numpy as np
 

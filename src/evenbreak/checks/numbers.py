@@ -155,7 +155,8 @@ def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
     try:
         return choices[choices.index(value)]
     except ValueError:  # an array raises it too: its comparison is not one truth value
-        listed = " or ".join(repr(choice) for choice in choices)
+        *others, last = map(repr, choices)
+        listed = f"{', '.join(others)} or {last}"
         raise InputError(f"{name} is {value!r}; give {listed}") from None
 
 

@@ -201,7 +201,7 @@ def _fits(line: int, row: list[str], width: int, problems: Problems) -> bool:
     if "".join(row).strip():
         problems.add(
             line,
-            f"has {len(row)} cells, but the header has {width}; "
+            f"has {len(row)} {'cell' if len(row) == 1 else 'cells'}, but the header has {width}; "
             "add what is missing, or quote cells that hold the separator",
         )
     return False

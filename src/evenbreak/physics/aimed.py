@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import number
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats
 from evenbreak.physics.leg import State, on_table, place_of, time_to
 from evenbreak.physics.objects import Cloth, PoolTable
 from evenbreak.physics.shot import Shot, shot, sound_strike, spin_ratios, travel_for
@@ -28,14 +28,14 @@ _THINNEST = 0.5 * math.pi - 1e-9
 
 @dataclass(frozen=True, eq=False)
 class AimedShot:
-    """A shot that sends the object ball to a target, and the same shot without allowing for throw.
+    """A shot that sends the object ball to a target, with and without allowing for throw.
 
     Parameters
     ----------
     shot
         the shot that allows for throw.
     unaided
-        the same strike with the line of centres through the target; throw makes it miss.
+        the same strike aimed with the line of centres through the target; throw makes it miss.
     target
         in metres; shape (2,).
     """
@@ -65,7 +65,7 @@ class AimedShot:
 
     @property
     def miss(self) -> float:
-        """How far the object ball would miss the target unaided, in metres.
+        """How far the unaided shot would miss the target, in metres.
 
         Above 0 on the thick side, where throw usually takes it; 0 without a hit.
         """
@@ -156,7 +156,7 @@ def aimed_shot(
 
 
 def _spin_after(strike: Strike, cloth: Cloth, travel: float) -> tuple[float, float] | None:
-    """Return J_y and J_z after the cue ball has travelled so far; None if it does not get there."""
+    """Return J_y and J_z after the cue ball has travelled this far; None if it stops before."""
     slide = Slide(strike.ball, cloth, np.zeros(2), strike.velocity, strike.spin)
     time = time_to(slide, np.array([1.0, 0.0]), travel)
     if time >= (1.0 - 1e-9) * float(slide.stop_time):
@@ -166,7 +166,7 @@ def _spin_after(strike: Strike, cloth: Cloth, travel: float) -> tuple[float, flo
 
 
 def _solve(short: Callable[[float], float]) -> float:
-    """Return the cut angle, in radians, at which the object ball leaves in its direction."""
+    """Return the cut angle at which `short` is 0, in radians."""
     low, high = -_THINNEST, _THINNEST
     if short(low) < 0.0 or short(high) > 0.0:
         raise InputError(

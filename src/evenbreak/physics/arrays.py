@@ -1,15 +1,11 @@
-"""Checks of numbers and arrays: functions take what broadcasts, and return floats for floats."""
+"""Checks of numbers and arrays: numbers too large to calculate with are refused."""
 
 from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from evenbreak.arrays import Floats
 from evenbreak.checks import floats
-
-Floats = NDArray[np.float64]
 
 LARGEST = 1e50
 """The largest number accepted, so that products of a few of them still fit into a float."""
@@ -19,7 +15,7 @@ LEAST = 1.0 / LARGEST
 
 
 def numbers(value: Any, name: str, *, low: float = -LARGEST, high: float = LARGEST) -> Floats:
-    """Return numbers from `low` to `high` as a float array, or refuse them by name.
+    """Return numbers as a float array if all of them are from `low` to `high`.
 
     >>> numbers(-1.0, "speed", low=0.0)
     Traceback (most recent call last):
@@ -30,7 +26,7 @@ def numbers(value: Any, name: str, *, low: float = -LARGEST, high: float = LARGE
 
 
 def positive(value: Any, name: str) -> Floats:
-    """Return numbers above 0 as a float array, or refuse them by name.
+    """Return numbers as a float array if all of them are above 0.
 
     >>> positive(0.0, "gravity")
     Traceback (most recent call last):

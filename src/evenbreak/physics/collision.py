@@ -19,8 +19,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain
-from evenbreak.physics.arrays import Floats, numbers, positive
+from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.objects import Ball
 from evenbreak.physics.throw import BALL_FRICTION, shot_of, slip_of, thrown
 from evenbreak.physics.units import GRAVITY

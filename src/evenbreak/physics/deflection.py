@@ -12,16 +12,15 @@ tan(cut + theta) = (1 + k)/k tan(cut), which is 7/2 tan(cut) in natural roll.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain
-from evenbreak.physics.arrays import LEAST, Floats, numbers, positive
+from evenbreak.physics.arrays import LEAST, numbers, positive
 from evenbreak.physics.throw import shot_of
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 
 class EnergyShares(NamedTuple):

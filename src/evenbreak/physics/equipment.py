@@ -50,8 +50,8 @@ LIQUIDS: Mapping[str, float] = MappingProxyType(
         "mercury": 13_600.0,
     }
 )
-"""Densities in kg/m^3 near 25 degrees Celsius; the solutions are saturated (P1.2, where the 1440
-for sugar is too high)."""
+"""Densities in kg/m^3 near 25 degrees Celsius; the solutions are saturated (P1.2, whose 1440 for
+sugar is too high)."""
 
 
 def volume_range(balls: BallSet) -> tuple[float, float]:
@@ -79,7 +79,7 @@ def density_range(balls: BallSet) -> tuple[float, float]:
 
 
 def floats_in(balls: BallSet, liquid: str) -> bool:
-    """Return whether every ball of a set floats in one of `LIQUIDS` (P1.2).
+    """Return whether every ball of a set floats in a liquid, one of `LIQUIDS` (P1.2).
 
     Raises
     ------

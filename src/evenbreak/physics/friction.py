@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
-from evenbreak.physics.arrays import Floats, numbers, positive
+from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.units import GRAVITY
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 
 def friction_of_incline(angle: Any) -> Any:
@@ -100,7 +99,7 @@ def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = G
 
 
 def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAVITY) -> Any:
-    """Return dT/dt, the rate at which a sliding block gains energy, in watts: below 0.
+    """Return dT/dt, the rate at which the energy of a sliding block changes, in watts: below 0.
 
     >>> round(sliding_power(2.0, 0.1, 1.0, gravity=10.0), 9)
     -2.0
@@ -148,7 +147,7 @@ def tip_friction_of(offset: Any) -> Any:
 
 
 def _block(speed: Any, friction: Any, gravity: Any, **third: Any) -> tuple[Floats, Floats, Floats]:
-    """Return a block's speed, its deceleration and the third number, or refuse them."""
+    """Return a block's speed, its deceleration and a third number, all checked."""
     found = {
         "speed": numbers(speed, "speed", low=0.0),
         "friction": positive(friction, "friction"),

@@ -12,9 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
+from evenbreak.physics.arrays import numbers
 from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.rolling import Energy, kinetic_energy
@@ -27,7 +28,7 @@ _SLACK = 1e-9
 """A nanometre: how far rounding may push a ball into a cushion along which it rolls."""
 
 _INSTANT = 1e-12
-"""How long rounding may let a ball slide that is struck into natural roll, in seconds."""
+"""Shorter slides, in seconds, are rounding errors: the ball is in natural roll from the start."""
 
 
 class State(NamedTuple):
@@ -97,7 +98,7 @@ class Leg:
         return min(self.begin + float(self.slide.slide_time), self.end)
 
     def state(self, time: float) -> State:
-        """Return the ball at a time of the shot; before and after the path, as at its ends."""
+        """Return the ball at a time of the shot; beyond the path, its state at the nearer end."""
         now = min(max(time, self.begin), self.end)
         since = now - self.begin
         slide = self.slide
@@ -106,7 +107,7 @@ class Leg:
     def energy(self, time: float) -> Energy:
         """Return the ball's kinetic energy at a time of the shot, in joules.
 
-        Sidespin counts, even when the ball has stopped, as it does not wear off here.
+        Sidespin counts even after the ball has stopped, since in this model it does not wear off.
         """
         state = self.state(time)
         radius = self.slide.ball.radius
@@ -232,7 +233,7 @@ def time_to(slide: Slide, normal: Floats, level: float) -> float:
 
 
 def place_of(value: Sequence[float], name: str) -> Floats:
-    """Return a position on the table as an array of x and y, or refuse it."""
+    """Return a position on the table as an array, if it is one x and one y."""
     place = numbers(value, name)
     if place.shape != (2,):
         raise InputError(f"{name} has shape {place.shape}; give x and y")
@@ -240,7 +241,7 @@ def place_of(value: Sequence[float], name: str) -> Floats:
 
 
 def on_table(position: Floats, name: str, table: PoolTable, radius: float) -> None:
-    """Refuse a ball that is off the table or partly in a cushion."""
+    """Raise an error if a ball is off the table or overlaps a cushion."""
     x, y = (float(value) for value in position)
     inside = radius - _SLACK <= x <= table.length - radius + _SLACK
     if not (inside and radius - _SLACK <= y <= table.width - radius + _SLACK):
@@ -256,7 +257,7 @@ def _first_time(room: float, pace: float, gain: float) -> float:
     if square < 0.0 or (pace <= 0.0 and gain <= 0.0):
         return math.inf
     root = math.sqrt(square)
-    # The form of the root that subtracts nothing.
+    # Of the two forms of the root, the one without a difference, which would lose digits.
     return 2.0 * room / (pace + root) if pace > 0.0 else (root - pace) / gain
 
 

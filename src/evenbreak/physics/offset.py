@@ -8,19 +8,18 @@ topspin; J_z above 0, counterclockwise from above, comes from a tip to the right
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import LEAST, Floats, numbers, positive
+from evenbreak.physics.arrays import LEAST, numbers, positive
 from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 NATURAL_ROLL_OFFSET = 0.4
 """The height above the centre, over R, at which a hit gives natural roll at once (P3.5)."""
@@ -164,7 +163,7 @@ def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth
     rolls = 5.0 / 7.0 * z
     lost = np.minimum(slowing * time / speed, np.abs(1.0 - rolls))
     now = 1.0 - np.sign(1.0 - rolls) * lost
-    # What is lost by then may round to all there is.
+    # By then all of the speed may be lost to rounding, so it is kept on its side of `rolls`.
     stretch = 1.0 / np.where(rolls < 1.0, np.maximum(now, rolls), np.minimum(now, rolls))
     return ContactPoint(plain(y * stretch), plain(z * stretch))
 

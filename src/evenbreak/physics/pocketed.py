@@ -1,4 +1,4 @@
-"""A shot at a pocket: at the middle of its mouth, or beside that if a cushion is in the way.
+"""A shot at a pocket: at the middle of its mouth, or to one side if a cushion is in the way.
 
 A ball at a cushion cannot be sent at the middle of the mouth of a corner pocket, since the cue ball
 would have to be inside the cushion; along the cushion it drops all the same.
@@ -11,9 +11,9 @@ from functools import partial
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.physics.aimed import AimedShot, aimed_shot
-from evenbreak.physics.arrays import Floats
 from evenbreak.physics.leg import place_of
 from evenbreak.physics.objects import Cloth, PoolTable
 from evenbreak.physics.pockets import Pocket

@@ -85,7 +85,7 @@ def rolling_time(
     shape: float = SHAPES["ball"],
     gravity: float = GRAVITY,
 ) -> Any:
-    """Return how long a round body takes to roll a distance and stop, in seconds (P2.5).
+    """Return how long a round body takes to roll a given distance and stop, in seconds (P2.5).
 
     Parameters
     ----------

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import number, one_of
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, place_of, time_to
@@ -90,7 +90,7 @@ class Shot:
 
     @property
     def tangent(self) -> Floats:
-        """The unit vector in which the cue ball would leave without friction; shape (2,)."""
+        """The unit vector along which the cue ball would leave without friction; shape (2,)."""
         return _unit(self.direction - self.cut + math.copysign(0.5 * math.pi, self.cut))
 
     @property
@@ -110,7 +110,7 @@ class Shot:
 
     @property
     def deflection(self) -> float | None:
-        """The angle between the shot and the cue ball's path once it rolls, in radians.
+        """The angle between the shot and the cue ball's path once the ball rolls, in radians.
 
         Above 0 on the side away from the object ball. None if there is no hit, or if the cue
         ball stands still after it.
@@ -204,7 +204,7 @@ def shot(
     mu = number(mu, "mu", low=0.0)
     cut, direction = number(cut, "cut"), number(direction, "direction")
     if abs(cut) >= 0.5 * math.pi:
-        raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2, not those")
+        raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2")
     ball = strike.ball
     travel = travel_for(cut, number(distance, "distance"), ball.diameter)
     if cue_ball is None:
@@ -238,7 +238,7 @@ def shot(
 
 
 def sound_strike(strike: Strike) -> None:
-    """Refuse several strikes in one, and a miscue."""
+    """Raise an error if there is more than one strike, or it is a miscue."""
     if np.ndim(strike.speed):
         raise InputError(f"strike is {np.size(strike.speed)} strikes; give one")
     if strike.miscue:
@@ -250,7 +250,7 @@ def sound_strike(strike: Strike) -> None:
 
 
 def travel_for(cut: float, distance: float, diameter: float) -> float:
-    """Return how far the cue ball travels to the hit, in the unit of the lengths.
+    """Return how far the cue ball travels to the hit, in the unit of the two lengths.
 
     Parameters
     ----------
@@ -264,8 +264,8 @@ def travel_for(cut: float, distance: float, diameter: float) -> float:
     """
     if distance < diameter * (1.0 - _ROUNDING):
         raise InputError(
-            f"distance is {distance:.4g} m between the centres; give {diameter:.4g} m, where "
-            "the balls touch, or more"
+            f"distance is {distance:.4g} m between the centres; give {diameter:.4g} m "
+            "(where the balls touch) or more"
         )
     distance = max(distance, diameter)
     sideways = diameter * math.sin(cut)
@@ -273,7 +273,7 @@ def travel_for(cut: float, distance: float, diameter: float) -> float:
 
 
 def spin_ratios(state: State, radius: float) -> tuple[float, float]:
-    """Return J_y and J_z of a ball that moves straight on.
+    """Return J_y and J_z of a ball that moves in a straight line.
 
     >>> ball = State(0.0, np.zeros(2), np.array([2.0, 0.0]), np.array([0.0, 40.0, -8.0]))
     >>> spin_ratios(ball, 0.025)
@@ -303,7 +303,7 @@ def _set_off(
     mirror: float,
     direction: float,
 ) -> Slide:
-    """Return a ball that leaves the hit, from its state in the mirrored frame of the shot."""
+    """Return a ball that leaves the hit; its state is given in the mirrored frame of the shot."""
     velocity = velocity[:2] * [1.0, mirror]
     # Spin is an axial vector: a mirror reverses the components that it keeps of a velocity.
     spin = spin * [mirror, 1.0, mirror]

@@ -18,21 +18,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
+from evenbreak.physics.arrays import numbers
 from evenbreak.physics.objects import Ball, Cloth
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 
 def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
-    """Return the speed of a sliding ball, from the speed of its rim now (P2.1).
+    """Return the speed of a sliding ball when its rim has a given speed (P2.1).
 
     Parameters
     ----------
@@ -297,7 +296,7 @@ class Slide:
 
 
 def _vectors(value: Any, name: str, size: int) -> Floats:
-    """Return vectors with `size` components along the last axis, or refuse them."""
+    """Return vectors as a float array, if they have `size` components along the last axis."""
     array = numbers(value, name)
     if array.ndim == 0 or array.shape[-1] != size:
         raise InputError(f"{name} has shape {array.shape}; give (..., {size})")

@@ -1,4 +1,4 @@
-"""A hit of the tip, off centre, as one result (section 3, P3.4 to P3.10 and P1.7).
+"""What the tip gives the cue ball, on or off centre (section 3, P3.4 to P3.10 and P1.7).
 
 The cue is level and moves freely while the tip touches the ball, and the hit loses no energy.
 With b the distance of the tip from the centre in units of R, the ball gets
@@ -15,9 +15,10 @@ from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
+from evenbreak.physics.arrays import numbers
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.objects import Ball, Cue
 from evenbreak.physics.offset import ball_speed_ratio, spin_of_offset
@@ -102,7 +103,7 @@ def strike(
     ball: Ball | None = None,
     cue: Cue | None = None,
 ) -> Strike:
-    """Strike a ball with a cue of a speed.
+    """Strike a ball with a cue that moves at a given speed.
 
     Parameters
     ----------
@@ -140,7 +141,7 @@ def strike_for_speed(
     ball: Ball | None = None,
     cue: Cue | None = None,
 ) -> Strike:
-    """Strike a ball so that it leaves with a speed.
+    """Strike a ball so that it leaves at a given speed.
 
     Parameters
     ----------
@@ -166,7 +167,7 @@ def strike_for_speed(
 
 
 def _on_the_ball(offset: Any, side_offset: Any, **speed: Floats) -> tuple[Floats, Floats]:
-    """Return the two offsets, or refuse those that miss the ball or do not fit the speed."""
+    """Return both offsets as arrays, if the tip meets the ball and all of them broadcast."""
     up = numbers(offset, "offset", low=-1.0, high=1.0)
     right = numbers(side_offset, "side_offset", low=-1.0, high=1.0)
     together(offset=up, side_offset=right, **speed)

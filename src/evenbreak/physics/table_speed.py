@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
+from numpy.typing import ArrayLike
+
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
-from evenbreak.physics.arrays import Floats, numbers, positive
+from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.units import GRAVITY
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {

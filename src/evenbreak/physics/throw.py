@@ -19,16 +19,15 @@ limit; `friction="shepard"` is the law of the source text without it, which can 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import one_of, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+from evenbreak.physics.arrays import numbers
 
 BALL_FRICTION = 4.0 / 72.0
 """The coefficient of friction between two balls, as measured in P1.6."""
@@ -259,8 +258,8 @@ def aim(
     low, high = np.broadcast_arrays(wanted - largest, np.minimum(wanted + largest, math.pi / 2.0))
     if np.any(high - throw(high) < wanted - 1e-12):
         raise InputError(
-            "cut is so thin that throw takes away more than is left up to a right angle; "
-            "give a smaller cut angle, or other spin"
+            "cut is too thin: allowing for throw, it would be more than a right angle; give a "
+            "smaller cut angle, or other spin"
         )
     for _ in range(60):
         middle = 0.5 * (low + high)
@@ -278,12 +277,12 @@ def aim(
 
 
 def cut_of(cut: Any) -> Floats:
-    """Return a cut angle as an array, or refuse it."""
+    """Return a cut angle as an array, if it is from 0 to pi/2."""
     return numbers(cut, "cut", low=0.0, high=math.pi / 2.0)
 
 
 def shot_of(cut: Any, topspin: Any, side: Any, **others: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return cut angle, J_y and J_z as arrays, or refuse what does not fit together."""
+    """Return cut angle, J_y and J_z as arrays, if they and the others broadcast together."""
     cut, topspin, side = cut_of(cut), numbers(topspin, "topspin"), numbers(side, "side")
     together(cut=cut, topspin=topspin, side=side, **others)
     return cut, topspin, side
@@ -292,7 +291,7 @@ def shot_of(cut: Any, topspin: Any, side: Any, **others: Floats) -> tuple[Floats
 def slip_of(sin: Any, cos: Any, topspin: Any, side: Any) -> tuple[Any, Any]:
     """Return the slip to the left and up over the cue ball's speed, from sin and cos of the cut."""
     left = sin + side
-    # A slip left by rounding is none: the law of the text would give it the full throw.
+    # A slip that is only rounding counts as 0: the law of the text would give it full throw.
     return np.where(np.abs(left) <= _ROUNDING * np.abs(side), 0.0, left), -topspin * cos
 
 
@@ -309,7 +308,7 @@ def thrown(cos: Any, left: Any, up: Any, mu: Any, friction: str) -> tuple[Any, A
 
 
 def _length(left: Any, up: Any) -> Any:
-    """Return the length of the slip, or 1 for no slip, so that its parts over it are 0."""
+    """Return the length of the slip; 1 where there is none, so that it can be divided by."""
     length = np.sqrt(left * left + up * up)
     if length.size and length.min() < 1e-140:
         # Squares of such small slips lose their digits, or are 0; `hypot` is slower.

@@ -6,15 +6,14 @@ level and moves freely while the tip touches the ball, and the hit is elastic.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
-from evenbreak.physics.arrays import Floats, numbers, positive
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+from evenbreak.physics.arrays import numbers, positive
 
 
 class CentreHit(NamedTuple):
@@ -111,7 +110,7 @@ def break_energy_share(stick_ratio: float, forearm_ratio: float) -> float: ...
 @overload
 def break_energy_share(stick_ratio: ArrayLike, forearm_ratio: ArrayLike) -> Floats: ...
 def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
-    """Return the share of the energy of stick and forearm that the ball gets (P3.3).
+    """Return the share of the energy of stick and forearm that goes into the ball (P3.3).
 
     >>> break_energy_share(3.0, 6.0)
     0.45

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Ints
 from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 MOST_LEVELS = 100
 """The most levels that a drill with a log may have."""
 
 AFTER_START, AFTER_MISS, AFTER_SUCCESS = range(3)
-"""What came before an attempt; the middle index of `DrillLog.outcomes`."""
+"""What preceded an attempt; the middle index of `DrillLog.outcomes`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +50,8 @@ class DrillLog:
     (array([1, 2, 1]), array([1, 2, 0]))
     """
 
-    level: NDArray[np.int64]
-    success: NDArray[np.bool_]
+    level: Ints
+    success: Bools
     session: NDArray[Any] | None = None
     levels: int | None = None
 
@@ -72,13 +71,10 @@ class DrillLog:
             raise InputError(f"the drill has {levels} levels; give {MOST_LEVELS} at most")
         if highest > levels:
             raise InputError(f"levels is {levels}, but the log has level {highest}; give more")
-        for name, value in (
-            ("level", level.astype(np.int64)),
-            ("success", success.astype(bool)),
-            ("session", session),
-            ("levels", levels),
-        ):
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "level", level.astype(np.int64))
+        object.__setattr__(self, "success", success.astype(bool))
+        object.__setattr__(self, "session", session)
+        object.__setattr__(self, "levels", levels)
 
     def __len__(self) -> int:
         return len(self.level)
@@ -89,24 +85,24 @@ class DrillLog:
         return int(self.levels or 0)
 
     @cached_property
-    def attempts(self) -> NDArray[np.int64]:
+    def attempts(self) -> Ints:
         """The attempts at each level; shape (levels,)."""
         return np.asarray(self.outcomes.sum((1, 2)))
 
     @cached_property
-    def successes(self) -> NDArray[np.int64]:
+    def successes(self) -> Ints:
         """The successes at each level; shape (levels,)."""
         return np.asarray(self.outcomes[:, :, 1].sum(1))
 
     @cached_property
-    def jumps(self) -> NDArray[np.int64]:
+    def jumps(self) -> Ints:
         """The positions of attempts that break the rule of the drill within their session."""
         step = self.success[:-1] * 2 - 1
         by_rule = np.clip(self.level[:-1] + step, 1, self._top)
         return np.flatnonzero((self.level[1:] != by_rule) & ~self._new_session[1:]) + 1
 
     @cached_property
-    def starts(self) -> NDArray[np.int64]:
+    def starts(self) -> Ints:
         """The positions of attempts that begin a session or break the rule."""
         begins = self._new_session.copy()
         begins[self.jumps] = True
@@ -118,7 +114,7 @@ class DrillLog:
         return int(self._new_session.sum())
 
     @cached_property
-    def outcomes(self) -> NDArray[np.int64]:
+    def outcomes(self) -> Ints:
         """The attempts by level, by what came before, and by outcome; shape (levels, 3, 2).
 
         The middle index is `AFTER_START`, `AFTER_MISS` or `AFTER_SUCCESS`, the last one 0
@@ -132,6 +128,6 @@ class DrillLog:
         return counts.reshape(self._top, 3, 2)
 
     @cached_property
-    def _new_session(self) -> NDArray[np.bool_]:
+    def _new_session(self) -> Bools:
         session = np.asarray(self.session)
         return np.concatenate([[True], session[1:] != session[:-1]])

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from evenbreak.chains.explore import chain_of
 from evenbreak.chains.limits import stochastic_limit
+from evenbreak.games.drill import Drill
 from evenbreak.practice.levels import level_gains, level_lifts
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from evenbreak.games.drill import Drill
 
 
 @dataclass(frozen=True)

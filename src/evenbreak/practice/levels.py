@@ -8,28 +8,26 @@ total lead over the long-run mean, summed over all time, of a player who is now 
     q[i] D[i - 1] - p[i] D[i] = i - mean,    D[0] = D[n] = 0,
     d mean / d p[i] = law[i] (D[i - 1] + D[i]).
 
-Above the mean the climbs are solved from the top, below it from the bottom: then all terms are
-positive and no digits are lost. References: Schweitzer 1968; Karlin and McGregor 1957.
+The climbs are solved from the top for levels above the mean, from the bottom for those below:
+then all terms are positive and no digits are lost. References: Schweitzer 1968; Karlin and
+McGregor 1957.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from evenbreak.arrays import Floats, Ints
 
 MORE = 0.05
 """The rise in a chance by which levels are compared: five more successes in 100."""
 
 
-def chances_seen(attempts: NDArray[np.int64], successes: NDArray[np.int64]) -> NDArray[np.float64]:
+def chances_seen(attempts: Ints, successes: Ints) -> Floats:
     """Return the success rate at each level, with a convention for levels that were not tried.
 
     Untried levels below all those tried count as always succeeding: a player who begins at
-    level 4 and never falls below 3 is not held up at level 1. All others count as never
+    level 4 and never falls below 3 would not get stuck at level 1. All others count as never
     succeeding.
 
     Parameters
@@ -45,7 +43,7 @@ def chances_seen(attempts: NDArray[np.int64], successes: NDArray[np.int64]) -> N
     return np.where(tried, successes / np.maximum(attempts, 1), below_all)
 
 
-def level_laws(success: NDArray[np.float64]) -> NDArray[np.float64]:
+def level_laws(success: Floats) -> Floats:
     """Return the stochastic limits of drills that begin at level 1.
 
     Parameters
@@ -81,7 +79,7 @@ def level_laws(success: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(law / law.sum(-1, keepdims=True))
 
 
-def level_gains(success: NDArray[np.float64], law: NDArray[np.float64]) -> NDArray[np.float64]:
+def level_gains(success: Floats, law: Floats) -> Floats:
     """Return the derivative of the mean level with respect to the chance at each level.
 
     At a chance of 0 or 1 it is one-sided. It is inf where the mean jumps (level i never
@@ -113,7 +111,7 @@ def level_gains(success: NDArray[np.float64], law: NDArray[np.float64]) -> NDArr
     return np.where(law > 0.0, gain, 0.0)
 
 
-def level_lifts(success: NDArray[np.float64]) -> NDArray[np.float64]:
+def level_lifts(success: Floats) -> Floats:
     """Return by how much the mean level rises with five more successes in 100 at each level.
 
     Each entry is the rise if only the chance at that level is 0.05 higher (or 1, if it is above

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
+from evenbreak.practice.drill_log import DrillLog
 from evenbreak.practice.levels import chances_seen, level_gains, level_laws, level_lifts
 from evenbreak.practice.log_tests import (
     PlayedAgainTest,
@@ -18,11 +20,6 @@ from evenbreak.practice.log_tests import (
 from evenbreak.practice.played_again import play_again
 from evenbreak.practice.progressive_fit import ProgressiveFit, fit_progressive
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.practice.drill_log import DrillLog
 
 _CONFIDENCE = 0.95
 _QUANTILES = (0.5 - _CONFIDENCE / 2, 0.5, 0.5 + _CONFIDENCE / 2)
@@ -197,10 +194,10 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
 
 def _reports(
     log: DrillLog,
-    law: NDArray[np.float64],
-    gain: NDArray[np.float64],
-    played: NDArray[np.int64],
-    lifts: NDArray[np.float64],
+    law: Floats,
+    gain: Floats,
+    played: Ints,
+    lifts: Floats,
     model: ProgressiveFit | None,
 ) -> tuple[LevelReport, ...]:
     from scipy.stats import binomtest
@@ -228,8 +225,8 @@ def _reports(
 
 
 def _drawn_lifts(
-    log: DrillLog, p_seen: NDArray[np.float64], rng: np.random.Generator, draws: int
-) -> tuple[float, float, NDArray[np.float64]]:
+    log: DrillLog, p_seen: Floats, rng: np.random.Generator, draws: int
+) -> tuple[float, float, Floats]:
     """Return the interval of the mean level, and the lifts for chances that fit the log.
 
     The lifts have shape (draws, levels): one row for each draw of all the chances.

@@ -10,19 +10,15 @@ average, to have one (Miller & Sanjurjo 2018).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS
+from evenbreak.arrays import Floats, Ints
+from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS, DrillLog
 from evenbreak.practice.levels import chances_seen, level_laws
 from evenbreak.practice.played_again import play_again
 from evenbreak.practice.progressive_fit import deviance
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.practice.drill_log import DrillLog
 
 
 class PlayedAgainTest(NamedTuple):
@@ -43,7 +39,7 @@ class PlayedAgainTest(NamedTuple):
     p_value: float
 
 
-def difference_test(log: DrillLog, played: NDArray[np.int64]) -> PlayedAgainTest:
+def difference_test(log: DrillLog, played: Ints) -> PlayedAgainTest:
     """Test the levels visited against the long run of the chances observed.
 
     The figure is half the sum of the absolute differences of the two distributions. It is large
@@ -61,7 +57,7 @@ def difference_test(log: DrillLog, played: NDArray[np.int64]) -> PlayedAgainTest
     return _larger(_distance(log.outcomes), _distance(played))
 
 
-def memory_test(log: DrillLog, played: NDArray[np.int64]) -> PlayedAgainTest | None:
+def memory_test(log: DrillLog, played: Ints) -> PlayedAgainTest | None:
     """Test whether success is as likely after a success as after a miss, at the same level.
 
     The figure is the difference of the two success rates, with the levels weighted as by
@@ -110,7 +106,7 @@ def model_test(
     return _larger(seen, deviance(played[..., 1], played[..., 0]))
 
 
-def _distance(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
+def _distance(outcomes: Ints) -> Floats:
     """Return half the sum of the absolute differences of visited and implied, for each log."""
     attempts = outcomes.sum((-1, -2))
     p = chances_seen(attempts, outcomes[..., 1].sum(-1))
@@ -118,7 +114,7 @@ def _distance(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
     return np.asarray(np.abs(visited - level_laws(p)).sum(-1) / 2.0)
 
 
-def _memory(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
+def _memory(outcomes: Ints) -> Floats:
     """Return how much higher the success rate was after a success than after a miss.
 
     The levels are weighted as by Mantel and Haenszel; NaN where no level was attempted after
@@ -132,7 +128,7 @@ def _memory(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
         return np.asarray((weight * (rate[..., 1] - rate[..., 0])).sum(-1) / weight.sum(-1))
 
 
-def _larger(seen: float | NDArray[np.float64], by_chance: NDArray[np.float64]) -> PlayedAgainTest:
+def _larger(seen: float | Floats, by_chance: Floats) -> PlayedAgainTest:
     """Return how often chance gives as large a figure; the log itself counts as one case."""
     as_large = int(np.count_nonzero(by_chance >= float(seen) * (1.0 - 1e-12)))
     p_value = (1 + as_large) / (1 + len(by_chance))

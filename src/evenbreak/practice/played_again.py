@@ -1,25 +1,17 @@
-"""Drill logs simulated again: what a log looks like if only the chances decide."""
+"""Simulated drill logs: what a log looks like if nothing but the chances decides."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from evenbreak.practice.drill_log import AFTER_MISS, AFTER_START, AFTER_SUCCESS
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.practice.drill_log import DrillLog
+from evenbreak.arrays import Floats, Ints
+from evenbreak.practice.drill_log import AFTER_MISS, AFTER_START, AFTER_SUCCESS, DrillLog
 
 _AT_ONCE = 500_000
 """The most stretches simulated side by side, so that memory stays small."""
 
 
-def play_again(
-    log: DrillLog, success: NDArray[np.float64], *, replicas: int, rng: np.random.Generator
-) -> NDArray[np.int64]:
+def play_again(log: DrillLog, success: Floats, *, replicas: int, rng: np.random.Generator) -> Ints:
     """Return the outcomes of simulated logs that have the starts and lengths of a log.
 
     Each stretch of the log, from one start to the next, is simulated from its first level for
@@ -60,12 +52,12 @@ def play_again(
 
 
 def _played(
-    first: NDArray[np.int64],
-    lengths: NDArray[np.int64],
-    success: NDArray[np.float64],
+    first: Ints,
+    lengths: Ints,
+    success: Floats,
     replicas: int,
     rng: np.random.Generator,
-) -> NDArray[np.int64]:
+) -> Ints:
     """Simulate all stretches of all replicas side by side, the longest first."""
     n = len(success)
     counts = np.zeros(replicas * n * 6, dtype=np.int64)

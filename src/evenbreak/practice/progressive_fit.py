@@ -11,18 +11,15 @@ p^0 = 1 for any p.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import xlog1py, xlogy
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import InputError
+from evenbreak.practice.drill_log import DrillLog
 from evenbreak.stats.confidence import open_share
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.practice.drill_log import DrillLog
 
 _LOG_X = (-40.0, 8.0)
 """The bisection searches between these natural logs of x; beyond them p is 1 or 0 in floats."""
@@ -89,7 +86,7 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
     attempts = int(log.attempts[1:].sum())
     if not attempts:
         raise InputError(
-            "the log has no attempt above level 1, where p shows; log higher levels too"
+            "the log has no attempt above level 1, from which p is estimated; log higher levels too"
         )
     p = float(likeliest_p(successes, failures))
     allowed = float(chi2.ppf(confidence, 1)) / 2.0
@@ -105,7 +102,7 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
     )
 
 
-def likeliest_p(successes: NDArray[np.int64], failures: NDArray[np.int64]) -> NDArray[np.float64]:
+def likeliest_p(successes: Ints, failures: Ints) -> Floats:
     """Return the maximum-likelihood p of each of many logs.
 
     Parameters
@@ -136,7 +133,7 @@ def likeliest_p(successes: NDArray[np.int64], failures: NDArray[np.int64]) -> ND
     return np.asarray(np.where(any_won | any_lost, p, np.nan))[()]
 
 
-def deviance(successes: NDArray[np.int64], failures: NDArray[np.int64]) -> NDArray[np.float64]:
+def deviance(successes: Ints, failures: Ints) -> Floats:
     """Return twice the log-likelihood that the model loses against a free chance for each level.
 
     Shapes are as in `likeliest_p`. It is 0 where the model fits as well as free chances.
@@ -151,18 +148,14 @@ def deviance(successes: NDArray[np.int64], failures: NDArray[np.int64]) -> NDArr
     return np.asarray(np.maximum(2.0 * (free - _log_likelihood(p, successes, failures)), 0.0))[()]
 
 
-def _log_likelihood(
-    p: float | NDArray[np.float64], successes: NDArray[np.int64], failures: NDArray[np.int64]
-) -> NDArray[np.float64]:
+def _log_likelihood(p: float | Floats, successes: Ints, failures: Ints) -> Floats:
     shots = np.arange(1.0, successes.shape[-1])
     chance = np.asarray(p)[..., None] ** shots
     terms = xlogy(successes[..., 1:], chance) + xlog1py(failures[..., 1:], -chance)
     return np.asarray(terms.sum(-1))
 
 
-def _edge(
-    end: float, p: float, least: float, successes: NDArray[np.int64], failures: NDArray[np.int64]
-) -> float:
+def _edge(end: float, p: float, least: float, successes: Ints, failures: Ints) -> float:
     """Return where between `end` and p the log-likelihood falls to `least`."""
     from scipy.optimize import brentq
 

@@ -24,11 +24,12 @@ from evenbreak.stats.exact import exact
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from evenbreak.stats.counts import Floats
+    from evenbreak.arrays import Floats
+
 
 _NEAR = 1e-9
-"""Where a range comes nearer than this to the coverage wanted, the chance of the scores outside
-it decides; where that comes as near, relatively, fractions do."""
+"""If a range comes nearer than this to the coverage wanted, the chance of the scores outside it
+decides; if that comes as near, relatively, it is decided in fractions."""
 
 
 @overload
@@ -279,7 +280,7 @@ class GamesWon(CountLaw):
             yield low, high, inside
 
     def _holds(self, low: int, high: int, inside: float, wanted: Fraction) -> bool:
-        """Whether P(low <= score <= high), about `inside`, is at least `wanted`."""
+        """Return whether P(low <= score <= high), about `inside`, is at least `wanted`."""
         distance = inside - float(wanted)
         if abs(distance) > _NEAR:
             return distance > 0
@@ -318,7 +319,7 @@ def critical_value(coverage: Any) -> Any:
 
     checked = probability(coverage, "coverage")
     if np.any(np.equal(checked, 1.0)):
-        raise InputError("coverage is 1, and no z is that large; give a number below 1")
+        raise InputError("coverage is 1, which no z reaches; give a number below 1")
     return plain(math.sqrt(2) * erfinv(checked))
 
 

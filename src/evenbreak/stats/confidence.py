@@ -10,13 +10,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from evenbreak.checks import number, one_of, whole
+from evenbreak.checks import floats, number, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.stats.binomial import critical_value
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from evenbreak.arrays import Floats
 
 LARGEST = 1e9
 """The largest score allowed, positive or negative; beyond it a typing error is more likely."""
@@ -217,7 +216,7 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
     )
 
 
-def checked_scores(scores: Any, name: str) -> NDArray[np.float64]:
+def checked_scores(scores: Any, name: str) -> Floats:
     """Return scores as an array if there are two or more and all are finite numbers.
 
     >>> checked_scores([48], "scores")
@@ -225,28 +224,17 @@ def checked_scores(scores: Any, name: str) -> NDArray[np.float64]:
     ...
     evenbreak.errors.InputError: scores holds 1 score; give two or more, to show a spread
     """
-    import numpy as np
-
-    try:
-        array = np.asarray(scores, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} is {scores!r}; give a list of numbers") from None
+    wanted = f"a list of finite numbers, {LARGEST:g} at most"
+    array = floats(scores, name, low=-LARGEST, high=LARGEST, wanted=wanted)
     if array.ndim != 1:
         raise InputError(f"{name} has {array.ndim} dimensions; give one list of numbers")
-    wrong = np.flatnonzero(~(np.abs(array) <= LARGEST))
-    if wrong.size:
-        place = int(wrong[0])
-        raise InputError(
-            f"{name} holds {float(array[place])!r} (number {place + 1}); "
-            f"give finite numbers, {LARGEST:g} at most"
-        )
     if array.size < 2:
         count = "1 score" if array.size else "no scores"
         raise InputError(f"{name} holds {count}; give two or more, to show a spread")
     return array
 
 
-def sd_of(scores: NDArray[np.float64], *, degrees_used: int = 1) -> float:
+def sd_of(scores: Floats, *, degrees_used: int = 1) -> float:
     """Return the standard deviation over n - degrees_used; exactly 0 for equal scores.
 
     >>> import numpy as np
@@ -271,7 +259,7 @@ def open_share(confidence: float) -> float:
     return number(confidence, "confidence", above=0.0, below=1.0, wanted=wanted)
 
 
-def _differing(scores: Any) -> NDArray[np.float64]:
+def _differing(scores: Any) -> Floats:
     """Return checked scores that are not all the same."""
     array = checked_scores(scores, "scores")
     if sd_of(array) == 0.0:
@@ -281,9 +269,7 @@ def _differing(scores: Any) -> NDArray[np.float64]:
     return array
 
 
-def _interval(
-    scores: NDArray[np.float64], confidence: float, method: Literal["t", "normal"]
-) -> MeanInterval:
+def _interval(scores: Floats, confidence: float, method: Literal["t", "normal"]) -> MeanInterval:
     from scipy.special import stdtrit
 
     n, mean = scores.size, float(scores.mean())

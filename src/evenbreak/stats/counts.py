@@ -4,22 +4,38 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 from evenbreak.checks import plain, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.stats.exact import exact
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Floats: TypeAlias = NDArray[np.float64]
+    from evenbreak.arrays import Floats
+
 
 _HALF = Fraction(1, 2)
 
 _NEAR = 1e-9
-"""Where a tail comes nearer than this, relatively, to the probability wanted, fractions decide."""
+"""If a tail comes nearer than this, relatively, to the level wanted, fractions decide."""
+
+
+class FairLine(NamedTuple):
+    """The line at which a bet on a score is fair, for three kinds of bet.
+
+    `mean`: the bet pays an amount for every point above the line and costs as much for every
+    point below it.
+    `median`: the bet wins if the score is over the line and loses otherwise; the median is the
+    smallest number that the score does not exceed at least half of the time.
+    `mode`: everybody names a score, and whoever names it exactly wins; the mode is the best
+    score to name.
+    """
+
+    mean: float
+    median: int
+    mode: int
 
 
 class CountLaw(ABC):
@@ -142,8 +158,18 @@ class CountLaw(ABC):
         """The smallest count n with P(count <= n) >= 1/2."""
         return self.quantile(_HALF)
 
+    @property
+    def relative_sd(self) -> float | None:
+        """The standard deviation over the mean; None where the mean is 0."""
+        return self.sd / self.mean if self.mean else None
+
+    @property
+    def fair_line(self) -> FairLine:
+        """The lines of fair bets on the count (P5.14, P5.17)."""
+        return FairLine(self.mean, self.median, self.mode)
+
     def _reaches(self, n: int, wanted: Fraction) -> bool:
-        """Whether P(count <= n) >= wanted; the smaller tail has the better digits."""
+        """Return whether P(count <= n) >= wanted; the smaller tail has the better digits."""
         if wanted < _HALF:
             found, tail = self.cumulative(n), float(wanted)
         else:

@@ -7,11 +7,10 @@ tie, modes, medians and quantiles are decided in rational arithmetic.
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
 from typing import Any
 
-from evenbreak.errors import InputError
+from evenbreak.checks import number_probability
 
 
 def exact(p: Any, name: str = "p") -> Fraction:
@@ -33,12 +32,6 @@ def exact(p: Any, name: str = "p") -> Fraction:
     >>> exact(0.9), exact(Fraction(24, 25)), exact(1)
     (Fraction(9, 10), Fraction(24, 25), Fraction(1, 1))
     """
-    try:
-        if isinstance(p, str | bytes) or getattr(p, "ndim", False):
-            raise TypeError
-        number = p if isinstance(p, Fraction) else float(p)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not 0 <= number <= 1:
-        raise InputError(f"{name} is {p!r}, not a probability; give a number from 0 to 1")
-    return number if isinstance(number, Fraction) else Fraction(repr(number))
+    if isinstance(p, Fraction) and 0 <= p <= 1:
+        return p
+    return Fraction(repr(number_probability(p, name)))

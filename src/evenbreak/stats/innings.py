@@ -13,18 +13,16 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import whole
 from evenbreak.stats.binomial import GamesWon, score_probability
 from evenbreak.stats.counts import CountLaw
 from evenbreak.stats.exact import exact
-from evenbreak.stats.runs import FairLine, checked_shots
-
-if TYPE_CHECKING:
-    from evenbreak.stats.counts import Floats
+from evenbreak.stats.runs import checked_shots
 
 _NEAR = 1e-9
 """Where two chances differ by less than this, relatively, fractions decide."""
@@ -85,11 +83,6 @@ class InningsScore(CountLaw):
         return math.sqrt(self.innings * alpha * p * (1 + p - alpha * p)) / float(1 - p)
 
     @property
-    def relative_sd(self) -> float | None:
-        """The standard deviation over the mean; None where the mean is 0."""
-        return self.sd / self.mean if self.mean else None
-
-    @property
     def mode(self) -> int:
         """The most probable score; the smallest one where several are equally probable."""
         p, alpha = exact(self.p), exact(self.safety)
@@ -109,11 +102,6 @@ class InningsScore(CountLaw):
         (blank innings only) and then says nothing about the median.
         """
         return (2.0 * self.mean + self.mode) / 3.0
-
-    @property
-    def fair_line(self) -> FairLine:
-        """The lines of fair bets on the score (P5.17)."""
-        return FairLine(self.mean, self.median, self.mode)
 
     def _probability(self, n: Floats) -> Floats:
         return np.where(n < 0, 0.0, self._mixed(np.maximum(n, 0), self._exactly))
@@ -183,7 +171,7 @@ class InningsScore(CountLaw):
         return high
 
     def _rises(self, n: int, other: int) -> bool:
-        """Whether the score `other` is more probable than n, decided without rounding."""
+        """Return whether the score `other` is more probable than n, decided without rounding."""
         first, second = self.probability([n, other]).tolist()
         if abs(second - first) > _NEAR * max(first, second):
             return bool(second > first)

@@ -11,35 +11,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.stats.counts import CountLaw
 from evenbreak.stats.exact import exact
 
-if TYPE_CHECKING:
-    from evenbreak.stats.counts import Floats
-
 _MOST = 100_000
 """The largest mean allowed; exact medians beyond it would take minutes."""
-
-
-class FairLine(NamedTuple):
-    """The line at which a bet on a score is fair, for three kinds of bet.
-
-    `mean`: the bet pays an amount for every point above the line and costs as much for every
-    point below it.
-    `median`: the bet wins if the score is over the line and loses otherwise; the median is the
-    smallest number that the score does not exceed at least half of the time.
-    `mode`: everybody names a score, and whoever names it exactly wins; the mode is the best
-    score to name.
-    """
-
-    mean: float
-    median: int
-    mode: int
 
 
 @dataclass(frozen=True)
@@ -157,16 +139,6 @@ class RunLength(CountLaw):
         """The text's estimate of the median, the mean times `median_ratio_limit`."""
         return self.mean * median_ratio_limit(self.safety)
 
-    @property
-    def relative_sd(self) -> float | None:
-        """The standard deviation over the mean; None where the mean is 0."""
-        return self.sd / self.mean if self.mean else None
-
-    @property
-    def fair_line(self) -> FairLine:
-        """The lines of fair bets on the run (P5.14)."""
-        return FairLine(self.mean, self.median, self.mode)
-
     def _log_at_least(self, n: Floats) -> Floats:
         """Return log P(run >= n) for n >= 1."""
         p, safety = exact(self.p), exact(self.safety)
@@ -254,5 +226,5 @@ def checked_shots(p: Any, safety: Any, innings: int = 1) -> tuple[Fraction, Frac
 def _log(x: Fraction) -> float:
     if x == 0:
         return -math.inf
-    # Near 1 the distance to 1 is rounded, not x itself: otherwise the tails lose their digits.
+    # Near 1 the logarithm is taken from 1 - x, or the tails would lose their digits.
     return math.log1p(-float(1 - x)) if x > Fraction(1, 2) else math.log(x)

@@ -440,3 +440,24 @@ def test_an_end_while_files_take_their_places_leaves_the_new_ones(run, tmp_path,
             process.kill()
         assert b"Traceback" not in process.stderr.read()
     assert content(old) == content(new)
+
+
+@pytest.mark.parametrize("name", ["ratings.csv", "matchups.csv", "summary.csv"])
+def test_the_results_are_never_overwritten(run, tmp_path, name):
+    season = tmp_path / name
+    season.write_bytes(DEMO.read_bytes())
+    result = run("report", str(season), "--out", str(tmp_path))
+    assert result.exit_code == 2
+    assert name in result.stderr
+    assert [file.name for file in tmp_path.iterdir()] == [name]
+    assert season.read_bytes() == DEMO.read_bytes()
+
+
+def test_a_page_never_takes_the_place_of_what_was_read(run, tmp_path):
+    season = tmp_path / "season.html"
+    season.write_bytes(DEMO.read_bytes())
+    assert run("rate", str(season), "--html", str(season)).exit_code == 2
+    assert season.read_bytes() == DEMO.read_bytes()
+    other = str(tmp_path / "page.html")
+    for _ in range(2):  # a page of last time may be written over
+        assert run("rate", str(season), "--html", other).exit_code == 0

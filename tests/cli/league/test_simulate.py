@@ -152,7 +152,7 @@ def test_json_has_every_quantity_and_its_error(run, tmp_path):
     ("options", "warnings"),
     [
         (("--weeks", "2"), []),
-        (("--weeks", "2", "--scale", "fargo"), ["npl_10", "fargo"]),
+        (("--weeks", "2", "--scale", "fargo"), ["npl_10", "Fargo"]),
         (("--weeks", "4", *FIXTURES), ["week 4"]),
         (("--weeks", "20", *FIXTURES), ["week 15"]),
     ],

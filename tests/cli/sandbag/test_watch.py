@@ -92,7 +92,7 @@ def test_a_roster_of_mixed_scales_is_a_warning(run, tmp_path):
         (("x.csv",), "'--roster'"),
         ((*SEASON, "--player", "Nobody"), "'Nobody'"),
         ((*SEASON, "--alpha", "1"), "'1'"),
-        ((*SEASON, "--dumps-in", "league"), "(Cup, League night)"),
+        ((*SEASON, "--dumps-in", "league"), "Cup, League night"),
     ],
 )
 def test_what_is_wrong_is_refused_by_name(run, words, named):

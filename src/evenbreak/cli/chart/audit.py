@@ -26,7 +26,7 @@ Examples:
 @click.command("audit", epilog=EXAMPLES)
 @click.argument("chart", metavar="NAME_OR_FILE")
 @scale_option("what fits the chart best; npl for a chart by skill level", fixed=False)
-@click.option("--beside", metavar="NAME_OR_FILE", help="Another chart to draw.")
+@click.option("--beside", metavar="NAME_OR_FILE", help="Another chart for the picture of --plot.")
 @plot_option_for("not for a chart by skill level")
 @faces()
 def command(chart: str, scale: Scale | None, beside: str | None, plot: str | None) -> Answer:

@@ -60,7 +60,7 @@ def design_options(command: Command) -> Command:
         click.option(
             "--tilt",
             metavar="T",
-            type=CHANCE,
+            type=Number(0.0, 1.0, "; give a number from 0 (the start of a band) to 1 (its end)"),
             default=0.5,
             help="Where in its band a race should be on target: 0 at the start (the stronger "
             "player is never the underdog), 1 at the end.",

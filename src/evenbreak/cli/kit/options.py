@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 import click
 
-from evenbreak.cli.kit.values import CHANCE, LONGEST, NUMBER, SPAN, Whole, meant, refuse
+from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Whole, meant, refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
 
@@ -125,7 +125,7 @@ aliases_option = click.option(
 safety_option = click.option(
     "--safety",
     metavar="ALPHA",
-    type=CHANCE,
+    type=SHARE,
     default="1",
     help="The first shot of an inning goes in ALPHA times as often as the others.",
 )

@@ -107,6 +107,6 @@ def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Cha
         warnings.append(
             f"the races of {chart.name} fit a scale on which about "
             f"{best.points_per_doubling:.0f} points double the odds, but here {own:.4g} do; "
-            "--scale sets the scale"
+            "make sure that it is the chart for these ratings"
         )
     return chart, warnings

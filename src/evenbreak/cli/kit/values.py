@@ -55,6 +55,9 @@ class Number(click.ParamType):  # type: ignore[type-arg]
 
 CHANCE = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1")
 
+SHARE = Number(0.0, 1.0, "; give a number from 0 to 1")
+"""A number from 0 to 1 that is no probability."""
+
 
 class TwoWhole(click.ParamType):  # type: ignore[type-arg]
     """Two whole numbers with a sign between them, such as 7:5."""
@@ -143,7 +146,7 @@ def meant(value: str, low: float, high: float) -> str:
     if not NUMBER.fullmatch(plain):
         return ""
     found = float(plain)
-    if (low, high) == (0.0, 1.0) and (plain != text or found > 1.0):
+    if (low, high) == (0.0, 1.0) and (plain != text or found >= 10.0):
         return f" ({found:.12g}% is {found / 100.0:.12g})" if 0.0 <= found <= 100.0 else ""
     if "," in value and plain == text and low <= found <= high:
         return f" (with a decimal point: {plain})"

@@ -46,7 +46,7 @@ def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[handicaps.Op
     ratings = file.roster.rating[~np.isnan(file.roster.rating)]
     if not len(ratings):
         raise DataError([f"{file.source}: no player has a rating; write one for each player"])
-    warnings = [*file.warnings, *league_doubts(scale, ratings, "--scale sets the scale")]
+    warnings = [*file.warnings, *league_doubts(scale, ratings, "set the scale with --scale")]
     about = round(float(np.median(ratings))) if skill is None else skill
     low, high = float(ratings.min()), float(ratings.max())
     most = MOST_APART * scale.points_per_doubling

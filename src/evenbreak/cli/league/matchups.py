@@ -96,12 +96,13 @@ def command(
     seed: int,
     html: str | None,
 ) -> Answer:
-    """Find the race for each pair of players tonight, and who wins it how often.
+    """Find the race for each pair of players tonight, and how often each player wins it.
 
     ROSTER.csv has a row for each player, with the columns player and rating and, if you
-    have them, standard_error and games; - reads standard input. Races come from --chart, are
-    the fairest ones with --games or --race-to, or both side by side. Where standard errors are
-    given, the chances are averaged over how far the ratings may be off.
+    have them, standard_error and games; - reads standard input. --chart looks the
+    races up, --games or --race-to finds the fairest ones; with both, they stand side by side.
+    Where standard errors are given, the chances are averaged over how far the ratings may be
+    off.
     """
     from evenbreak.answers.roster_matchups import check_roster
 

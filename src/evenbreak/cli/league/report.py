@@ -19,7 +19,7 @@ from evenbreak.cli.kit.options import (
     scale_option,
     which_races,
 )
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.league.rate_options import how_to_rate, rated
 from evenbreak.ratings.scale import Scale
@@ -100,7 +100,7 @@ def command(
         from evenbreak.sheets.workbook import check_workbook
 
         check_workbook()
-    from evenbreak.files.folder import check_folder, write_files
+    from evenbreak.files.folder import check_folder
 
     check_folder(out)
     offered = answers.OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
@@ -119,8 +119,7 @@ def command(
     say(f"Pairing {len(chosen):,} of them{hint}")
     sheet = answers.Sheet.of(file, ratings, offered, chosen, choice)
     files = _files(sheet, html=html, excel=excel, excel_csv=excel_csv)
-    write_files(out, files)
-    say(f"Wrote {', '.join(files)} to {out}")
+    write_folder(out, files)
     return replace(answers.report_answer(sheet), warnings=warnings)
 
 

@@ -14,7 +14,7 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, out_option, scale_option, seed_option
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.systems import system_option
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.kit.values import Number, Whole
 from evenbreak.cli.league.simulate_season import (
     WEEKS,
@@ -118,7 +118,7 @@ def command(
     no_matches: bool,
     **played: Any,
 ) -> Answer:
-    """Simulate a season many times: how accurate ratings are, how fair matches, who gains.
+    """Simulate a season many times: how accurate ratings are, how fair matches are, who gains.
 
     ROSTER.csv has one player per row, with the columns player and rating and, optionally,
     standard_error, matches, skill, day_sd, drift, joins, leaves and absence; - reads standard
@@ -128,7 +128,7 @@ def command(
     from evenbreak.answers.faces.to_csv import to_csv
     from evenbreak.answers.season import season_answer
     from evenbreak.answers.season_tables import season_tables
-    from evenbreak.files.folder import check_folder, write_files
+    from evenbreak.files.folder import check_folder
     from evenbreak.files.league import read_league
 
     refuse_contradictions(roster, jobs, cluster, played)
@@ -153,8 +153,7 @@ def command(
     if not no_matches:
         files |= _one_season(season, seed)
     files |= _pictures(tables)
-    write_files(out, files)
-    say(f"Wrote {', '.join(files)} to {out}")
+    write_folder(out, files)
     return answer
 
 

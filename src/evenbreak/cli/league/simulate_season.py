@@ -45,7 +45,7 @@ def season_of_options(
     chart, of_chart = chart_for(system, played["chart"])
     schedule, weeks, of_schedule = _schedule(file, played)
     play = "racks" if played["racks"] else "matches"
-    doubts = league_doubts(system.scale, file.players.rating, "--scale sets the scale")
+    doubts = league_doubts(system.scale, file.players.rating, "set the scale with --scale")
     warnings = [*file.warnings, *of_chart, *of_schedule, *doubts]
     return league.Season(file.players, system, chart, schedule, weeks, play), warnings
 

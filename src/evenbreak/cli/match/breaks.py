@@ -52,8 +52,8 @@ def command(
 ) -> Answer:
     """Compare break formats for two players in the long run, the best for A first.
 
-    P1 is A's chance of winning a rack that A breaks, P2 is B's chance of winning a rack
-    that B breaks.
+    P1 is A's chance of winning a rack that A breaks, P2 B's chance of winning one that B
+    breaks.
     """
     from evenbreak.answers.breaks import breaks_answer
 

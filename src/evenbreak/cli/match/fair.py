@@ -48,8 +48,8 @@ def command(
 ) -> Answer:
     """Find the fairest races for two players, the fairest first.
 
-    The players: two ratings A B; or --p; or --p1, --p2 and --breaks. The length: --games
-    or --race-to.
+    Describe the players by two ratings A B, by --p, or by --p1, --p2 and --breaks; limit the
+    length by --games or --race-to.
     """
     from evenbreak.answers.fair import fair_answer
     from evenbreak.handicaps.charts.fair import fair_races

@@ -12,7 +12,7 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, seed_option
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.systems import system_option
-from evenbreak.cli.kit.values import CHANCE, Whole, refuse
+from evenbreak.cli.kit.values import SHARE, Whole, refuse
 from evenbreak.cli.sandbag.options import between, watch_options, watched_ladder
 
 Kind = tuple[float, int | None]
@@ -45,7 +45,7 @@ Examples:
 @click.option(
     "--share",
     metavar="S",
-    type=CHANCE,
+    type=SHARE,
     help="The share of the matches that are dumped.  [default: several]",
 )
 @click.option(
@@ -97,7 +97,7 @@ def command(
     from evenbreak.answers.sandbag_power import sandbag_power_answer
 
     if points is not None and share is None:
-        refuse("--points is about the matches that are dumped; give their --share")
+        refuse("--points goes with --share; give both")
     ladder, warnings = watched_ladder(system, chart, day_sd)
     size = system.scale.points_per_doubling / 30.0
     kinds: list[Kind] = [(part, None if low is None else round(low * size)) for part, low in KINDS]

@@ -37,8 +37,8 @@ Examples:
     "events",
     multiple=True,
     metavar="EVENT",
-    help="An event that counts for little: only in it are matches dumped. Can be repeated.  "
-    "[default: each event of the file is tried]",
+    help="An event that counts for little; dumped matches are then looked for only there. Can be "
+    "repeated.  [default: each event of the file is tried]",
 )
 @click.option(
     "--player", metavar="NAME", help="Show what each match of one player adds to the evidence."
@@ -77,7 +77,7 @@ def command(
     first, season = files.read_roster(roster), files.read_results(results, aliases=aliases)
     refuse_other_scale(first, system.scale, f"the system {system.name}", "give another --system")
     warnings += [*first.warnings, *season.warnings]
-    warnings += league_doubts(system.scale, first.roster.rating, "--system sets the scale")
+    warnings += league_doubts(system.scale, first.roster.rating, "set the scale with --system")
     marked = events_marked(season.results, events) if events else None
     # Without --chart the results must state the races or the winners.
     nights = nights_of_files(system, first, season, chart=ladder.chart if chart else None)
@@ -94,7 +94,7 @@ def command(
     if player is not None:
         found = [one for one in found if one.player == player]
         if not found:
-            refuse(f"--player is {player!r}, who has no match in {season.source}")
+            refuse(f"--player: {player!r} has no match in {season.source}")
     if plot is not None:
         from evenbreak.plots.sandbagging import watch_figure
 
