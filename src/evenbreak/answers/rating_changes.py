@@ -136,12 +136,12 @@ def _list_for_files(moves: RatingChanges, order: Sequence[int], scale: str | Non
         "games": _stated(after.games),
         "component": [one or None for one in after.component.tolist()],
         "matches": _stated(after.matches),
-        "scale": [scale] * len(after),
         "rating_before": _numbers(before.rating),
         "change": _numbers(after.rating - before.rating),
         "matches_won": moves.won.tolist(),
         "matches_lost": moves.lost.tolist(),
         "why": ["; ".join(why.get(place, ())) for place in range(len(after))],
+        "scale": [scale] * len(after),
     }
     rows = [[values[place] for values in columns.values()] for place in order]
     return Table("players", [Column(name) for name in columns], rows)
