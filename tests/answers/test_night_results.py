@@ -2,7 +2,7 @@
 
 import pytest
 
-from evenbreak.answers.night_results import moves_of_files
+from evenbreak.answers.night_results import rating_changes_of_files
 from evenbreak.errors import DataError
 from evenbreak.files.results import read_results
 from evenbreak.files.roster import read_roster
@@ -20,7 +20,7 @@ def apply(tmp_path):
         (tmp_path / "last.csv").write_text(LAST, encoding="utf-8")
         (tmp_path / "night.csv").write_text(f"{HEADER}\n{rows}", encoding="utf-8")
         files = read_roster(tmp_path / "last.csv"), read_results(tmp_path / "night.csv")
-        return moves_of_files(NPL, *files, **options)
+        return rating_changes_of_files(NPL, *files, **options)
 
     return night
 

@@ -3,7 +3,7 @@
 import pytest
 
 from evenbreak.answers.faces.to_csv import to_csv
-from evenbreak.answers.night_results import moves_of_files
+from evenbreak.answers.night_results import rating_changes_of_files
 from evenbreak.answers.rating_changes import rating_changes_answer
 from evenbreak.files.results import read_results
 from evenbreak.files.roster import read_roster
@@ -23,7 +23,7 @@ def answer_of(tmp_path):
         (tmp_path / "last.csv").write_text(last, encoding="utf-8")
         (tmp_path / "night.csv").write_text(night, encoding="utf-8")
         files = read_roster(tmp_path / "last.csv"), read_results(tmp_path / "night.csv")
-        moves = moves_of_files(NPL, *files, chart=by)
+        moves = rating_changes_of_files(NPL, *files, chart=by)
         return rating_changes_answer(moves, *files, chart=by, **options)
 
     return answer

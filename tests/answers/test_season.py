@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from evenbreak.answers.answer import Table
+from evenbreak.answers.parts import Table
 from evenbreak.answers.season import season_answer
 from evenbreak.answers.season_tables import season_tables
 from evenbreak.league import FixedSchedule, LeaguePlayers, Season, run_chunk
@@ -34,11 +34,18 @@ def test_an_operator_reads_how_accurate_how_fair_and_who_gains():
     accurate, fair, gains, luck = answer.sentences
     assert "75.0%" in accurate  # the three who are rated rightly at the start
     assert f"{100 * answer.to_dict()['p_stronger_wins']:.1f}" in fair
-    assert "fifth" in fair
+    assert "fifth" not in fair  # of four players
     assert "Otto, rated 60 with a true skill of 90" in gains
     assert luck
     assert standings_of(answer)[0][:3] == ("1", "Otto", 60)
     assert len(standings_of(answer)) == 4
+
+
+def test_the_weakest_and_the_strongest_fifth_are_compared_from_five_players_on():
+    season = Season(LeaguePlayers.of([60, 70, 80, 90, 100]), "npl", weeks=4)
+    answer = asked(season)
+    assert "fifth" in answer.sentences[1]
+    assert f"{100 * answer.to_dict()['p_win_weakest_fifth']:.1f}" in answer.sentences[1]
 
 
 def test_what_is_assumed_of_skills_is_said():

@@ -24,9 +24,16 @@ def test_what_was_simulated_and_what_came_of_it():
     assert values["schedule"] == "random, 2 a week"
     assert (values["replicas"], values["matches_a_season"]) == (30, 6.0)
     assert values["mean_rating_change"] == 0.0
-    assert values["p_win_weakest_fifth"] + values["p_win_strongest_fifth"] == 1.0
+    assert "p_win_weakest_fifth" not in values  # of two players
     assert found["p_stronger_wins"][1] > 0.0
     assert found["seed"][1] is None
+
+
+def test_the_fifths_of_five_players_are_the_players():
+    players = LeaguePlayers.of([90, 85, 80, 75, 70])
+    found = summary(Season(players, "npl", None, RoundRobin(5), weeks=5))
+    assert 0.0 < found["p_win_weakest_fifth"][0] < 1.0
+    assert 0.0 < found["p_win_strongest_fifth"][0] < 1.0
 
 
 def test_luck_and_skill_spread_the_points():

@@ -1,6 +1,6 @@
 """The statistics of a validated season: every figure where a person looks for it."""
 
-from evenbreak.answers.answer import Table
+from evenbreak.answers.parts import Table
 from evenbreak.answers.validate_details import details
 from evenbreak.answers.validate_judgement import scored_of
 from evenbreak.ratings import Results, scale_of, validate

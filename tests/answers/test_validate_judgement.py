@@ -3,12 +3,12 @@
 import pytest
 
 from evenbreak.answers.validate_judgement import (
+    any_winner_breaks,
     at_the_edge,
     clearly_off,
     points_text,
     scored_of,
     share_of,
-    winner_breaks,
     wrong_chances,
 )
 from evenbreak.ratings import scale_of
@@ -40,7 +40,7 @@ def test_matches_under_handicaps_are_not_judged(demo):
 
 
 def test_what_the_demo_league_holds(demo):
-    assert winner_breaks(demo)
+    assert any_winner_breaks(demo)
     assert share_of(demo.spots[-1]).value == pytest.approx(186 / 351)
     assert at_the_edge(demo.prior_sd, demo)  # the only one that was tried
     assert points_text(0.52, scale_of("npl")) == "22.5"

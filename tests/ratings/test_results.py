@@ -19,6 +19,11 @@ def test_names_become_positions_in_the_order_of_the_names():
     assert len(results) == 4
 
 
+def test_a_season_prints_in_one_line():
+    assert repr(season()).count("\n") == 0
+    assert f"{len(season()):,} matches" in repr(season())
+
+
 def test_forfeits_and_empty_rows_are_left_out_and_counted_apart():
     played = season(forfeit=[False, True, False, False]).played()
     assert (len(played.results), played.forfeits, played.empty) == (2, 1, 1)

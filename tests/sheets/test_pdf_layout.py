@@ -6,7 +6,7 @@ from evenbreak.sheets.pdf_layout import (
     LONGEST_NAME,
     MOST_ON_A_PAGE,
     NARROWEST_BARS,
-    layout_of,
+    page_sizes,
     rating_text,
     slanted_name,
 )
@@ -24,7 +24,7 @@ def lines_of(players, name="Player"):
 
 
 def layout(players, race="7:5", name="Player"):
-    return layout_of(lines_of(players, name), {("a", "b"): race}, ROOM)
+    return page_sizes(lines_of(players, name), {("a", "b"): race}, ROOM)
 
 
 @pytest.mark.parametrize("players", [1, 2, 12, 24, 25, 60])

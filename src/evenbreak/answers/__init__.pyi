@@ -2,7 +2,7 @@ from .chosen_players import find_players as find_players
 from .chosen_players import most_active as most_active
 from .fair_pairs import matchups_frame as matchups_frame
 from .matchups import matchups_answer as matchups_answer
-from .night_results import moves_of_files as moves_of_files
+from .night_results import rating_changes_of_files as rating_changes_of_files
 from .offered_races import OfferedRaces as OfferedRaces
 from .rate import rate_answer as rate_answer
 from .rating_changes import rating_changes_answer as rating_changes_answer

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
 from evenbreak.files.scores import ScoresFile
 from evenbreak.stats.compare import Comparison, Scores

@@ -2,7 +2,8 @@
 
 import math
 
-from evenbreak.answers.answer import Answer, Quantities
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Quantities
 from evenbreak.answers.shot_units import IMPERIAL, Unit
 from evenbreak.answers.worded import worded
 from evenbreak.answers.wording import decimals

@@ -4,7 +4,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import chance, count_of, decimals, listed, percent
 from evenbreak.games.rack import Rack
 from evenbreak.practice.breaks import BreakFormatValue, compare_break_formats

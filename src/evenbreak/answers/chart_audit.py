@@ -4,7 +4,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, astuple
 from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import decimals, listed, percent, race, range_words
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit, ChartFit
 from evenbreak.handicaps.charts.level_audit import LevelAudit, LevelCell

@@ -1,12 +1,13 @@
 """The fairest chart within limits, and other charts beside it."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from itertools import groupby
 from typing import Any, NamedTuple
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.chart_show import chart_rows
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.wording import count_of, decimals, percent, race, range_words
 from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
@@ -133,7 +134,7 @@ def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
                 for chart, one, spans in zip(task.beside, theirs, differing, strict=True)
             ],
         },
-        csv=chart_rows(made),
+        csv=replace(chart_rows(made), name=""),  # `_rows` has them too
     )
 
 
@@ -197,16 +198,21 @@ def _rows(task: DesignTask, made: Chart, up_to: int) -> Table:
         low, high = task.rules.win([m], [n], ends)[0]
         mean = task.rules.mean_games([m], [n], ends)[0].mean()
         p90 = task.rules.games_quantile(m, n, ends, 0.9).max()
-        rows.append((range_words(*row[:2]), (m, n), low, high, mean, p90))
+        rows.append((row[:2], (m, n), low, high, mean, p90))
     columns = [
-        Column("difference", "difference", left=True),
-        Column("race", "race", race),
+        Column(
+            ("difference_from", "difference_to"),
+            "difference",
+            lambda span: range_words(*span),
+            left=True,
+        ),
+        Column(("stronger_needs", "weaker_needs"), "race", race),
         Column("p_win_low", "stronger wins\nat the start", decimals(3)),
         Column("p_win_high", "at the end", decimals(3)),
         Column("mean_games", "games, on\naverage", decimals(2)),
         Column("games_p90", "9 of 10\nwithin"),
     ]
-    return Table("", columns, rows)
+    return Table("rows", columns, rows)
 
 
 def _other_races(chart: Chart, spans: Sequence[_Span]) -> Table:

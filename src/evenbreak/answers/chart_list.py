@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import count_of
 from evenbreak.handicaps.charts.chart import CHARTS, chart
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, level_chart

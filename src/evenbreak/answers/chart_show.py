@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.wording import race, range_words
 from evenbreak.files.chart import chart_table
 from evenbreak.handicaps.charts.chart import Chart

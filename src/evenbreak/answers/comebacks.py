@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
-from evenbreak.answers.answer import Column, Part, Table
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack

@@ -3,7 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, listed, percent, signed
 from evenbreak.matches.crossings import Crossing, Crossings

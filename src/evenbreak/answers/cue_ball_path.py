@@ -2,8 +2,9 @@
 
 import math
 
-from evenbreak.answers.answer import Answer, Quantities
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.hit import Hit, degrees
+from evenbreak.answers.parts import Quantities
 from evenbreak.answers.worded import worded
 from evenbreak.physics.collision import Collision
 from evenbreak.physics.deflection import (

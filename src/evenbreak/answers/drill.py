@@ -1,6 +1,7 @@
 """Where a progressive drill settles, and which level to practise."""
 
-from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.wording import chance, decimals
 from evenbreak.practice.drills import DrillStatistics
 from evenbreak.practice.levels import MORE

@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 from itertools import pairwise
 
-from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.drill import GAIN_WORDS, amount, better, spread
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.wording import chance, count_of, decimals
 from evenbreak.files.drill_log import DrillLogFile
 from evenbreak.practice.log_analysis import LogAnalysis

@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, percent
 from evenbreak.handicaps.charts.fair import FairRace

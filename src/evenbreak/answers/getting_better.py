@@ -1,6 +1,7 @@
 """Whether a player is getting better: the scores of a drill over time."""
 
-from evenbreak.answers.answer import Answer, Part, Quantities, Quantity, statistic
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Part, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, luck_words, percent
 from evenbreak.files.scores import ScoresFile
 from evenbreak.stats.confidence import MeanInterval, mean_interval, sd_of

@@ -4,8 +4,9 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.ladder_findings import LadderFindings
+from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 from evenbreak.answers.wording import count_of, decimals
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.settling import Settling

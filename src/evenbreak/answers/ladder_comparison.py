@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from evenbreak.answers.answer import Answer, Column, Part, Show, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.ladder import OPPONENTS
+from evenbreak.answers.parts import Column, Part, Show, Table
 from evenbreak.answers.wording import decimals, listed
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart import chart as printed

@@ -3,9 +3,10 @@
 from dataclasses import replace
 from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.comebacks import comeback_tables
 from evenbreak.answers.odds import match_words
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, percent, signed
 from evenbreak.games.match import Match

@@ -6,16 +6,17 @@ from typing import Any
 
 import pandas as pd
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.round import AT_A_TIME, Round
 from evenbreak.answers.round_words import (
     about_method,
-    about_model,
     about_pairs,
     about_players,
     doubtful,
     evening_words,
+    game_model,
     least_even,
     races_of,
     which_races,
@@ -62,7 +63,7 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
     return Answer(
         f"Races for {file_name(tonight.file)}\nRatings {scale_words(tonight.scale)}",
         parts,
-        details=["\n".join([*map(str, about_method(tonight)), about_model(tonight)])],
+        details=["\n".join([*map(str, about_method(tonight)), game_model(tonight)])],
         warnings=[*tonight.file.warnings, *warnings],
         data={"evening": tonight.evening},
         csv=table,

@@ -1,6 +1,7 @@
 """Whether one new score of a drill was luck."""
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
 from evenbreak.files.scores import ScoresFile
 from evenbreak.stats.confidence import Luck, mean_interval, was_it_luck

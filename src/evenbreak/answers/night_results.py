@@ -14,7 +14,7 @@ from evenbreak.ratings.consistency import Problem
 from evenbreak.ratings.results import Results
 
 
-def moves_of_files(
+def rating_changes_of_files(
     system: System, last: RosterFile, tonight: ResultsFile, *, chart: Chart | None = None
 ) -> RatingChanges:
     """Return how a night's results change the ratings of a list.

@@ -1,6 +1,7 @@
 """The chances of a match, and its length."""
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Quantities, Quantity
 from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.games.ahead import Ahead

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import chance, count_of, listed, percent
 from evenbreak.practice.shots import RankedShot, ShotChoice, compare_shots, critical_p2
 

@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.chosen_players import by_strength
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
 from evenbreak.files.results import ResultsFile

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterable, Mapping
 
-from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 
 MEANINGS = {
     "agrees": "the computed number confirms the printed one",

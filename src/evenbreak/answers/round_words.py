@@ -63,12 +63,13 @@ def evening_words(end: EveningEnd) -> str:
     """Return when an evening ends.
 
     >>> print(evening_words(EveningEnd("chart", 4, 2, 110.2, 120.0, True, 0, 0.0)))
-    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 evenings in 10 end within 2 h 00.
+    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 out of 10 evenings end within
+    2 h 00.
     """
     return (
         f"{KINDS[end.races]}, {count_of(end.matches, 'match', 'matches')} on "
         f"{count_of(end.tables, 'table')} {'take' if end.matches > 1 else 'takes'} "
-        f"{clock(end.mean_minutes)} on average; 9 evenings in 10 end within "
+        f"{clock(end.mean_minutes)} on average; 9 out of 10 evenings end within "
         f"{clock(end.minutes_p90)}."
     )
 
@@ -153,7 +154,7 @@ def doubtful(tonight: Round) -> bool:
     return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
 
 
-def about_model(tonight: Round) -> str:
-    """Return the model in a sentence."""
+def game_model(tonight: Round) -> str:
+    """Return how a game's chance follows from two ratings, in a sentence."""
     text = game_chance(tonight.scale)
     return f"{text[:1].upper()}{text[1:]}, independently of every other game, whoever breaks."

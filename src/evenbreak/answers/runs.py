@@ -3,7 +3,8 @@
 import math
 from dataclasses import dataclass
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength

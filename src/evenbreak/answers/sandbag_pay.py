@@ -4,7 +4,8 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import chance, count_of, decimals, percent
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.ladder import Ladder
@@ -146,9 +147,9 @@ def sandbag_pay_answer(
 _EXPLANATION = (
     "'Given away': how many of the dumped matches an honest player would have won. 'Extra wins': "
     "how many more of the matches played in earnest the sandbagger wins; 'by the last': how many "
-    "of these come from the last match dumped. 'Pays from': how many times as much as a dumped "
-    "match one in earnest must be worth. 'Profit': the gain over an honest player, in the unit of "
-    "the stakes."
+    "of these come from the last match dumped. 'Pays from': how many times as much "
+    "as a win in a dumped match a win in earnest must be worth. 'Profit': the gain over an honest "
+    "player, in the unit of the stakes."
 )
 
 
@@ -256,9 +257,9 @@ def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -
             f"{most.ladder.chart.name}: up to {most.all_pays.best.profit:.2f}.",
             Table("charts", columns, rows),
             "Each row is for the number of dumped matches that pays most. 'Pays from': how many "
-            "times as much as a dumped match one in earnest must be worth. 'Enters low': how many "
-            f"more of their first {question.earnest} matches a player wins who enters the league "
-            f"{found[0].doubling} points under-rated.",
+            "times as much as a win in a dumped match a win in earnest must be worth. 'Enters "
+            f"low': how many more of their first {question.earnest} matches a player wins who "
+            f"enters the league {found[0].doubling} points under-rated.",
         ],
     )
 

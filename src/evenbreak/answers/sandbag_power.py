@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.sandbag_watch import HONEST_PLAYER, evidence
 from evenbreak.answers.wording import decimals, percent
 from evenbreak.league.sandbag_power import WatchPower

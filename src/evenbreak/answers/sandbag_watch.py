@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.wording import count_of, decimals, listed, percent, race, some_of
 from evenbreak.league.nights import PlayedNight
 from evenbreak.league.sandbag_watch import Watched

@@ -8,10 +8,12 @@ from typing import Any
 
 import pandas as pd
 
-from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 from evenbreak.answers.season_summary import Row, summary_rows
 from evenbreak.answers.season_tables import NEAR, SeasonTables, weeks_with_players
 from evenbreak.answers.wording import count_of, decimals
+from evenbreak.files.csv_writer import rows_of
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
 
@@ -62,6 +64,8 @@ def season_answer(
         "summary", [Column("quantity"), Column("value"), Column("standard_error")], rows
     )
     data: dict[str, Any] = {name: value for name, value, _ in rows}
+    columns = [Column(str(name)) for name in tables.standings.columns]
+    data["standings"] = Table("", columns, rows_of(tables.standings)).to_dicts()
     data["standard_errors"] = {
         name: error for name, _, error in rows if error is not None and math.isfinite(error)
     }

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.answers.night_results import moves_of_files
+from evenbreak.answers.night_results import rating_changes_of_files
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import RosterFile
@@ -50,7 +50,9 @@ def nights_of_files(
         while True:
             night = replace(season, results=season.results.select(kept), lines=season.lines[kept])
             try:
-                return moves_of_files(system, replace(first, roster=list_), night, chart=chart)
+                return rating_changes_of_files(
+                    system, replace(first, roster=list_), night, chart=chart
+                )
             except DataError as error:
                 problems.update(dict.fromkeys(error.problems))
                 kept = kept[:0]

@@ -11,7 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from evenbreak.league.season import Season
-from evenbreak.league.tally import Tally
+from evenbreak.league.tally import FIFTHS, Tally
 
 Floats = Any
 """Arrays of numbers, of whatever shape."""
@@ -177,13 +177,13 @@ def fairness_frame(season: Season, tally: Tally) -> pd.DataFrame:
     -------
     pandas.DataFrame
         group: 'all' matches, those of one 'gap' between the two skills of the day, or a 'fifth'
-        of the players by true skill at the start, 1 the weakest; from and to, the limits of the
-        gap in points (`to` excluded; the last gap has none), or the number of the fifth. A gap
-        is about a third of a doubling of the odds wide; the last takes in all wider ones that
-        are rare, one match in a thousand or fewer. matches, the mean number in a season; p_win,
-        P(the stronger wins) or, in a fifth, P(a player of it wins); p_hill_hill, P(the last
-        game decides); p_shutout, P(the loser wins no game); mean_games of a match; each with
-        its standard error.
+        of the players by true skill at the start, 1 the weakest, if there are five players or
+        more; from and to, the limits of the gap in points (`to` excluded; the last gap has
+        none), or the number of the fifth. A gap is about a third of a doubling of the odds
+        wide; the last takes in all wider ones that are rare, one match in a thousand or fewer.
+        matches, the mean number in a season; p_win, P(the stronger wins) or, in a fifth, P(a
+        player of it wins); p_hill_hill, P(the last game decides); p_shutout, P(the loser wins
+        no game); mean_games of a match; each with its standard error.
     """
     width, spans = _spans(season, tally)
     gaps = np.concatenate([spans.sum(axis=1, keepdims=True), spans], axis=1)
@@ -204,7 +204,9 @@ def fairness_frame(season: Season, tally: Tally) -> pd.DataFrame:
         rows.append(row)
     measures = [f"{name}{end}" for name in _MEASURES for end in ("", "_se")]
     columns = ["group", "from", "to", "matches", *measures]
-    frame = pd.DataFrame([*rows, *_fifths(tally)], columns=columns)
+    if len(season.players) >= FIFTHS:
+        rows += _fifths(tally)
+    frame = pd.DataFrame(rows, columns=columns)
     return frame.astype({"from": "Int64", "to": "Int64"})
 
 

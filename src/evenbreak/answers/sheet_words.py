@@ -69,10 +69,7 @@ def about_ratings(sheet: Sheet) -> Iterator[str]:
         "they are not official ratings."
     )
     if (groups := count_groups(ratings)) > 1:
-        yield (
-            f"{groups:,} groups of players have never met, not even through others: compare "
-            "ratings within a group only."
-        )
+        yield (f"{groups:,} groups of players have never met: compare ratings within a group only.")
     if idle := int(ratings.idle.sum()):
         yield f"{count_of(idle, 'more player has', 'more players have')} no games yet."
 
@@ -104,8 +101,8 @@ def how_rated(sheet: Sheet) -> str:
     return f"{text}{as_of}."
 
 
-def about_model(sheet: Sheet) -> str:
-    """Return the model in a sentence."""
+def rating_model(sheet: Sheet) -> str:
+    """Return how the ratings were estimated, in a sentence or two."""
     ratings = sheet.ratings
     alike = ", and early and late matches count alike" if ratings.half_life is None else ""
     races = ", and on the chance of a race where only its winner is known"

@@ -3,7 +3,8 @@
 import math
 from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 from evenbreak.answers.shot_units import Units
 from evenbreak.answers.shot_words import shot_heading, shot_words
 from evenbreak.answers.worded import worded
@@ -195,6 +196,7 @@ def _record(leg: Leg, phase: Phase, units: Units) -> dict[str, Any]:
             row[f"{name}_v{axis}_{fast.key}"] = float(pace) / fast.size
         for axis, turn in zip("xyz", state.spin, strict=True):
             row[f"{name}_spin_{axis}_rad_s"] = float(turn)
+        row[f"{name}_speed_{fast.key}"] = state.speed / fast.size
         row[f"{name}_energy_j"] = leg.energy(state.time).total
     row[f"length_{far.key}"] = phase.length / far.size
     return row

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from evenbreak.answers.answer import Quantity
+from evenbreak.answers.parts import Quantity
 from evenbreak.answers.wording import decimals
 from evenbreak.physics.units import CENTIMETRE, GRAM, INCH, OUNCE
 

@@ -1,6 +1,7 @@
 """A match of straight pool: who wins it, how long it takes, and the spot that makes it even."""
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity, statistic
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, games, percent
 from evenbreak.matches.straight_pool import StraightPool, StraightPoolOdds, straight_pool_odds
 from evenbreak.matches.straight_pool_spot import Spot, even_spot

@@ -3,8 +3,9 @@
 import math
 from dataclasses import replace
 
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.hit import spin_words
+from evenbreak.answers.parts import Quantities, Quantity
 from evenbreak.answers.shot_units import Units
 from evenbreak.answers.worded import worded
 from evenbreak.answers.wording import decimals

@@ -1,6 +1,7 @@
 """How fast a table is, from the time of a lag."""
 
-from evenbreak.answers.answer import Answer, Quantities
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Quantities
 from evenbreak.answers.shot_units import Units
 from evenbreak.answers.worded import worded
 from evenbreak.answers.wording import decimals

@@ -2,15 +2,16 @@
 
 from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.validate_details import details
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
+    any_winner_breaks,
     at_the_edge,
     clearly_off,
     points_text,
     share_of,
-    winner_breaks,
     wrong_chances,
 )
 from evenbreak.answers.validate_rows import findings_table
@@ -139,7 +140,7 @@ def _spread(found: Validation) -> str:
         return ""
     more = 100.0 * (test.seen / test.by_chance - 1.0)
     others = []
-    if winner_breaks(found):
+    if any_winner_breaks(found):
         others.append("a strong break under winner breaks")
     if found.spots:
         others.append("handicaps based on more than these ratings know")

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from evenbreak.answers.answer import Column, Part, Table
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.validate_judgement import at_the_edge, points_text, scored_of
 from evenbreak.answers.wording import count_of, decimals
 from evenbreak.ratings.calibration import Estimate

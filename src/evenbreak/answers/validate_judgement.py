@@ -53,7 +53,7 @@ def at_the_edge(prior_sd: float, found: Validation) -> bool:
     return prior_sd in (found.priors[0][0], found.priors[-1][0])
 
 
-def winner_breaks(found: Validation) -> bool:
+def any_winner_breaks(found: Validation) -> bool:
     """Return whether any race was played with winner breaks, as far as the file says."""
     breaks = found.forecasts.results.break_format
     return breaks is not None and bool((breaks == FORMATS.index("winner")).any())

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from evenbreak.answers.answer import Column, Table
+from evenbreak.answers.parts import Column, Table
 from evenbreak.ratings.advantages import known_breaks
 from evenbreak.ratings.scored import Scored
 from evenbreak.ratings.validate import Validation

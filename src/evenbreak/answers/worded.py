@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, TypeAlias
 
-from evenbreak.answers.answer import Quantity
+from evenbreak.answers.parts import Quantity
 from evenbreak.answers.wording import decimals, yes_or_no
 
 Words: TypeAlias = Mapping[str, tuple[str, int]]

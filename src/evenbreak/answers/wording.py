@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from evenbreak.answers.answer import Show
+from evenbreak.answers.parts import Show
 
 
 def chance(p: float) -> str:

@@ -73,8 +73,8 @@ class Header:
         if not places and any(_NUMBER.fullmatch(title.strip()) for title in titles):
             problems.add(
                 line,
-                f"{listed(titles)} are not names of columns; write a header line above, such as "
-                f"{','.join(self.required)}",
+                f"{quoted_list(titles)} are not names of columns; write a header line above, "
+                f"such as {','.join(self.required)}",
             )
             return places, unused
         for name in self.required:
@@ -82,7 +82,7 @@ class Header:
                 others = " or ".join(map(quoted, self.required[name][:3]))
                 problems.add(
                     line,
-                    f"there is no column {name!r} among {listed(titles)}; add it"
+                    f"there is no column {name!r} among {quoted_list(titles)}; add it"
                     + (f" (it may also be called {others})" if others else ""),
                 )
         return places, unused
@@ -96,10 +96,10 @@ def _key(name: str) -> str:
     return "".join(letter for letter in name.casefold() if letter.isalnum())
 
 
-def listed(names: Sequence[str]) -> str:
+def quoted_list(names: Sequence[str]) -> str:
     """Return names as a message lists them.
 
-    >>> listed([" name", "club"])
+    >>> quoted_list([" name", "club"])
     "'name', 'club'"
     """
     shown = ", ".join(quoted(name.strip()) for name in names[:MOST_LISTED])

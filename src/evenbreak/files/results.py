@@ -53,7 +53,9 @@ class ResultsFile:
     warnings: tuple[str, ...]
     similar_names: tuple[tuple[str, ...], ...]
     sha256: str
-    lines: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    lines: NDArray[np.int64] = field(
+        default_factory=lambda: np.zeros(0, dtype=np.int64), repr=False
+    )
 
 
 def read_results(path: str | Path, *, aliases: str | Path | None = None) -> ResultsFile:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.csv_rows import Rows, csv_rows, possible_headers
 from evenbreak.files.encoding import content_of, encoding_of
-from evenbreak.files.header import Header, listed
+from evenbreak.files.header import Header, quoted_list
 from evenbreak.files.problems import Problems
 
 
@@ -147,7 +147,7 @@ def read_table(
     titles = first[0]
     places, unused = header.places(titles, lines[0], problems)
     if unused:
-        warnings.append(f"{source}: columns not used: {listed(unused)}")
+        warnings.append(f"{source}: columns not used: {quoted_list(unused)}")
     body = chain([(lines[1:], first[1:])], parts)
     row_lines, columns = _columns(body, len(titles), places, problems)
     _add_unreadable(unreadable, problems)

@@ -83,6 +83,12 @@ class Ratings:
     _skill: Floats = field(repr=False)
     _break_precision: float | None = field(default=None, repr=False)
 
+    def __repr__(self) -> str:
+        return (
+            f"<Ratings of {len(self.players):,} players from {self.matches:,} matches, "
+            f"{self.scale.name} scale>"
+        )
+
     @property
     def idle(self) -> Bools:
         """Which players have no result that counts: theirs is the prior's rating."""

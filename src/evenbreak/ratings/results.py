@@ -164,6 +164,9 @@ class Results:
     def __len__(self) -> int:
         return len(self.player_a)
 
+    def __repr__(self) -> str:
+        return f"<Results of {len(self):,} matches between {len(self.players):,} players>"
+
     @property
     def races(self) -> tuple[Ints, Ints]:
         """The games that a and b needed to win each match, 0 where not stated."""

@@ -84,6 +84,9 @@ class Forecasts:
     def __len__(self) -> int:
         return len(self.results)
 
+    def __repr__(self) -> str:
+        return f"<Forecasts of {len(self):,} matches between {len(self.results.players):,} players>"
+
     @property
     def games(self) -> Ints:
         """The games of each match."""

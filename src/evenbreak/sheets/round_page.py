@@ -12,10 +12,10 @@ from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.round import Round
 from evenbreak.answers.round_words import (
     about_method,
-    about_model,
     about_pairs,
     about_players,
     evening_words,
+    game_model,
     races_of,
     which_races,
 )
@@ -94,7 +94,7 @@ def round_html(tonight: Round) -> bytes:
             *about_method(tonight),
             *warnings_of(tonight.file),
         ],
-        model=about_model(tonight),
+        model=game_model(tonight),
         made_of="a list of players",
         file=tonight.file,
     )

@@ -4,8 +4,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
-from evenbreak.answers.faces.to_json import as_dict, plain, to_json
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.faces.to_json import as_dict, json_value, to_json
+from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 
 ROWS = Table("rows", [Column(("race_a", "race_b"), "race")], [((7, 5),), (None,)])
 VIEW = Table("", [Column("seen", "seen")], [(1,)])
@@ -65,6 +66,6 @@ def test_the_text_is_read_back_with_every_digit_and_letter():
     ],
 )
 def test_values_become_plain(value, expected):
-    found = plain(value)
+    found = json_value(value)
     assert found == expected
     assert type(found) is type(expected)

@@ -22,7 +22,8 @@ def ask(run):
 
 
 def rows_of(answer):
-    return [tuple(row.values()) for row in answer["rows"]]
+    names = ("difference_from", "difference_to", "stronger_needs", "weaker_needs")
+    return [tuple(row[name] for name in names) for row in answer["rows"]]
 
 
 def test_a_design_beside_a_printed_chart(ask):

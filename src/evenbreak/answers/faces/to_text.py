@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Quantities, Table
+from evenbreak.answers.parts import Quantities, Table
 from evenbreak.files.problems import printable
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer, Part
+    from evenbreak.answers.answer import Answer
+    from evenbreak.answers.parts import Part
 
 WIDTH = 80
 NARROWEST, LONGEST_NAME = 20, 30
@@ -17,8 +18,7 @@ NARROWEST, LONGEST_NAME = 20, 30
 leaves them as many columns as the first; else after as many as the second."""
 
 _GAP = 2
-
-"""Where no line is broken."""
+"""Blanks between two columns."""
 
 
 def to_text(answer: Answer, *, width: int = WIDTH, verbose: bool = False) -> str:

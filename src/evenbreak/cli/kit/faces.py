@@ -45,21 +45,22 @@ def faces(
                 write_file(page_file, answer_page(answer))
 
         command: Any = update_wrapper(run, function)
-        for add in reversed(_options(page=page, csv=not always_text)):
+        for add in reversed(_options(page=page)):
             command = add(command)
         return command  # type: ignore[no-any-return]
 
     return decorate
 
 
-def _options(*, page: bool, csv: bool) -> list[Callable[[Any], Any]]:
+def _options(*, page: bool) -> list[Callable[[Any], Any]]:
     def face(name: str, text: str) -> Callable[[Any], Any]:
         return click.option(f"--{name}", "face", flag_value=name, help=text)
 
-    options = [face("text", "Print text, even into a pipe.")]
-    if csv:
-        options.append(face("csv", "Print CSV, even on a terminal."))
-    options.append(face("json", "Print JSON, with numbers in full precision."))
+    options = [
+        face("text", "Print text, even into a pipe."),
+        face("csv", "Print CSV, even on a terminal."),
+        face("json", "Print JSON, with numbers in full precision."),
+    ]
     if page:
         options.append(
             click.option(

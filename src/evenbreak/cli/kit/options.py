@@ -132,7 +132,7 @@ safety_option = click.option(
 """The option --safety of the commands about straight pool."""
 
 
-def which_races(command: Command) -> Command:
+def race_limit_options(command: Command) -> Command:
     """Add the options that limit the races: --games or --race-to."""
     return with_options(
         command,

@@ -12,10 +12,10 @@ from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name
 from evenbreak.cli.kit.options import (
     chart_option,
+    race_limit_options,
     refuse_both,
     scale_option,
     seed_option,
-    which_races,
 )
 from evenbreak.cli.kit.systems import refuse_other_scale
 from evenbreak.cli.kit.terminal import write_file
@@ -52,7 +52,7 @@ Examples:
 @click.command("matchups", epilog=EXAMPLES)
 @click.argument("roster", metavar="ROSTER.csv")
 @chart_option("The league's chart, by name or in a file.")
-@which_races
+@race_limit_options
 @click.option("--pairs", metavar="PAIRS.csv", help="Who meets whom.  [default: all pairs]")
 @scale_option("the one that the file states, else the chart's, else npl", fixed=False)
 @click.option(

@@ -38,7 +38,7 @@ def rate_by_system(
     if by_chart is None:
         by_chart = handicaps.chart_of_night(system, last.roster, tonight.results)
     try:
-        moves = answers.moves_of_files(system, last, tonight, chart=by_chart)
+        moves = answers.rating_changes_of_files(system, last, tonight, chart=by_chart)
     except DataError:
         for warning in (*last.warnings, *tonight.warnings):  # they may explain it
             say(f"Warning: {warning}")

@@ -15,9 +15,9 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import (
     aliases_option,
     out_option,
+    race_limit_options,
     refuse_both,
     scale_option,
-    which_races,
 )
 from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.kit.values import Whole, refuse
@@ -48,7 +48,7 @@ Examples:
 )
 @scale_option()
 @how_to_rate
-@which_races
+@race_limit_options
 @click.option(
     "--players",
     multiple=True,

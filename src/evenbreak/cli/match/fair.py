@@ -6,7 +6,7 @@ import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand, refuse_both, which_races
+from evenbreak.cli.kit.options import PlainCommand, race_limit_options, refuse_both
 from evenbreak.cli.kit.players import player_options, players_of
 from evenbreak.cli.kit.values import CHANCE, Whole, refuse
 
@@ -23,7 +23,7 @@ Examples:
 
 @click.command("fair", cls=PlainCommand, epilog=EXAMPLES)
 @player_options
-@which_races
+@race_limit_options
 @click.option(
     "--target",
     metavar="P",
