@@ -95,6 +95,8 @@ ASKED = {
     "sandbag_power": "sandbag power --matches 20 --replicas 50",
     "sandbag_watch": "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv "
     "--dumps-in 'League night'",
+    "sandbag_events": "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv "
+    "--verbose",
     "sandbag_player": "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv "
     "--player 'Vito Drago'",
     "reproduce": "reproduce --out OUT",

@@ -49,16 +49,16 @@ def test_drawn_chances_have_the_moments_of_a_dirichlet_law() -> None:
 
 
 def test_the_spread_of_a_limit_covers_the_truth() -> None:
-    """The truth lies within two standard deviations in about 95% of 100 experiments."""
+    """The truth lies within two standard deviations in about 95% of 60 experiments."""
     truth = Chain("ab", np.array([[0.75, 0.5], [0.25, 0.5]]), "a")
     rng = np.random.default_rng(6)
     covered = 0
-    for _ in range(100):
+    for _ in range(60):
         fitted = fit_chain(truth.simulate(20, rng, paths=10).tolist(), start=0)
         at = fitted.chain.index(0)
-        drawn = [stochastic_limit(fitted.draw(rng)).probability[at] for _ in range(60)]
+        drawn = [stochastic_limit(fitted.draw(rng)).probability[at] for _ in range(40)]
         covered += abs(stochastic_limit(fitted.chain)[0] - 2 / 3) < 2 * np.std(drawn)
-    assert 88 <= covered <= 100
+    assert 51 <= covered <= 60
 
 
 def test_refusals() -> None:

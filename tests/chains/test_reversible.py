@@ -98,7 +98,7 @@ def test_the_national_pool_leagues_ladders(name: str) -> None:
     np.testing.assert_allclose(np.sort(found.values), values, rtol=0, atol=1e-14)
 
 
-@pytest.mark.parametrize("n", [511, 1921])
+@pytest.mark.parametrize("n", [511, 1023])
 def test_wide_ladders(n: int) -> None:
     chain = walk(n, 30.0)
     found = spectrum(chain)

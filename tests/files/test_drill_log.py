@@ -120,3 +120,16 @@ def test_any_file_is_read_or_its_problems_are_told(tmp_path_factory, rows):
     path.write_text("level,success,date\n" + "\n".join(map(",".join, rows)), encoding="utf-8")
     with contextlib.suppress(DataError):
         assert 0 < len(read_drill_log(path).log) <= len(rows)
+
+
+TWO_DRILLS = "session,drill,level,success\n1,Line,1,yes\n1,,2,no\n1,L,1,no\n2,Line,1,yes\n"
+
+
+def test_a_log_of_several_drills_is_split(drill_file):
+    path = drill_file(TWO_DRILLS)
+    (problem,) = problems(path)
+    assert "2 drills ('Line', 'L')" in problem
+    log = read_drill_log(path, drill="line").log
+    assert (log.level.tolist(), log.starts.tolist()) == ([1, 2, 1], [0, 2])
+    assert read_drill_log(path, drill="L").log.level.tolist() == [1]
+    assert "'Q'" in problems(path, drill="Q")[0]

@@ -10,6 +10,7 @@ from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import OPTIONAL, REQUIRED, read_roster
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.roster import NOT_STATED
+from evenbreak.ratings.scale import SCALES
 from places import DOCS
 
 
@@ -179,3 +180,16 @@ def test_the_columns_of_a_season_are_no_surprise_but_a_misspelt_one_is(tmp_path)
         encoding="utf-8",
     )
     assert read_roster(path).warnings == (f"{path}: columns not used: 'absense'",)
+
+
+def test_the_scale_of_the_ratings_is_read(read):
+    assert read("player,rating,scale\nAnn,612,Fargo\nBo,521,\n").scale == SCALES["fargo"]
+    assert read("player;rating;scale\nAnn;612;33,5\n").scale.points_per_doubling == 33.5
+    assert read("player,rating\nAnn,612\n").scale is None
+
+
+@pytest.mark.parametrize(("scale", "named"), [("fargoo", "'fargoo'"), ("npl", "'fargo' in line 2")])
+def test_an_unknown_or_a_second_scale_is_refused(read, scale, named):
+    (problem,) = problems_of(read, f"player,rating,scale\nAnn,612,fargo\nBo,521,{scale}\n")
+    assert problem.startswith(":3: scale ")
+    assert named in problem

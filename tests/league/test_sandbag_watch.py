@@ -61,6 +61,21 @@ def test_known_events_flag_sooner_and_wrong_ones_never():
     assert wrong.alarm is None
 
 
+@pytest.mark.parametrize("honest", ["any", "established"])
+def test_tried_events_enter_the_evidence_by_their_average(honest):
+    _, results = season()
+    league = results.event == "league"
+    events = {"league": league, "cup": ~league}
+    found = watched(tried=events, honest=honest)
+    alone = [watched(marked=rows, honest=honest) for rows in (None, *events.values())]
+    for name, one in found.items():
+        each = [np.exp(other[name].log_e) for other in alone]
+        assert np.exp(one.log_e) == pytest.approx(np.mean(each, axis=0))
+    assert found["Bo"].event == "league"
+    assert all(one.alarm is not None for one in found.values() if one.event)
+    assert watched(honest=honest)["Bo"].event is None
+
+
 def test_against_established_players_the_evidence_is_another():
     bo = watched(honest="established")["Bo"]
     assert bo.e_value == pytest.approx(math.exp(bo.established[-1]))

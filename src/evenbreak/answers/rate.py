@@ -85,10 +85,12 @@ def _players_table(ratings: Ratings) -> Table:
         Column("races_won", "matches won" if by_winner else None),
         Column("races_lost", "matches lost" if by_winner else None),
         Column("component", "group" if ratings.component.max() > 1 else None),
+        Column("scale"),
     ]
     order = by_strength(ratings, range(len(ratings.players)))
     order.sort(key=lambda k: ratings.component[k])
-    values = [np.asarray(getattr(ratings, str(one.name)))[order].tolist() for one in columns[1:]]
+    values = [np.asarray(getattr(ratings, str(one.name)))[order].tolist() for one in columns[1:-1]]
+    values.append([ratings.scale.text] * len(order))
     names = [ratings.players[k] for k in order]
     return Table("players", columns, list(zip(names, *values, strict=True)))
 

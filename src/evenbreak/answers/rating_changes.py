@@ -43,7 +43,7 @@ def rating_changes_answer(
         whether it was not given, but the only one that fits the scores.
     """
     order = _order(moves)
-    csv = _list_for_files(moves, order)
+    csv = _list_for_files(moves, order, None if last.scale is None else last.scale.text)
     parts: list[Part] = [_in_words(moves), _reasons_table(moves, order), _list_table(moves, order)]
     if found_chart and chart is not None:
         parts.insert(
@@ -126,7 +126,7 @@ def _order(moves: RatingChanges) -> list[int]:
     return sorted(range(len(after)), key=key)
 
 
-def _list_for_files(moves: RatingChanges, order: Sequence[int]) -> Table:
+def _list_for_files(moves: RatingChanges, order: Sequence[int], scale: str | None) -> Table:
     """Return the list after a night as files hold it, a roster with more columns."""
     before, after = moves.before, moves.after
     why = _reasons(moves)
@@ -142,6 +142,7 @@ def _list_for_files(moves: RatingChanges, order: Sequence[int]) -> Table:
         "matches_won": moves.won.tolist(),
         "matches_lost": moves.lost.tolist(),
         "why": ["; ".join(why.get(place, ())) for place in range(len(after))],
+        "scale": [scale] * len(after),
     }
     rows = [[values[place] for values in columns.values()] for place in order]
     return Table("players", [Column(name) for name in columns], rows)

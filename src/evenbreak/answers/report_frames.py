@@ -21,7 +21,8 @@ def ratings_frame(ratings: Ratings) -> pd.DataFrame:
     pandas.DataFrame
         player; rating, standard_error and quasi_error in points of the scale; games, won
         and lost in the matches that were used; component: players with the same number are
-        linked by a chain of opponents, and only their ratings can be compared.
+        linked by a chain of opponents, and only their ratings can be compared; scale: the
+        name of the scale, or the points that double the odds, the same in each row.
     """
     order = by_strength(ratings, range(len(ratings.players)))
     columns = ("rating", "standard_error", "quasi_error", "games", "won", "lost", "component")
@@ -29,6 +30,7 @@ def ratings_frame(ratings: Ratings) -> pd.DataFrame:
         {
             "player": [ratings.players[k] for k in order],
             **{name: np.asarray(getattr(ratings, name))[order] for name in columns},
+            "scale": ratings.scale.text,
         }
     )
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
-from evenbreak.answers.wording import count_of, decimals, listed, percent, race
+from evenbreak.answers.wording import count_of, decimals, listed, percent, race, some_of
 from evenbreak.league.nights import PlayedNight
 from evenbreak.league.sandbag_watch import Watched
 from evenbreak.ratings.results import Results
@@ -45,6 +45,9 @@ class WatchRow(NamedTuple):
         after which of their matches, counted from 1, and when; None where there is none.
     league_wide
         whether they would have been flagged at alpha divided by the number of players.
+    event
+        in which of the events that were tried their results look like dumped matches; None if in
+        no single one of them, or if the player is not flagged.
     """
 
     player: str
@@ -59,6 +62,7 @@ class WatchRow(NamedTuple):
     alarm_match: int | None
     alarm_date: str | None
     league_wide: bool
+    event: str | None = None
 
 
 def sandbag_watch_answer(
@@ -78,14 +82,14 @@ def sandbag_watch_answer(
     rows = watch_rows(watched, results)
     players = Table("players", [Column(name, cell=_yes) for name in WatchRow._fields], rows)
     if not rows:
-        data = {"alpha": None, "honest": None}
+        data: dict[str, Any] = {"alpha": None, "honest": None, "tried_events": []}
         return Answer(source, ["No match was played."], warnings=warnings, data=data, csv=players)
     alpha, honest = watched[0].alpha, watched[0].honest
     matches = count_of(sum(row.matches for row in rows) // 2, "match", "matches")
     return Answer(
         f"{source}: {matches} of {count_of(len(rows), 'player')}",
         [
-            _who_is_flagged(rows),
+            " ".join([_who_is_flagged(rows), *_where(rows)]),
             *_players(rows),
             f"A player is flagged when the evidence reaches {evidence(1.0 / alpha)}. It starts at "
             "1, rises with each result that is likelier from a sandbagger than from an honest "
@@ -99,10 +103,11 @@ def sandbag_watch_answer(
             f"If players were flagged only at {evidence(len(rows) / alpha)}, the chance that even "
             f"one honest player of the league is flagged would be at most {percent(alpha)}. The "
             "evidence is an e-value: its mean over honest players is at most 1 after any number "
-            "of matches."
+            "of matches.",
+            *_tried(watched[0]),
         ],
         warnings=warnings,
-        data={"alpha": alpha, "honest": honest},
+        data={"alpha": alpha, "honest": honest, "tried_events": _events(watched[0])},
         csv=players,
     )
 
@@ -126,6 +131,7 @@ def watch_rows(watched: Sequence[Watched], results: Results) -> list[WatchRow]:
                 None if alarm is None else alarm + 1,
                 None if alarm is None else _date(results, int(one.rows[alarm])),
                 one.largest_e >= len(watched) / one.alpha,
+                one.event,
             )
         )
     return sorted(rows, key=lambda row: (-row.largest_e, row.player))
@@ -149,6 +155,33 @@ def _who_is_flagged(rows: Sequence[WatchRow]) -> str:
         named.append(f"{len(flagged) - NAMED:,} more")
     verb = "is" if len(flagged) == 1 else "are"
     return f"{len(flagged):,} of {count_of(len(rows), 'player')} {verb} flagged: {listed(named)}."
+
+
+def _where(rows: Sequence[WatchRow]) -> Iterator[str]:
+    """Yield for each event in which flagged players seem to have dumped matches who they are."""
+    found: dict[str, list[str]] = {}
+    for row in rows:
+        if row.event is not None:
+            found.setdefault(row.event, []).append(row.player)
+    for event, names in found.items():
+        yield f"The results of {some_of(names, NAMED)} look like matches dumped in {event}."
+
+
+def _events(one: Watched) -> list[str]:
+    return [event for event in one.tried if event is not None]
+
+
+def _tried(one: Watched) -> Iterator[str]:
+    """Yield how the events that were tried enter the evidence."""
+    events = _events(one)
+    if events:
+        yield (
+            f"Each of the {count_of(len(events), 'event')} ({some_of(events, NAMED)}) was tried as "
+            "the only one in which matches are dumped, besides dumps in any event. The evidence is "
+            f"the average of these {len(one.tried)} e-values, which is an e-value too, so honest "
+            "players are flagged no more often. With --dumps-in only the event that you name is "
+            "tried; choose it before you look at the results."
+        )
 
 
 def _players(rows: Sequence[WatchRow]) -> Iterator[Part]:
@@ -194,7 +227,9 @@ def sandbag_player_answer(
     return Answer(
         f"{one.player}: {count_of(len(rows), 'match', 'matches')}",
         [
-            said,
+            said
+            if one.event is None
+            else f"{said} The results look like matches dumped in {one.event}.",
             _matches(rows),
             "'Weight' is what the match multiplies the evidence by: above 1, the result is "
             "likelier from a sandbagger than from an honest player.",
@@ -205,6 +240,7 @@ def sandbag_player_answer(
             "alpha": one.alpha,
             "honest": one.honest,
             "alarm_match": None if one.alarm is None else one.alarm + 1,
+            "event": one.event,
         },
         csv=matches,
     )

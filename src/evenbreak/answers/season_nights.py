@@ -17,6 +17,9 @@ from evenbreak.league.nights import PlayedNight, played_nights
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 
+MOST_TRIED = 20
+"""The most events that are tried: each of them takes as long as a watch without events."""
+
 
 def nights_of_files(
     system: System, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
@@ -83,3 +86,22 @@ def events_marked(results: Results, events: Sequence[str]) -> NDArray[np.bool_]:
             names = ", ".join(known[:10]) or "none: the file has no column event"
             raise InputError(f"the results have no event {event!r}; give one of these: {names}")
     return np.isin(np.asarray(column, dtype=str), list(events))
+
+
+def events_to_try(results: Results) -> dict[str, NDArray[np.bool_]]:
+    """Return which matches belong to each event, those with the most matches first.
+
+    There is nothing to try if all matches are of one event; at most `MOST_TRIED` are.
+
+    >>> events = ["cup", "league", "league"]
+    >>> night = Results.from_names(["A"] * 3, ["B"] * 3, [5] * 3, [4] * 3, event=events)
+    >>> {name: rows.tolist() for name, rows in events_to_try(night).items()}
+    {'league': [False, True, True], 'cup': [True, False, False]}
+    """
+    if results.event is None:
+        return {}
+    column = np.asarray(results.event, dtype=str)
+    names, matches = np.unique(column[column != ""], return_counts=True)
+    order = sorted(zip(names.tolist(), matches.tolist(), strict=True), key=lambda one: -one[1])
+    found = {name: column == name for name, _ in order[:MOST_TRIED]}
+    return {} if any(rows.all() for rows in found.values()) else found

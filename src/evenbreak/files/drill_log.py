@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.files.cells import read_cells, whole_numbers
+from evenbreak.files.drill_rows import DRILL, rows_of_drill, source_of
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.practice.drill_log import MOST_LEVELS, DrillLog
 
@@ -24,6 +25,7 @@ REQUIRED = {
 OPTIONAL = {
     "session": ("practice session", "visit", "evening"),
     "date": ("day", "practised on", "played on"),
+    **DRILL,
 }
 """The columns that a drill log may have, with their other names."""
 
@@ -55,13 +57,15 @@ class DrillLogFile:
     warnings: tuple[str, ...]
 
 
-def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFile:
+def read_drill_log(
+    path: str | Path, *, levels: int | None = None, drill: str | None = None
+) -> DrillLogFile:
     r"""Read the attempts of a progressive drill from a CSV file; '-' is standard input.
 
     Encoding, separator and header are handled by `evenbreak.files.text_table`; the columns are
     those of `REQUIRED` and `OPTIONAL`, with one row for each attempt, in the order in which they
-    were made. A new session begins where session or date differ from the row above; an empty
-    cell means the same as the cell above. A row that breaks the rule of the drill within a
+    were made. A new session begins where session, date or drill differ from the row above; an
+    empty cell means the same as the cell above. A row that breaks the rule of the drill within a
     session counts as a new start, with a warning.
 
     Parameters
@@ -70,6 +74,8 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
         the file.
     levels
         how many levels the drill has; None takes the highest one in the file.
+    drill
+        whose attempts are read, if the file has several drills.
 
     Raises
     ------
@@ -101,9 +107,11 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
         dtype=np.bool_,
         empty=False,
     ).values
+    rows = rows_of_drill(table, drill, as_above=True)
     table.problems.raise_any()
-    log = DrillLog(level, success, session=_sessions(table), levels=levels)
-    return DrillLogFile(log, table.source, (*table.warnings, *_jump_warning(table, log)))
+    log = DrillLog(level[rows], success[rows], session=_sessions(table)[rows], levels=levels)
+    warnings = (*table.warnings, *_jump_warning(table, log, rows))
+    return DrillLogFile(log, source_of(table, drill), warnings)
 
 
 def _sessions(table: TextTable) -> NDArray[np.int64]:
@@ -118,7 +126,7 @@ def _sessions(table: TextTable) -> NDArray[np.int64]:
     return changes.cumsum()
 
 
-def _jump_warning(table: TextTable, log: DrillLog) -> list[str]:
+def _jump_warning(table: TextTable, log: DrillLog, rows: NDArray[np.int64]) -> list[str]:
     if not len(log.jumps):
         return []
     row = int(log.jumps[0])
@@ -127,7 +135,7 @@ def _jump_warning(table: TextTable, log: DrillLog) -> list[str]:
     count = len(log.jumps)
     such = f"{count:,} such rows count as new starts" if count > 1 else "it counts as a new start"
     return [
-        f"{table.source}:{table.lines[row]}: level {log.level[row]} follows a "
+        f"{table.source}:{table.lines[rows[row]]}: level {log.level[row]} follows a "
         f"{'success' if step > 0 else 'miss'} at level {log.level[row - 1]}, which leads to level "
         f"{by_rule}; {such}. Keep the rows in the order of the attempts; a column session or date "
         "says where a session begins"

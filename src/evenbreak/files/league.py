@@ -22,6 +22,7 @@ from evenbreak.files.schedule import LAST_WEEK
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.league.players import ESTABLISHED, LeaguePlayers
 from evenbreak.ratings.roster import NOT_STATED, Roster
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -48,6 +49,8 @@ class LeagueFile:
         for how many players the skill is drawn, from rating and standard error.
     exact
         for how many the rating is taken as the skill, for lack of a skill and a standard error.
+    scale
+        the scale of the ratings; None if the file does not state it.
     """
 
     players: LeaguePlayers
@@ -56,6 +59,7 @@ class LeagueFile:
     warnings: tuple[str, ...]
     drawn: int
     exact: int
+    scale: Scale | None = None
 
 
 def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
@@ -128,7 +132,13 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
             "whole points, as charts need"
         )
     return LeagueFile(
-        players, roster, table.source, tuple(warnings), int((sd > 0).sum()), int(np.isnan(sd).sum())
+        players,
+        roster,
+        table.source,
+        tuple(warnings),
+        drawn=int((sd > 0).sum()),
+        exact=int(np.isnan(sd).sum()),
+        scale=file.scale,
     )
 
 

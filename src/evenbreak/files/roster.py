@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.files.cells import numbers, whole_numbers
+from evenbreak.errors import InputError
+from evenbreak.files.cells import numbers, read_cells, whole_numbers
 from evenbreak.files.player_names import clean_name, same_name
 from evenbreak.files.problems import quoted
 from evenbreak.files.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.ratings.roster import NOT_STATED, Roster
+from evenbreak.ratings.scale import SCALES, Scale, scale_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,6 +33,7 @@ OPTIONAL = {
     "games": ("games played", "racks", "robustness"),
     "component": ("group",),
     "matches": ("matches played",),
+    "scale": ("rating scale", "points that double the odds"),
 }
 """The columns that a roster may have, with their other names."""
 
@@ -78,6 +81,8 @@ class RosterFile:
         fingerprint of the bytes that were read.
     by_quasi
         the places of those whose error is the quasi_error of the file.
+    scale
+        the scale of the ratings; None if the file does not state it.
     """
 
     roster: Roster
@@ -86,6 +91,7 @@ class RosterFile:
     warnings: tuple[str, ...]
     sha256: str
     by_quasi: frozenset[int] = frozenset()
+    scale: Scale | None = None
 
 
 def read_roster(path: str | Path) -> RosterFile:
@@ -152,13 +158,14 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
             np.flatnonzero(unrated & (games > 0)),
             lambda row: f"rating is empty after {games[row]} games; fill it in, or write 0 games",
         )
+    scale = _scale(table)
     table.problems.raise_any()
     roster = Roster(names, rating, error, games, component=component, matches=matches)
     similar = similar_name_warnings(similar_names(names), table.source, "if so, keep one of them")
     sha256 = hashlib.sha256(table.content).hexdigest()
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
     warnings = (*table.warnings, *similar)
-    return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi)
+    return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi, scale)
 
 
 def _names(table: TextTable) -> list[str]:
@@ -179,6 +186,41 @@ def _names(table: TextTable) -> list[str]:
                 "two, or give two players of the same name different names, such as 'Ann Lee 2'",
             )
     return names
+
+
+def _scale(table: TextTable) -> Scale | None:
+    """Return the scale of all ratings, noting one that is unknown or unlike the first."""
+    scales = read_cells(
+        table,
+        "scale",
+        _known_scale,
+        wanted="a scale",
+        remedy=f"write {', '.join(SCALES)} or the points that double the odds, or leave it empty",
+        dtype=object,
+        empty=None,
+        may_be_empty=True,
+    )
+    rows = np.flatnonzero(scales.stated & scales.good)
+    if not len(rows):
+        return None
+    first: Scale = scales.values[rows[0]]
+    table.problems.add_rows(
+        table.lines,
+        np.array([row for row in rows if not first.same_points(scales.values[row])], dtype=int),
+        lambda row: (
+            f"scale {scales.values[row].text!r} differs from {first.text!r} in line "
+            f"{table.lines[rows[0]]}; put all ratings on one scale"
+        ),
+    )
+    return first
+
+
+def _known_scale(text: str) -> Scale | None:
+    try:
+        scale: Scale = scale_of(text.replace(",", "."))
+    except InputError:
+        return None
+    return scale
 
 
 def _counts(table: TextTable, name: str) -> NDArray[np.int64]:

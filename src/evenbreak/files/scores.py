@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.cells import dates, numbers
+from evenbreak.files.drill_rows import DRILL, rows_of_drill, source_of
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.stats.confidence import LARGEST
 
 REQUIRED = {"score": ("points", "result", "total", "balls")}
-OPTIONAL = {"date": ("day", "practised on", "played on")}
+OPTIONAL = {"date": ("day", "practised on", "played on"), **DRILL}
 
 
 class ScoresFile(NamedTuple):
@@ -28,14 +29,21 @@ class ScoresFile(NamedTuple):
     warnings: tuple[str, ...]
 
 
-def read_scores(path: str | Path) -> ScoresFile:
+def read_scores(path: str | Path, *, drill: str | None = None) -> ScoresFile:
     r"""Read practice scores from a CSV file, one score per row; '-' is standard input.
+
+    Parameters
+    ----------
+    path
+        the file.
+    drill
+        whose scores are read, if the file has several drills.
 
     Raises
     ------
     DataError
         with all problems of the file: no column of scores, no rows, scores that are not
-        numbers or too large, dates that cannot be read.
+        numbers or too large, dates that cannot be read, several drills and none asked for.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -50,20 +58,21 @@ def read_scores(path: str | Path) -> ScoresFile:
     remedy = "write a score such as 48"
     scores = numbers(table, "score", at_least=-most, at_most=most, remedy=remedy).values
     days = dates(table, "date").values
+    rows = rows_of_drill(table, drill)
     table.problems.raise_any()
-    undated = np.flatnonzero(np.isnat(days))
+    undated = rows[np.isnat(days[rows])]
     dated = not undated.size
     return ScoresFile(
-        scores,
-        days if dated else None,
-        table.source,
-        (*table.warnings, *([] if dated else _undated(table, undated))),
+        scores[rows],
+        days[rows] if dated else None,
+        source_of(table, drill),
+        (*table.warnings, *([] if dated else _undated(table, undated, len(rows)))),
     )
 
 
-def _undated(table: TextTable, rows: NDArray[np.int64]) -> list[str]:
+def _undated(table: TextTable, rows: NDArray[np.int64], scores: int) -> list[str]:
     """Return a warning if some scores have a date and others, those of `rows`, do not."""
-    if "date" not in table or rows.size == len(table):
+    if "date" not in table or rows.size == scores:
         return []
     missing = f"{rows.size} dates are missing" if rows.size > 1 else "the date is missing"
     return [f"{table.source}:{table.lines[rows[0]]}: {missing}, so no dates are used"]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -46,6 +46,9 @@ class Watched:
         which of the two raises the alarm.
     alpha
         the largest chance that an honest player is ever flagged.
+    tried
+        what `log_e` would be if matches were dumped only in an event that was tried, by its
+        name; under None, in any event. Empty if none was tried.
     """
 
     player: str
@@ -55,6 +58,7 @@ class Watched:
     established: Floats
     honest: str
     alpha: float
+    tried: Mapping[str | None, Floats] = field(default_factory=dict)
 
     @property
     def log_e(self) -> Floats:
@@ -66,6 +70,14 @@ class Watched:
         """The place in `rows` of the match that first raised the alarm; None if none did."""
         over = np.flatnonzero(self.log_e >= -math.log(self.alpha))
         return int(over[0]) if over.size else None
+
+    @property
+    def event(self) -> str | None:
+        """The tried event that raised the alarm; None if it was no single one of them."""
+        place = self.alarm
+        if place is None or not self.tried:
+            return None
+        return max(self.tried, key=lambda event: float(self.tried[event][place]))
 
     @property
     def e_value(self) -> float:
@@ -91,6 +103,7 @@ def watch(
     alpha: float = 0.01,
     honest: str = "any",
     marked: Bools | None = None,
+    tried: Mapping[str, Bools] | None = None,
     day_sd: float = 0.0,
 ) -> list[Watched]:
     """Return the evidence against each player of a season, by name.
@@ -113,6 +126,9 @@ def watch(
         rating is far off, are flagged too.
     marked
         for each match whether it may have been dumped; None: any may.
+    tried
+        for each of some events which matches belong to it. The evidence is the average of those
+        for dumps in each single event and for dumps as `marked` says.
     day_sd
         standard deviation of every player's form, in points. Honest players whose form varies
         more are flagged too often.
@@ -131,6 +147,9 @@ def watch(
     distribution `error`. Among N honest players at most N · alpha are flagged on average; at
     alpha / N the chance that any of them is flagged stays below alpha.
 
+    The bound needs no further correction for the events in `tried`: an average of e-values that
+    were fixed before the results is an e-value.
+
     >>> from evenbreak.handicaps import Ladder, chart, system_of
     >>> from evenbreak.league import played_nights
     >>> from evenbreak.ratings import Results, Roster
@@ -146,7 +165,7 @@ def watch(
     number(alpha, "alpha", above=0.0, below=1.0)
     one_of(honest, "honest", HONEST)
     number(day_sd, "day_sd", low=0.0, high=4.0 * system.scale.points_per_doubling)
-    shares = SHARES if marked is None else SHARES_MARKED
+    tries: list[tuple[str | None, Bools | None]] = [(None, marked), *(tried or {}).items()]
     results: dict[int, list[Result]] = {}
     rows: dict[int, list[int]] = {}
     start: dict[int, int] = {}
@@ -156,7 +175,6 @@ def watch(
         rating = night.changes.before.rating
         for match in night.changes.matches:
             row = int(night.rows[match.row])
-            may = marked is None or bool(marked[row])
             sides = ((match.winner, match.loser, 1), (match.loser, match.winner, -1))
             for player, other, turn in sides:
                 start.setdefault(player, units(float(rating[player]), system.scale))
@@ -167,20 +185,43 @@ def watch(
                         _turned(match.games, turn),
                         _turned(match.race, turn),
                         turn == 1,
-                        may,
                     )
                 )
     likelihood = Likelihood(system.scale, error, day_sd)
     found = []
     for player in sorted(results, key=lambda place: names[place]):
         try:
-            both = watch_player(start[player], results[player], likelihood, shares=shares)
+            log_e = {
+                name: _if_dumped(start[player], results[player], likelihood, rows[player], may)
+                for name, may in tries
+            }
         except AccuracyError as why:
             raise AccuracyError(f"{names[player]!r}: {why}") from why
         won = np.array([result.won for result in results[player]])
         place = np.array(rows[player])
-        found.append(Watched(names[player], place, won, *both, honest, alpha))
+        of_any, established = np.logaddexp.reduce(list(log_e.values())) - math.log(len(log_e))
+        kind = HONEST.index(honest)
+        by_event = {name: pair[kind] for name, pair in log_e.items()} if tried else {}
+        found.append(
+            Watched(names[player], place, won, of_any, established, honest, alpha, by_event)
+        )
     return found
+
+
+def _if_dumped(
+    rating: int,
+    results: Sequence[Result],
+    likelihood: Likelihood,
+    rows: Sequence[int],
+    marked: Bools | None,
+) -> tuple[Floats, Floats]:
+    """Return the evidence of `watch_player` if only matches in marked rows may be dumped."""
+    if marked is None:
+        return watch_player(rating, results, likelihood)
+    seen = [
+        result._replace(marked=bool(marked[row])) for result, row in zip(results, rows, strict=True)
+    ]
+    return watch_player(rating, seen, likelihood, shares=SHARES_MARKED)
 
 
 def _turned(pair: tuple[int, int] | None, turn: int) -> tuple[int, int] | None:

@@ -67,6 +67,21 @@ class Scale:
             raise InputError(f"centre is {self.centre!r}; give a finite number")
 
     @property
+    def text(self) -> str:
+        """What a file calls the scale: its name, or else its points; `scale_of` reads it.
+
+        >>> SCALES["fargo"].text, Scale("of my club", 40.0).text
+        ('fargo', '40')
+        """
+        if SCALES.get(self.name) == self:
+            return self.name
+        return f"{self.points_per_doubling!r}".removesuffix(".0")
+
+    def same_points(self, other: Scale) -> bool:
+        """Return whether a difference of ratings means the same on another scale."""
+        return math.isclose(self.points_per_doubling, other.points_per_doubling, rel_tol=1e-6)
+
+    @property
     def points_per_log_odds(self) -> float:
         """Points of difference for each unit of natural log-odds."""
         return self.points_per_doubling / math.log(2.0)

@@ -11,11 +11,11 @@ NIGHT = (
 )
 LIST = (
     "player,rating,standard_error,games,component,matches,rating_before,change,matches_won,"
-    "matches_lost,why\n"
-    'Ann,94,,156,,,92,2,2,0,"beat Diaz, Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)"\n'
-    '"Diaz, Bo",79,,128,,,80,-1,0,1,lost to Ann 3-5 (race 4:5)\n'
-    "Cy,70,,,,,71,-1,0,1,lost to Ann 2-6 (race 4:6)\n"
-    "'=cmd(),60,,0,,,60,0,0,0,\n"
+    "matches_lost,why,scale\n"
+    'Ann,94,,156,,,92,2,2,0,"beat Diaz, Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)",\n'
+    '"Diaz, Bo",79,,128,,,80,-1,0,1,lost to Ann 3-5 (race 4:5),\n'
+    "Cy,70,,,,,71,-1,0,1,lost to Ann 2-6 (race 4:6),\n"
+    "'=cmd(),60,,0,,,60,0,0,0,,\n"
 )
 
 

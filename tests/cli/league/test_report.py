@@ -68,7 +68,17 @@ def test_the_same_as_json(run, demo, tmp_path):
 def test_the_columns_are_those_of_the_documentation(demo):
     _, folder = demo
     assert list(rows(folder, "ratings.csv")[0]) == (
-        ["player", "rating", "standard_error", "quasi_error", "games", "won", "lost", "component"]
+        [
+            "player",
+            "rating",
+            "standard_error",
+            "quasi_error",
+            "games",
+            "won",
+            "lost",
+            "component",
+            "scale",
+        ]
     )
     assert list(rows(folder, "matchups.csv")[0]) == (
         [

@@ -202,3 +202,9 @@ def test_any_log_has_an_answer(run, rows):
     answer = json.loads(result.stdout)
     sure = sum(row["p_best"] for row in answer["levels"])
     assert sure == pytest.approx(0 if answer["practise_next"] is None else 1)
+
+
+def test_drill_option_is_for_logs(run):
+    refused = run("drill", "--p", "0.8", "--drill", "Line")
+    assert refused.exit_code == 2
+    assert "--drill" in refused.stderr

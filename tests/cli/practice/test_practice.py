@@ -192,3 +192,29 @@ tables = st.text(alphabet="score,date\n0123456789.-e", max_size=40) | st.lists(
 @given(st.lists(words | st.text(max_size=3), max_size=6), tables)
 def test_no_words_make_a_traceback(run, line, text):
     assert run("practice", *line, stdin=text).exit_code in (0, 2, 3)
+
+
+TWO_DRILLS = "drill,score\nLine,4\nL drill,50\nLine,6\nl-drill,54\n"
+
+
+def test_the_scores_of_two_drills_are_not_averaged(run, practice):
+    refused = run("practice", "-", stdin=TWO_DRILLS)
+    assert refused.exit_code != 0
+    assert "'Line', 'L drill'" in refused.stderr
+    assert practice("-", "--drill", "line", stdin=TWO_DRILLS)["mean"] == 5
+    assert practice("-", "--drill", "L drill", stdin=TWO_DRILLS)["mean"] == 52
+
+
+@pytest.mark.parametrize(("text", "named"), [
+    (TWO_DRILLS, "'Q'"),
+    ("score\n4\n6\n", "--drill"),
+    ("drill,score\nQ,4\n,6\n", ":3: drill"),
+])  # fmt: skip
+def test_a_drill_that_the_file_does_not_settle_is_refused(run, text, named):
+    refused = run("practice", "-", "--drill", "Q", stdin=text)
+    assert refused.exit_code != 0
+    assert named in refused.stderr
+
+
+def test_one_drill_needs_no_option(practice):
+    assert practice("-", stdin="drill,score\nLine,4\nLine,6\n")["mean"] == 5

@@ -40,8 +40,19 @@ def test_json_and_the_picture(watch, tmp_path):
     path = tmp_path / "watch.png"
     answer = json.loads(watch("--json", "--plot", str(path)))
     assert (answer["alpha"], answer["honest"], len(answer["players"])) == (0.01, "any", 10)
-    assert {row["flagged"] for row in answer["players"]} == {False}
+    assert [row["event"] for row in answer["players"] if row["flagged"]] == ["League night"]
     assert path.read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_cheater_of_the_demo_league_is_flagged_without_naming_the_event(watch):
+    answer = json.loads(watch("--json"))
+    assert sorted(answer["tried_events"]) == ["Cup", "League night"]
+    (flagged,) = [row for row in answer["players"] if row["flagged"]]
+    assert (flagged["player"], flagged["event"]) == ("Vito Drago", "League night")
+    (named,) = [row for row in json.loads(watch("--json", *LEAGUE))["players"] if row["flagged"]]
+    assert named["e_value"] / 3 < flagged["e_value"] < named["e_value"]
+    assert json.loads(watch("--json", "--player", "Vito Drago"))["event"] == "League night"
+    assert "League night" in watch("--text")
 
 
 def test_what_each_match_of_a_player_weighs(watch):

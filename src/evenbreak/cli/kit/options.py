@@ -75,6 +75,11 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
     )
 
 
+drill_option = click.option(
+    "--drill", metavar="NAME", help="The drill to look at, if the file has several."
+)
+
+
 def seed_option(
     what: str = "The seed of all random draws.", *, default: int | None = 1
 ) -> Decorator[Any]:

@@ -53,6 +53,29 @@ def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:
     return replace(system, scale=scale)
 
 
+def refuse_other_scale(
+    file: files.RosterFile | files.LeagueFile, scale: Scale, whose: str, remedy: str
+) -> None:
+    """Refuse a list that states another scale for its ratings.
+
+    Parameters
+    ----------
+    file
+        the list.
+    scale, whose
+        the scale by which the ratings would be read, and where it comes from.
+    remedy
+        what to do about it.
+    """
+    from evenbreak.answers.scale_words import scale_words
+
+    if file.scale is not None and not file.scale.same_points(scale):
+        refuse(
+            f"{file.source} states that its ratings are {scale_words(file.scale)}, but {whose} is "
+            f"{scale_words(scale)}; {remedy}"
+        )
+
+
 def chart_by_difference(option: str, name: str) -> handicaps.Chart:
     """Return a chart of rating differences, or refuse one of skill levels."""
     found = files.find_chart(name)

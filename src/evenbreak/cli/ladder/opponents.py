@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from evenbreak import files, handicaps
+from evenbreak.cli.kit.systems import refuse_other_scale
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.scale import Scale
@@ -41,6 +42,7 @@ def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[handicaps.Op
     from evenbreak.errors import DataError
 
     file = files.read_roster(path)
+    refuse_other_scale(file, scale, "the ladder", "set it with --scale")
     ratings = file.roster.rating[~np.isnan(file.roster.rating)]
     if not len(ratings):
         raise DataError([f"{file.source}: no player has a rating; write one for each player"])

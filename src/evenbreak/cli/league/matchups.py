@@ -17,6 +17,7 @@ from evenbreak.cli.kit.options import (
     scale_option,
     seed_option,
 )
+from evenbreak.cli.kit.systems import refuse_other_scale
 from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.kit.values import Number, Whole, refuse
 from evenbreak.ratings.scale import SCALES, Scale
@@ -53,7 +54,7 @@ Examples:
 @chart_option("The league's chart, by name or in a file.")
 @race_limit_options
 @click.option("--pairs", metavar="PAIRS.csv", help="Who meets whom.  [default: all pairs]")
-@scale_option("the scale of the chart, else npl", fixed=False)
+@scale_option("the one that the file states, else the chart's, else npl", fixed=False)
 @click.option(
     "--starter",
     metavar="RATING",
@@ -113,11 +114,15 @@ def command(
     if [roster, pairs, chart].count("-") > 1:
         refuse("only one list can come from standard input; name a file for the other")
     of_league, warnings = (None, []) if chart is None else _chart(chart)
-    points = _scale(chart, of_league) if scale is None else scale
     file = files.read_roster(roster)
+    if scale is not None:
+        refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
+    points = scale or file.scale or _scale(chart, of_league)
     players = _with_starters(file.roster, points, starter, starter_sd)
     check_roster(file, players, of_league, points)
-    if scale is None:
+    if scale is None and file.scale is not None:
+        warnings += _other_chart(file.scale, of_league)
+    elif scale is None:
         remedy = "if they are on another scale, name it with --scale"
         warnings += league_doubts(points, file.roster.rating, remedy)
     if starter is None:
@@ -156,6 +161,19 @@ def _scale(name: str | None, chart: AnyChart | None) -> Scale:
         )
     of_chart = "" if chart is None else chart.name.partition("_")[0]
     return SCALES.get(of_chart, SCALES["npl"])
+
+
+def _other_chart(stated: Scale, chart: AnyChart | None) -> list[str]:
+    """Return a warning if a chart is made for another scale than the one of the ratings."""
+    from evenbreak.answers.scale_words import scale_words
+
+    made_for = None if chart is None else SCALES.get(chart.name.partition("_")[0])
+    if chart is None or made_for is None or made_for.same_points(stated):
+        return []
+    return [
+        f"the ratings are {scale_words(stated)}, but {chart.name} is made for ratings "
+        f"{scale_words(made_for)}"
+    ]
 
 
 def _with_starters(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.answer import Answer
-from evenbreak.cli.kit.systems import chart_by_difference
+from evenbreak.cli.kit.systems import chart_by_difference, refuse_other_scale
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import DataError
@@ -33,6 +33,7 @@ def rate_by_system(
         refuse("- stands for standard input, which only one file can be; name the others")
     by_chart = None if chart is None else chart_by_difference("--chart", chart)
     last = files.read_roster(roster)
+    refuse_other_scale(last, system.scale, f"the system {system.name}", "give another --system")
     tonight = files.read_results(path, aliases=aliases)
     if by_chart is None:
         by_chart = handicaps.chart_of_night(system, last.roster, tonight.results)

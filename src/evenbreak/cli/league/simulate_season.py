@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from evenbreak import files, league
-from evenbreak.cli.kit.systems import chart_for, on_scale
+from evenbreak.cli.kit.systems import chart_for, on_scale, refuse_other_scale
 from evenbreak.cli.kit.values import refuse
 
 WEEKS = 30
@@ -41,6 +41,7 @@ def season_of_options(
     from evenbreak.answers.scale_doubts import league_doubts
 
     system = on_scale(played["system"], played["scale"])
+    refuse_other_scale(file, system.scale, f"the system {system.name}", "set it with --scale")
     chart, of_chart = chart_for(system, played["chart"])
     schedule, weeks, of_schedule = _schedule(file, played)
     play = "racks" if played["racks"] else "matches"

@@ -7,7 +7,7 @@ import click
 from evenbreak import files, games, practice
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import seed_option
+from evenbreak.cli.kit.options import drill_option, seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, Whole, numbers, refuse
 
@@ -55,6 +55,7 @@ _chances = numbers(
     metavar="N",
     help="How many levels there are.  [default: 9 with --p, the highest in the log with --log]",
 )
+@drill_option
 @seed_option(f"The seed of the simulations that test a log.  [default: {SEED}]", default=None)
 @plot_option
 @faces()
@@ -63,6 +64,7 @@ def command(
     success: tuple[float, ...] | None,
     log: str | None,
     levels: int | None,
+    drill: str | None,
     seed: int | None,
     plot: str | None,
 ) -> Answer:
@@ -70,7 +72,7 @@ def command(
 
     A success leads one level up, a miss one level down. Describe the drill by --p,
     --success or --log. LOG.csv has the columns level and success, and session or date
-    if there are several sessions.
+    if there are several sessions, and drill if there are several drills.
     """
     if sum(which is not None for which in (p, success, log)) != 1:
         refuse("give exactly one of --p, --success and --log")
@@ -78,17 +80,19 @@ def command(
         refuse("--success already says how many levels there are; leave --levels out")
     if log is None and seed is not None:
         refuse("--seed is for the tests of --log; leave it out")
+    if log is None and drill is not None:
+        refuse("--drill names a drill of --log; leave it out")
     if log is not None:
-        return _log(log, levels, SEED if seed is None else seed, plot)
+        return _log(log, levels, drill, SEED if seed is None else seed, plot)
     from evenbreak.answers.drill import drill_answer
 
     if p is None:
-        drill = games.Drill(success or ())
+        played = games.Drill(success or ())
         description = "A drill with the given chance of success at each level"
     else:
-        drill = games.Drill.progressive(p, LEVELS if levels is None else levels)
+        played = games.Drill.progressive(p, LEVELS if levels is None else levels)
         description = f"A drill in which level i takes i - 1 good shots, each with chance {p:g}"
-    statistics = practice.drill_statistics(drill)
+    statistics = practice.drill_statistics(played)
     if plot is not None:
         from evenbreak.plots.drills import drill_figure
 
@@ -96,12 +100,12 @@ def command(
     return drill_answer(statistics, description)
 
 
-def _log(path: str, levels: int | None, seed: int, plot: str | None) -> Answer:
+def _log(path: str, levels: int | None, drill: str | None, seed: int, plot: str | None) -> Answer:
     import numpy as np
 
     from evenbreak.answers.drill_log import drill_log_answer
 
-    file = files.read_drill_log(path, levels=levels)
+    file = files.read_drill_log(path, levels=levels, drill=drill)
     replicas = min(1999, max(199, MOST_DRAWS // len(file.log)))
     analysis = practice.analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
     if plot is not None:

@@ -9,6 +9,7 @@ import click
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.wording import count_of
 from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import drill_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.errors import DataError
@@ -42,15 +43,21 @@ Examples:
     default=0.95,
     help="The confidence of the intervals.",
 )
+@drill_option
 @plot_option
 @faces()
 def command(
-    scores: str, new: float | None, versus: str | None, confidence: float, plot: str | None
+    scores: str,
+    new: float | None,
+    versus: str | None,
+    confidence: float,
+    drill: str | None,
+    plot: str | None,
 ) -> Answer:
     """Find out from the scores of a drill whether you are getting better.
 
     With --new: was one more score luck? With --versus: did something help? SCORES.csv has
-    a column score and, if known, a column date; - reads standard input.
+    a column score and, if known, the columns date and drill; - reads standard input.
     """
     from evenbreak.files.scores import read_scores
 
@@ -58,9 +65,9 @@ def command(
         refuse("--new and --versus cannot be combined; leave one out")
     if scores == versus == "-":
         refuse("only one list can come from standard input; name a file for the other")
-    file = read_scores(scores)
+    file = read_scores(scores, drill=drill)
     if versus is not None:
-        return _versus(file, read_scores(versus), confidence, plot)
+        return _versus(file, read_scores(versus, drill=drill), confidence, plot)
     return _one_list(file, new, confidence, plot)
 
 

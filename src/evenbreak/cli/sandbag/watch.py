@@ -9,7 +9,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, chart_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.systems import system_option
+from evenbreak.cli.kit.systems import refuse_other_scale, system_option
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.sandbag.options import watch_options, watched_ladder
 
@@ -38,7 +38,7 @@ Examples:
     multiple=True,
     metavar="EVENT",
     help="An event that counts for little; dumped matches are then looked for only there. Can be "
-    "repeated.",
+    "repeated.  [default: each event of the file is tried]",
 )
 @click.option(
     "--player", metavar="NAME", help="Show what each match of one player adds to the evidence."
@@ -69,19 +69,27 @@ def command(
     """
     from evenbreak.answers.sandbag_watch import sandbag_player_answer, sandbag_watch_answer
     from evenbreak.answers.scale_doubts import league_doubts
-    from evenbreak.answers.season_nights import events_marked, nights_of_files
+    from evenbreak.answers.season_nights import events_marked, events_to_try, nights_of_files
 
     if [results, roster, chart, aliases].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
     ladder, warnings = watched_ladder(system, chart, day_sd)
     first, season = files.read_roster(roster), files.read_results(results, aliases=aliases)
+    refuse_other_scale(first, system.scale, f"the system {system.name}", "give another --system")
     warnings += [*first.warnings, *season.warnings]
     warnings += league_doubts(system.scale, first.roster.rating, "set the scale with --system")
     marked = events_marked(season.results, events) if events else None
     # Without --chart the results must state the races or the winners.
     nights = nights_of_files(system, first, season, chart=ladder.chart if chart else None)
     found = league.watch(
-        nights, system, ladder.law(), alpha=alpha, honest=honest, marked=marked, day_sd=day_sd
+        nights,
+        system,
+        ladder.law(),
+        alpha=alpha,
+        honest=honest,
+        marked=marked,
+        tried=None if events else events_to_try(season.results),
+        day_sd=day_sd,
     )
     if player is not None:
         found = [one for one in found if one.player == player]
