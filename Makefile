@@ -16,7 +16,7 @@ types:
 	$(PYTHON) -m mypy
 
 test:             ## tests and every docstring's, README's and page's example
-	$(PYTHON) -m pytest -q
+	$(PYTHON) -m pytest -q -n logical
 
 layers:           ## imports in one direction, files and terminal only at the end
 	$(PYTHON) -m pytest -q tests/test_layers.py

@@ -51,10 +51,10 @@ def rows() -> list[tuple[str, list[str]]]:
 
 
 def test_each_problem_has_a_row_with_the_names_whose_docstrings_name_it() -> None:
-    told = [(first, names) for first, names in rows() if first.startswith("P")]
-    assert [problem for problem, _ in told] == PROBLEMS
+    listed = [(first, names) for first, names in rows() if first.startswith("P")]
+    assert [problem for problem, _ in listed] == PROBLEMS
     wanted = named_in_docstrings()
-    assert {problem: sorted(names) for problem, names in told} == {
+    assert {problem: sorted(names) for problem, names in listed} == {
         problem: sorted(names) for problem, names in wanted.items()
     }
     assert all(wanted.values())

@@ -51,7 +51,7 @@ class ArcArrays(NamedTuple):
     `sources[k]` and `targets[k]` are positions in `states`; `probabilities[k]` > 0 is the
     probability of the target, given the source. States without arcs are terminal. A game
     may have a method `arcs()` that returns these, for the start and every state that can
-    be reached from it, or None if its moves have to be walked.
+    be reached from it, or None if they have to be found by its moves.
     """
 
     states: Sequence[Any]
@@ -66,8 +66,8 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     Parameters
     ----------
     game
-        the game. If it has arrays of its own, these are used; otherwise its moves are
-        walked breadth-first. Moves of probability zero are left out.
+        the game. If it has arrays of its own, these are used; otherwise its states are
+        found move by move, breadth-first. Moves of probability zero are left out.
     start
         the state to start from; None: the game's own start.
     max_states

@@ -39,7 +39,9 @@ def test_everybody_is_rated_the_strongest_first(season):
         "won",
         "lost",
         "component",
+        "scale",
     ]
+    assert set(frame["scale"]) == {"fargo"}
     # Di and Ed, who only forfeited, stand at the anchor and keep the order of names.
     assert frame["player"].tolist() == ["Ann", "Di", "Ed", "Bo", "Cy"]
     assert frame["games"].tolist() == [21, 0, 0, 23, 22]

@@ -10,8 +10,8 @@ from evenbreak.errors import DataError, InputError
 from evenbreak.files.roster import read_roster
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.fair import fair_races
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from evenbreak.handicaps.charts.level_chart import level_chart
-from evenbreak.handicaps.charts.uncertain import win_given_ratings
 from evenbreak.matches.races import race_odds
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import SCALES, scale_of

@@ -6,7 +6,7 @@ from evenbreak.answers import round as module
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.matches.evening import evening
 from evenbreak.ratings.roster import Roster
-from leagues import CLUB, round_of
+from leagues import round_of
 
 OFFERED = OfferedRaces((7, 13))
 
@@ -24,11 +24,6 @@ def test_parts_are_the_whole(monkeypatch):
     assert list(map(len, parts)) == [4, 2]
     whole = tonight.matchups.frame
     pd.testing.assert_frame_equal(pd.concat(parts, ignore_index=True), whole, rtol=1e-12)
-
-
-def test_only_players_who_meet_somebody_are_named():
-    assert round_of(pairs=[[0, 1]]).names == {"Ann", "Bo"}
-    assert round_of().names == set(CLUB.players)
 
 
 def test_the_evening_is_that_of_the_races_lengths():

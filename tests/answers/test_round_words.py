@@ -5,11 +5,11 @@ from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.round import EveningEnd
 from evenbreak.answers.round_words import (
     about_method,
-    about_model,
     about_pairs,
     about_players,
     doubtful,
     evening_words,
+    game_model,
     least_even,
     races_of,
     which_races,
@@ -24,7 +24,7 @@ def test_the_least_even_race_is_the_furthest_from_a_half():
     worst = frame.iloc[frame["chart_unfairness"].argmax()]
     assert worst.player_a in text
     assert worst.player_b in text
-    assert f"{50 + 100 * worst.chart_unfairness:.0f} %" in text
+    assert f"{50 + 100 * worst.chart_unfairness:.0f}%" in text
 
 
 def test_races_say_where_they_come_from():
@@ -88,4 +88,4 @@ def test_the_method_is_said_as_far_as_it_was_used():
     timed = [str(remark) for remark in about_method(round_of(minutes_per_game=8.0, tables=2))]
     assert any(text.startswith("8 minutes a game") for text in timed)
     assert any("50,000 simulated evenings" in text for text in timed)
-    assert "d/30" in about_model(round_of())
+    assert "d/30" in game_model(round_of())

@@ -68,7 +68,7 @@ def test_wins_and_lengths_are_one_distribution():
     [
         ({"p1": 1.5}, "p1 is 1.5, not a probability"),
         ({"p1": float("nan")}, "p1 is nan, not a probability"),
-        ({"p1": [0.5, 0.6]}, r"p1 is \[0.5, 0.6\]; give one number"),
+        ({"p1": [0.5, 0.6]}, r"p1 is an array; give one number"),
         ({"p2": 0.5, "breaks": lambda b, w: b + w}, "the next breaker, is 3; give 1"),
         ({"p2": 0.5, "breaks": "winner"}, "breaks is 'winner'; give a break format"),
         ({"m": -1}, "m is -1; give a whole number"),

@@ -12,7 +12,7 @@ MATCHES = [
 ]
 
 
-@pytest.mark.parametrize("match", MATCHES, ids=str)
+@pytest.mark.parametrize("match", MATCHES, ids=lambda match: type(match).__name__)
 def test_the_moves_are_those_of_the_match(match):
     for state, moves in rack_moves(match).items():
         assert dict(moves) == match.moves(state)

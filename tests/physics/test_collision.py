@@ -254,8 +254,8 @@ def test_arrays_broadcast_and_scalars_stay_scalars() -> None:
     ("shot", "options", "said"),
     [
         ((-0.1,), {}, "cut is -0.1"),
-        (([0.1, 1.6],), {}, "cut holds values from 0.1 to 1.6"),
-        ((0.1,), {"speed": -1.0}, "speed is -1.0; give a finite number, 0 or more"),
+        (([0.1, 1.6],), {}, "cut holds 1.6"),
+        ((0.1,), {"speed": -1.0}, "speed is -1.0"),
         ((0.1,), {"mu": math.nan}, "mu is nan"),
         ((0.1,), {"friction": "Shepard's"}, "friction is"),
     ],

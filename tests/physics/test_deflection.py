@@ -157,7 +157,7 @@ def test_arrays_broadcast_and_scalars_stay_scalars() -> None:
 def test_refusals() -> None:
     with pytest.raises(InputError, match=r"cut is -0\.1"):
         deflection(-0.1)
-    with pytest.raises(InputError, match=r"topspin is 0\.0; give a finite number above 0"):
+    with pytest.raises(InputError, match=r"topspin is 0\.0; give a number"):
         largest_deflection_cut(0.0)
     with pytest.raises(InputError, match=r"topspin is 2\.6"):
         unit_slope_cut(2.6)

@@ -43,7 +43,7 @@ def test_power_is_the_rate_of_energy(speed: float, friction: float) -> None:
 
 
 @given(speeds, frictions)
-def test_a_block_that_has_stopped_tells_its_friction(speed: float, friction: float) -> None:
+def test_the_stop_of_a_block_gives_its_friction(speed: float, friction: float) -> None:
     gravity = 9.81
     time = speed / (friction * gravity)
     distance = sliding_distance(speed, friction, 2.0 * time, gravity=gravity)
@@ -59,7 +59,7 @@ def test_a_tip_slips_where_its_friction_ends(friction: float) -> None:
     assert friction_of_incline(math.asin(offset)) == pytest.approx(friction, abs=1e-9)
 
 
-def test_throw_of_a_stun_shot_tells_the_friction_that_made_it() -> None:
+def test_the_throw_of_a_stun_shot_gives_its_friction() -> None:
     angle = throw_angle(0.6, 0.0, mu=0.05)
     assert friction_of_throw(72.0 * math.tan(angle), 72.0) == pytest.approx(0.05)
 

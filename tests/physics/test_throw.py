@@ -117,7 +117,7 @@ def test_sensitivity_is_the_gradient(cut: float, topspin: float, side: float) ->
 
 
 @given(st.floats(0.0, 1.4), st.floats(-1.5, 1.5), st.floats(-1.0, 1.0), laws)
-def test_who_aims_so_is_thrown_where_he_wanted(
+def test_a_shot_aimed_so_is_thrown_to_its_target(
     cut: float, topspin: float, side: float, law: str
 ) -> None:
     found = aim(cut, 1.0, topspin, side, friction=law)
@@ -137,7 +137,7 @@ def test_a_full_hit_without_english_is_aimed_straight() -> None:
 
 
 def test_no_cut_is_thinner_than_a_right_angle() -> None:
-    with pytest.raises(InputError, match="cut is so thin"):
+    with pytest.raises(InputError, match="cut is too thin"):
         aim(math.pi / 2.0, 1.0, 0.0)
 
 

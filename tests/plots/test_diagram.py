@@ -113,18 +113,17 @@ def test_numbers_do_not_cover_each_other_or_leave_the_picture(game: Game) -> Non
     assert all(hypot(a[0] - b[0], a[1] - b[1]) > 0.1 for a, b in itertools.combinations(spots, 2))
 
 
-@pytest.mark.parametrize("kind", ["png", "svg"])
-def test_files_are_the_same_to_the_byte(kind: str) -> None:
+def test_files_are_the_same_to_the_byte() -> None:
     code = (
         "import sys\nfrom evenbreak.games import OneBallLookAhead\n"
         "from evenbreak.plots.diagram import draw, image_bytes\n"
         "figure = draw(OneBallLookAhead([0.4, 0.8]), title='Two shots')\n"
-        f"sys.stdout.buffer.write(image_bytes(figure, {kind!r}))"
+        "for kind in ('png', 'svg', 'png', 'svg'):\n"
+        "    sys.stdout.buffer.write(image_bytes(figure, kind))"
     )
     elsewhere = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
     figure = draw(OneBallLookAhead([0.4, 0.8]), title="Two shots")
-    assert image_bytes(figure, kind) == elsewhere.stdout
-    assert image_bytes(figure, kind) == elsewhere.stdout
+    assert 2 * (image_bytes(figure, "png") + image_bytes(figure, "svg")) == elsewhere.stdout
 
 
 def test_a_diagram_that_nobody_could_read_is_refused() -> None:

@@ -8,13 +8,8 @@ from fractions import Fraction
 import pytest
 
 from evenbreak.physics import collide, gearing_side, gearing_tip, roll_side
-from evenbreak.source_text.physics.numbers import (
-    ANSWERS,
-    compute,
-    physics_findings,
-    place_of,
-    verdict_of,
-)
+from evenbreak.source_text.answers import PHYSICS, compute, physics_findings
+from evenbreak.source_text.physics.page import place_of
 from evenbreak.source_text.published import PublishedNumber, physics_errata, physics_numbers
 from places import SHARED
 
@@ -112,7 +107,8 @@ def test_every_number_of_the_list_is_here_in_its_order() -> None:
 
 
 def test_all_that_is_computed_is_asked_for() -> None:
-    assert set(ANSWERS) <= {row[:2] for row in NUMBERS}
+    answered = {key for part in PHYSICS for key in part.ANSWERS}
+    assert answered <= {row[:2] for row in NUMBERS}
     unknown = {row.quantity for row in NUMBERS if FOUND[row[:3]].computed is None}
     assert unknown == {
         "table speed of new worsted cloth, least",
@@ -217,16 +213,16 @@ def test_every_slip_of_the_list_is_here() -> None:
     listed = Counter(
         places.get(row["where"]) or place_of(row["where"]) for row in seed_rows("errata.csv")
     )
-    # Of what the list has on P4.12 two are told in one row, and here apart; so are two remarks.
+    # Of what the list has on P4.12 two are in one row, and here in two; so are two remarks.
     assert {place: count for place, count in listed.items() if ours.count(place) < count} == {}
 
 
 def test_every_number_called_a_slip_is_among_them() -> None:
-    told = {place_of(slip.where) for slip in physics_errata()}
-    told |= {(4, 10)}  # told with P4.3
+    listed = {place_of(slip.where) for slip in physics_errata()}
+    listed |= {(4, 10)}  # listed with P4.3
     for row in NUMBERS:
         if row.verdict == "erratum" and not row.problem.startswith("Section"):
-            assert place_of(row.problem) in told, row
+            assert place_of(row.problem) in listed, row
     assert len(physics_errata()) == len(set(physics_errata()))
 
 
@@ -239,21 +235,3 @@ def test_order_is_that_of_the_text() -> None:
     assert {(3, n) for n in range(1, 12)} <= set(first)
     assert {(2, n) for n in range(1, 7)} <= set(first)
     assert {(1, n) for n in range(1, 8)} <= set(first)
-
-
-def test_verdict_of_a_number_that_moves() -> None:
-    row = next(row for row in NUMBERS if row.quantity == "alpha_crit, deg")
-    assert verdict_of(row, 14.9634) == "agrees"
-    assert verdict_of(row, 14.97) == "differs"
-    assert verdict_of(row, None) == "differs"
-    assert verdict_of(row._replace(verdict="given"), None) == "given"
-    assert verdict_of(row._replace(verdict="given"), 15.0) == "differs"
-    assert verdict_of(row._replace(verdict="formula"), 14.9634) == "formula"
-    assert verdict_of(row._replace(verdict="erratum"), 14.9634) == "agrees"
-    assert verdict_of(row._replace(verdict="erratum"), 14.97) == "erratum"
-    assert verdict_of(row._replace(printed=None), 0.5) == "derived"
-
-
-def test_unknown_quantity_is_a_key_error() -> None:
-    with pytest.raises(KeyError):
-        compute("P4.17", "phi, deg", "alpha=30deg")

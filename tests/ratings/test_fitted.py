@@ -189,7 +189,7 @@ def test_a_component_without_a_named_player_stays_at_the_centre():
 @pytest.mark.parametrize(
     ("anchor", "words"),
     [
-        ({"X": 80}, "'X' is not among the players"),
+        ({"X": 80}, "'X'"),
         ({"A": math.nan}, "anchor of 'A' is nan"),
         ({"A": "high"}, "anchor of 'A' is 'high'"),
         ("high", "anchor is 'high'"),

@@ -75,7 +75,7 @@ def test_decay_enters_the_choice():
     [
         (None, "2 of 2 matches have no date"),
         (["2026-01-01", "NaT"], "1 of 2 matches have no date"),
-        (["2026-01-01"] * 2, "no two days"),
+        (["2026-01-01"] * 2, "two days"),
     ],
 )
 def test_days_are_needed(dates, words):

@@ -8,7 +8,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.ratings import Results, validate
 from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.validate import PRIORS
+from evenbreak.ratings.scored import PRIORS
 
 
 def season(spread: float, *, matches: int = 900, seed: int = 1) -> Results:
@@ -56,17 +56,18 @@ def test_choosing_the_prior_as_it_goes_costs_little_but_something(found):
 
 
 def test_bins_hold_every_game_with_a_favourite(found):
-    told = found.forecasts
+    forecasts = found.forecasts
     assert (
-        sum(row.games for row in found.games) == told.games[np.abs(told.p_game - 0.5) > 1e-9].sum()
+        sum(row.games for row in found.games)
+        == forecasts.games[np.abs(forecasts.p_game - 0.5) > 1e-9].sum()
     )
 
 
 def test_matches_without_a_favourite_are_counted(found):
-    told = found.forecasts
-    even = np.abs(told.p_game - 0.5) <= 1e-9
+    forecasts = found.forecasts
+    even = np.abs(forecasts.p_game - 0.5) <= 1e-9
     assert found.toss_ups["game"] == even.sum() > 0
-    assert sum(row.matches for row in found.games) + even.sum() == len(told)
+    assert sum(row.matches for row in found.games) + even.sum() == len(forecasts)
 
 
 def test_the_usual_prior_is_judged_beside_the_best(found):
@@ -87,10 +88,10 @@ def test_a_slope_of_a_few_matches_is_withheld():
     assert all(row.slope is None for row in found.scored)
 
 
-def test_what_is_done_next_is_told():
-    said = []
-    validate(season(0.6, matches=90), prior_sd=0.8, progress=said.append)
-    assert [words.split()[0] for words in said] == ["Predicting", "Comparing"]
+def test_progress_is_reported():
+    steps = []
+    validate(season(0.6, matches=90), prior_sd=0.8, progress=lambda *step: steps.append(step))
+    assert steps == [(done, 6) for done in range(1, 7)]
 
 
 def test_the_same_seed_gives_the_same_figures(found):
@@ -107,12 +108,12 @@ def test_a_given_prior_is_used_throughout():
 
 
 def test_one_date_is_refused():
-    with pytest.raises(InputError, match="give two dates"):
+    with pytest.raises(InputError, match="1 date"):
         validate(season(0.6, matches=45))
 
 
 def test_a_chance_that_rounds_to_certainty_may_still_fail():
-    """With hardly a prior who has always won cannot lose, and then does."""
+    """With hardly a prior a player who has always won cannot lose, and then does."""
     results = Results.from_names(
         ["Ann"] * 4, ["Bo"] * 4, [9, 9, 9, 0], [0, 0, 0, 9],
         date=[f"2024-09-0{day}" for day in range(1, 5)],

@@ -1,9 +1,8 @@
 """The chart by rating difference that the fairest races come to."""
 
-from __future__ import annotations
-
 import math
-from typing import Any, NamedTuple
+from bisect import bisect_left
+from typing import NamedTuple
 
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.scale_words import decimals_of
@@ -74,7 +73,8 @@ def chart_bands(offered: OfferedRaces, scale: Scale, furthest: float) -> list[Ba
     bands: list[Band] = []
     first, needs = 0, race(0)
     while first < last:
-        after = _first_other(race, first, last, needs)
+        beyond = range(last)
+        after = bisect_left(beyond, True, first + 1, last, key=lambda step: race(step) != needs)
         bands.append(
             Band(
                 round(first * unit, decimals),
@@ -86,15 +86,3 @@ def chart_bands(offered: OfferedRaces, scale: Scale, furthest: float) -> list[Ba
         )
         first, needs = after, race(after)
     return bands
-
-
-def _first_other(race: Any, first: int, last: int, needs: tuple[int, int]) -> int:
-    """Return the first step after `first` with another race, or `last`: no race comes twice."""
-    low, high = first, last
-    while high - low > 1:
-        middle = (low + high) // 2
-        if race(middle) == needs:
-            low = middle
-        else:
-            high = middle
-    return high

@@ -1,15 +1,13 @@
 """Choosing the players of a sheet: by name, or those who play most."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.files.known_names import KnownNames
+from evenbreak.files.player_names import clean_name
 from evenbreak.files.problems import quoted
-from evenbreak.files.results_columns import clean_name
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
 

@@ -1,17 +1,12 @@
 """The comeback table: a player's chance at every score that can still come."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Column, Part, Table
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.games.ahead import Ahead
+from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack
-
-if TYPE_CHECKING:
-    from evenbreak.games.match import Match
-    from evenbreak.matches.live import LiveOdds
+from evenbreak.matches.live import LiveOdds
 
 Score = tuple[int, int]
 Cells = Mapping[Score, float]

@@ -1,17 +1,13 @@
 """The fairest race of each pair of rated players."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING
+
+import pandas as pd
 
 from evenbreak.answers.chosen_players import by_strength
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.ratings.fitted import Ratings
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 NOT_LINKED = "no race: no chain of opponents links the two"
 
@@ -33,12 +29,10 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
     pandas.DataFrame
         player_a, player_b; p_game_a = P(a wins a game | the ratings are right); race_a,
         race_b, the games that each needs; p_win_a = P(a wins that race); mean_games and
-        games_p90, its mean length and the games within which 90 % of such races end;
+        games_p90, its mean length and the games within which 90% of such races end;
         note. Where no chain of opponents links the two, their ratings cannot be
         compared: there are no numbers then, and the note says so.
     """
-    import pandas as pd
-
     rows = [_row(ratings, a, b, offered) for a, b in combinations(by_strength(ratings, players), 2)]
     columns = {
         "player_a": "object",

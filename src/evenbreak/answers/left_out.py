@@ -1,7 +1,5 @@
 """What a fair-race sheet does not include, and why."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
@@ -56,7 +54,7 @@ def _unlinked(sheet: Sheet) -> Iterator[Remark]:
             "rated at the mean until there are results",
             idle,
         )
-    why = "nothing links the two, not even opponents of opponents"
+    why = "no chain of opponents links them"
     if apart := int(sheet.paired["race_a"].isna().sum()):
         yield Remark(f"the races of {count_of(apart, 'pair')}", why)
     elif (groups := count_groups(ratings)) > 1:
@@ -79,5 +77,5 @@ def _not_shown(sheet: Sheet, listed: int | None, in_table: int | None) -> Iterat
     if paired < rated:
         yield Remark(
             f"the races of {count_of(rated - paired, 'rated player')}",
-            "not chosen to be paired; ratings.csv has their ratings",
+            "they were not chosen; ratings.csv has their ratings",
         )

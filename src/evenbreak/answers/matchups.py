@@ -1,21 +1,22 @@
 """Which race each pair of a round plays, who wins it how often, and how long it takes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+import pandas as pd
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.round import AT_A_TIME, Round
 from evenbreak.answers.round_words import (
     about_method,
-    about_model,
     about_pairs,
     about_players,
     doubtful,
     evening_words,
+    game_model,
     least_even,
     races_of,
     which_races,
@@ -23,9 +24,6 @@ from evenbreak.answers.round_words import (
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.wording import chance, decimals, race
 from evenbreak.files.csv_writer import rows_of
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
@@ -45,7 +43,8 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
     >>> asked = {"scale": SCALES["npl"], "chart": chart("npl_10")}
     >>> tonight = Round(file=file, roster=club, pairs=all_pairs(club), **asked)
     >>> matchups_answer(tonight).sentences[0]
-    'Races by the chart npl_10. The race is 6:4 for Ann against Bo: Ann wins 53 % of the time.'
+    'The races come from the chart npl_10. The race is 6:4 for Ann against Bo: Ann wins 53% of
+    the time.'
     """
     at_once = len(tonight.pairs) <= AT_A_TIME
     frame = tonight.matchups.frame if at_once else None
@@ -58,13 +57,13 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
         parts.append("\n".join(map(evening_words, tonight.evening)))
     parts.append(table)
     if doubtful(tonight):
-        parts.append("A wins: the chance, averaged over how far the ratings may be off.")
+        parts.append("'A wins' is averaged over how far the ratings may be off.")
     remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
     parts += ["\n".join(f"- {remark}" for remark in remarks)] if remarks else []
     return Answer(
         f"Races for {file_name(tonight.file)}\nRatings {scale_words(tonight.scale)}",
         parts,
-        details=["\n".join([*map(str, about_method(tonight)), about_model(tonight)])],
+        details=["\n".join([*map(str, about_method(tonight)), game_model(tonight)])],
         warnings=[*tonight.file.warnings, *warnings],
         data={"evening": tonight.evening},
         csv=table,

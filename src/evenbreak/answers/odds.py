@@ -1,19 +1,13 @@
 """The chances of a match, and its length."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Quantities, Quantity
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.games.ahead import Ahead
+from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack
-from evenbreak.matches.odds import match_odds
-
-if TYPE_CHECKING:
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.games.match import Match
-    from evenbreak.matches.odds import MatchOdds
+from evenbreak.matches.odds import MatchOdds, match_odds
 
 
 def odds_answer(players: TwoPlayers, match: Match) -> Answer:
@@ -23,8 +17,8 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     >>> from evenbreak.games import Race
     >>> answer = odds_answer(TwoPlayers(Rack(0.6)), Race(7, 5, Rack(0.6)))
     >>> print(answer.sentences[0])
-    A wins the match 53 % of the time.
-    It lasts 9.3 games on average, and 9 of 10 such matches end within 11.
+    A wins the match 53% of the time.
+    It lasts 9.3 games on average, and 9 out of 10 such matches end within 11.
     """
     odds = match_odds(match)
     a, b = players.names
@@ -45,9 +39,12 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
         Quantity("mean_games", odds.mean_games, "games, on average", games),
         Quantity("sd_games", odds.sd_games, "games, standard deviation", games, detail=True),
         Quantity("games_p50", odds.games_p50, "half of the matches end within", games),
-        Quantity("games_p90", odds.games_p90, "9 of 10 matches end within", games),
+        Quantity("games_p90", odds.games_p90, "9 out of 10 matches end within", games),
         Quantity(
-            "p_hill_hill", odds.p_hill_hill, "hill-hill: the last possible game decides", chance
+            "p_hill_hill",
+            odds.p_hill_hill,
+            "it goes hill-hill: the last possible game decides",
+            chance,
         ),
         Quantity(
             "p_shutout_a", odds.p_shutout_1, f"{a} wins without losing a game{from_now}", chance
@@ -79,8 +76,8 @@ def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
     length = decimals(1)(odds.mean_games) if odds.mean_games < 1e6 else games(odds.mean_games)
     more = " more" if any(match.score) else ""
     return (
-        f"{text}\nIt lasts {length}{more} games on average, and 9 of 10 such matches end within "
-        f"{odds.games_p90:,}."
+        f"{text}\nIt lasts {length}{more} games on average, and 9 out of 10 such matches end "
+        f"within {odds.games_p90:,}."
     )
 
 

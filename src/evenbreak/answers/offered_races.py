@@ -1,7 +1,5 @@
 """Which races players are offered, and the fairest of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from evenbreak.answers.wording import count_of
@@ -51,5 +49,5 @@ class OfferedRaces:
             return f"The fairest races in which the stronger player needs {needs}."
         low, high = self.games
         span = f"{low:,} to " if low < high else ""
-        text = f"The fairest races whose longest possible match has {span}{count_of(high, 'game')}"
-        return f"{text}; each pair gets the most even of them." if low < high else f"{text}."
+        text = f"The fairest races whose longest match has {span}{count_of(high, 'game')}"
+        return f"{text}; each pair gets the most even one." if low < high else f"{text}."

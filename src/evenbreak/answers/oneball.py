@@ -1,16 +1,12 @@
 """Which shot to take in the one-ball game."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import chance, count_of, listed, percent
-from evenbreak.practice.shots import compare_shots, critical_p2
-
-if TYPE_CHECKING:
-    from evenbreak.practice.shots import RankedShot, ShotChoice
+from evenbreak.practice.shots import RankedShot, ShotChoice, compare_shots, critical_p2
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""
@@ -45,23 +41,23 @@ def oneball_answer(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite")
 
     >>> from evenbreak.practice import ShotChoice
     >>> print(oneball_answer([ShotChoice("1", 0.4, 0.8), ShotChoice("2", 0.3, 0.3)]).sentences[0])
-    Take shot 2: you win 59 % of the time, against 45 % with shot 1.
-    Shot 2 stays the best as long as it leaves the opponent a chance below 0.5143.
+    Take shot 2: you win 59% of the time, against 45% with shot 1.
+    Shot 2 stays the best as long as a miss leaves the opponent a chance below 0.5143.
     """
     ranked = compare_shots(shots, look_ahead=look_ahead)
     (other,) = (name for name in _SUPPOSED if name != look_ahead)
     otherwise = compare_shots(shots, look_ahead=other)
     shot = ranked[0].shot
     heading = (
-        f"You make the shot with probability {shot.p1:g}; if you miss, the opponent makes theirs "
+        f"You make the shot with probability {shot.p1:g}; after a miss, the opponent makes theirs "
         f"with {shot.p2:g}"
     )
-    words = "'Even at': the chance left by a miss that makes the game even."
+    words = "'Even at': the game is even if a miss leaves the opponent this chance."
     if len(ranked) > 1:
         heading = f"You shoot first and have {count_of(len(ranked), 'shot')} to choose from"
         words = (
-            f"Ranked by your chance {_SUPPOSED[look_ahead]}. {words} 'Best up to': the chance left "
-            "by a miss below which the shot is the best."
+            f"The shots are ranked by your chance {_SUPPOSED[look_ahead]}. {words} 'Best up to': "
+            "the shot is the best one if a miss leaves less than this."
         )
     return Answer(
         heading,
@@ -112,9 +108,9 @@ def _advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot], suppo
         f"Shot {name} stays the best "
     )
     if best.turning_p2 is None:
-        text += "whatever it leaves."
+        text += "whatever a miss leaves."
     else:
-        text += f"as long as it leaves the opponent a chance below {chance(best.turning_p2)}."
+        text += f"as long as a miss leaves the opponent a chance below {chance(best.turning_p2)}."
     if next(one for one in otherwise if one.shot is best.shot).behind > SAME:
         text += f"\nBut {supposed}, shot {otherwise[0].shot.name} is better."
     return text

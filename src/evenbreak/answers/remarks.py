@@ -1,7 +1,5 @@
 """Remarks: what a sheet leaves out or takes for granted, and why."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 

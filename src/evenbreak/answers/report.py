@@ -1,27 +1,25 @@
 """The fair-race sheet as an answer: the races, the ratings behind them, what was left out."""
 
-from __future__ import annotations
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
+import pandas as pd
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.left_out import left_out
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.scale_words import decimals_of
 from evenbreak.answers.sheet import NO_RACE, Sheet
 from evenbreak.answers.sheet_words import (
-    about_model,
     about_ratings,
     how_even,
     how_rated,
     how_to_read,
     played,
+    rating_model,
     source_and_dates,
 )
 from evenbreak.files.csv_writer import rows_of
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MOST_SHOWN = 30
 """Players whose races are shown; JSON and files hold all."""
@@ -51,7 +49,7 @@ def report_answer(sheet: Sheet) -> Answer:
             _ratings_table(shown),
             *(["\n".join(["Left out:", *(f"- {item}" for item in items)])] if items else []),
         ],
-        details=[about_model(sheet)],
+        details=[rating_model(sheet)],
         csv=Table("matchups", _columns(sheet.paired), rows_of(sheet.paired)),
         data={
             "ratings": _records(sheet.rated),

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from evenbreak.answers.fair_pairs import NOT_LINKED
@@ -15,19 +16,16 @@ from evenbreak.errors import InputError
 from evenbreak.files.problems import Problems, quoted
 from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.level_chart import LevelChart
-from evenbreak.handicaps.charts.uncertain import (
+from evenbreak.handicaps.charts.given_ratings import (
     MOST_DOUBLINGS,
-    fairest_races,
+    fair_races_given_ratings,
     length_given_ratings,
     win_given_ratings,
 )
+from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.matches.evening import Length
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -89,7 +87,7 @@ class Races:
     """The race of each pair, who wins it and how long it lasts.
 
     `p_win` is P(A wins | the ratings and their errors), `plug_in` P(A wins | the ratings are
-    right); `mean` and `p90` are the mean length and the games within which 90 % of such races
+    right); `mean` and `p90` are the mean length and the games within which 90% of such races
     end; `lengths` has the distribution of each race's length.
     """
 
@@ -189,8 +187,6 @@ def roster_matchups(
         if neither a chart nor races are offered, a player has no rating, or the chart has no
         such level.
     """
-    import pandas as pd
-
     if chart is None and offered is None:
         raise InputError("chart and offered are missing; give one of them at least")
     if np.isnan(roster.rating).any():
@@ -213,7 +209,9 @@ def roster_matchups(
         by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
         columns |= _columns("chart_", by_chart, minutes_per_game)
     if offered is not None:
-        found = fairest_races(gap, error, games=offered.games, race_to=offered.race_to, scale=scale)
+        found = fair_races_given_ratings(
+            gap, error, games=offered.games, race_to=offered.race_to, scale=scale
+        )
         best = Races.of(gap, error, *found, scale)
         columns |= _columns("", best, minutes_per_game)
     everyone = {

@@ -1,7 +1,5 @@
 """The races of a round: who meets whom, what they may play, and when it is all over."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -82,11 +80,6 @@ class Round:
         if self.chart is not None:
             by_chart["chart_"] = self.chart
         return by_chart if self.offered is None else {**by_chart, "": self.offered}
-
-    @property
-    def names(self) -> set[str]:
-        """The players who meet somebody."""
-        return {self.roster.players[place] for place in np.unique(self.pairs).tolist()}
 
     def in_parts(self) -> Iterator[RosterMatchups]:
         """Yield the races, so many pairs at a time that memory is no concern."""

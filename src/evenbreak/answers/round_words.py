@@ -1,11 +1,11 @@
 """The sentences of a round's races, each said once for the terminal and the page."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
 
 from evenbreak.answers.fair_pairs import NOT_LINKED
 from evenbreak.answers.offered_races import OfferedRaces
@@ -14,10 +14,6 @@ from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR
 from evenbreak.answers.round import EveningEnd, Round
 from evenbreak.answers.scale_words import game_chance
 from evenbreak.answers.wording import clock, count_of, percent, race
-
-if TYPE_CHECKING:
-    import pandas as pd
-    from numpy.typing import NDArray
 
 FEW_GAMES = 20
 """A rating that rests on fewer games is no more than a guess."""
@@ -36,7 +32,11 @@ def races_of(frame: pd.DataFrame, prefix: str) -> pd.DataFrame:
 def which_races(tonight: Round, prefix: str) -> str:
     """Return where the races of one kind come from."""
     way = tonight.kinds[prefix]
-    return way.in_words if isinstance(way, OfferedRaces) else f"Races by the chart {way.name}."
+    return (
+        way.in_words
+        if isinstance(way, OfferedRaces)
+        else f"The races come from the chart {way.name}."
+    )
 
 
 def least_even(paired: pd.DataFrame) -> str:
@@ -46,7 +46,7 @@ def least_even(paired: pd.DataFrame) -> str:
     >>> pairs = {"player_a": ["Ann", "Cy"], "player_b": ["Bo", "Di"]}
     >>> races = {"race_a": [7, 4], "race_b": [5, 6], "p_win_a": [0.52, 0.41]}
     >>> print(least_even(pd.DataFrame(pairs | races)))
-    The least even is 6:4 for Di against Cy: Di wins 59 % of the time.
+    The least even race is 6:4 for Di against Cy: Di wins 59% of the time.
     """
     offered = paired.dropna(subset=["race_a"])
     if not len(offered):
@@ -55,7 +55,7 @@ def least_even(paired: pd.DataFrame) -> str:
     a, b, needs, p = worst.player_a, worst.player_b, (worst.race_a, worst.race_b), worst.p_win_a
     if p < 0.5:
         a, b, needs, p = b, a, needs[::-1], 1.0 - p
-    which = "The least even is" if len(offered) > 1 else "The race is"
+    which = "The least even race is" if len(offered) > 1 else "The race is"
     return f"{which} {race(needs)} for {a} against {b}: {a} wins {percent(p)} of the time."
 
 
@@ -63,12 +63,13 @@ def evening_words(end: EveningEnd) -> str:
     """Return when an evening ends.
 
     >>> print(evening_words(EveningEnd("chart", 4, 2, 110.2, 120.0, True, 0, 0.0)))
-    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 evenings in 10 end within 2 h 00.
+    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 out of 10 evenings end within
+    2 h 00.
     """
     return (
         f"{KINDS[end.races]}, {count_of(end.matches, 'match', 'matches')} on "
         f"{count_of(end.tables, 'table')} {'take' if end.matches > 1 else 'takes'} "
-        f"{clock(end.mean_minutes)} on average; 9 evenings in 10 end within "
+        f"{clock(end.mean_minutes)} on average; 9 out of 10 evenings end within "
         f"{clock(end.minutes_p90)}."
     )
 
@@ -79,15 +80,14 @@ def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
     if apart:
         yield Remark(
             f"{count_of(len(apart), 'pair')} without a race",
-            "nothing links the two players, not even opponents of opponents, so their ratings "
-            "cannot be compared",
+            "no chain of opponents links the two players, so their ratings cannot be compared",
             apart,
         )
     uneven = _pairs(frame[frame["note"].str.startswith(NOT_FAIR)])
     if uneven:
         yield Remark(
             f"{count_of(len(uneven), 'pair')} without a fair race",
-            f"even the fairest race allowed leaves one of them below {percent(0.5 - FAIR_WITHIN)}",
+            f"even the fairest race allowed leaves one player below {percent(0.5 - FAIR_WITHIN)}",
             uneven,
         )
 
@@ -118,7 +118,7 @@ def about_players(tonight: Round) -> Iterator[Remark]:
         yield _remark(tonight, silent & here, "without a standard error", exact)
     few = (read.games > 0) & (read.games < FEW_GAMES) & silent & here
     if few.any():
-        yield _remark(tonight, few, f"with fewer than {FEW_GAMES} games", f"{exact} all the same")
+        yield _remark(tonight, few, f"with fewer than {FEW_GAMES} games", f"{exact} nevertheless")
 
 
 def _remark(tonight: Round, which: NDArray[np.bool_], what: str, why: str) -> Remark:
@@ -134,9 +134,9 @@ def about_method(tonight: Round) -> Iterator[Remark]:
         )
     if doubtful(tonight):
         yield Remark(
-            "How far a rating may be off (±, one standard error)",
-            "each chance and each length is averaged over it, the errors of two players taken as "
-            "independent and normal",
+            "Uncertainty of the ratings (±, one standard error)",
+            "each chance and each length is averaged over it, with the errors of two players taken "
+            "as independent and normal",
         )
     if tonight.minutes_per_game is not None:
         yield Remark(f"{tonight.minutes_per_game:g} minutes a game", "without pauses")
@@ -154,7 +154,7 @@ def doubtful(tonight: Round) -> bool:
     return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
 
 
-def about_model(tonight: Round) -> str:
-    """Return the model in a sentence."""
+def game_model(tonight: Round) -> str:
+    """Return how a game's chance follows from two ratings, in a sentence."""
     text = game_chance(tonight.scale)
     return f"{text[:1].upper()}{text[1:]}, independently of every other game, whoever breaks."

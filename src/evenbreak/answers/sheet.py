@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import pandas as pd
 
 from evenbreak.answers.chart_bands import Band, chart_bands
 from evenbreak.answers.fair_pairs import matchups_frame
@@ -16,9 +18,6 @@ from evenbreak.answers.wording import race
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 NO_RACE = "-"
 """Stands for the race of two players who cannot be compared."""

@@ -1,19 +1,16 @@
 """How well the rating difference of each pair is known, and what that does to its race."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import pandas as pd
 
 from evenbreak.answers.scale_words import decimals_of
 from evenbreak.answers.wording import race
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.scale import Scale
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 class SurePair(NamedTuple):
@@ -69,7 +66,7 @@ def how_sure(scale: Scale, pairs: Sequence[SurePair]) -> Iterator[str]:
         yield (
             f"{'For half of the pairs, the' if several else 'The'} rating difference is known to "
             f"within {2 * middle.error:.{decimals_of(scale)}f} points (two standard errors)"
-            f"{' or better' if several else ''}. So a race that looks even may in truth favour "
+            f"{' or better' if several else ''}. So a race that looks even may really favour "
             "one of the two:"
         )
 

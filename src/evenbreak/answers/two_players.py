@@ -37,7 +37,7 @@ class TwoPlayers:
 
     >>> from evenbreak.ratings import scale_of
     >>> print(TwoPlayers.rated(612, 521, scale_of("fargo")).description)
-    A rated 612, B rated 521, on the fargo scale (100 points double the odds)
+    A rated 612, B rated 521, on the Fargo scale (100 points double the odds)
     >>> print(TwoPlayers(Rack(0.6, 0.5), "winner", 2).description)
     The breaker wins a game with probability 0.6 (A) or 0.5 (B); winner breaks, B breaks first
     """

@@ -1,11 +1,16 @@
 from .absorption import absorption as absorption
 from .absorption import expected_visits as expected_visits
 from .chain import Chain as Chain
+from .conditioned import conditioned as conditioned
 from .explore import chain_from_arrays as chain_from_arrays
 from .explore import chain_of as chain_of
+from .fit import FittedChain as FittedChain
+from .fit import fit_chain as fit_chain
+from .limit_matrix import limit_matrix as limit_matrix
 from .limits import Limit as Limit
-from .limits import limit_matrix as limit_matrix
 from .limits import stochastic_limit as stochastic_limit
+from .mean_passages import kemeny_constant as kemeny_constant
+from .mean_passages import mean_first_passages as mean_first_passages
 from .mixing import mixing_time as mixing_time
 from .mixing import spectral_gap as spectral_gap
 from .passage_times import PassageTime as PassageTime

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.chains.arcs import reachable
+from evenbreak.chains.arcs import reachable, sums
 from evenbreak.chains.factorisation import Factorisation
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     arrivals = _arrivals(chain, v)
     # Along a very long path rounding adds up in one direction; the sum shows how much.
     arrivals *= v.sum() / arrivals.sum()
-    return np.bincount(structure.label, arrivals, structure.count).astype(np.float64, copy=False)
+    return sums(structure.label, arrivals, structure.count)
 
 
 def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
@@ -103,9 +103,5 @@ def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
     arrivals = v.copy()
     arrivals[states] = 0.0
     if len(states) and v[states].any():
-        visits = np.zeros(len(chain))
-        visits[states] = chain.transient.visits(v[states])
-        flow = chain.arcs.matrix() @ visits
-        flow[states] = 0.0
-        arrivals += flow
+        arrivals += chain.transient.arrivals(v[states])
     return arrivals

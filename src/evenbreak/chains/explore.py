@@ -13,43 +13,78 @@ The rules of a chain:
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from itertools import chain as chained
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
+from evenbreak.chains.arcs import sums
 from evenbreak.chains.chain import Chain, check_sums
+from evenbreak.chains.matrices import chain_of_matrix, is_matrix
 from evenbreak.errors import ChainError
 from evenbreak.game import ArcArrays, Game, arcs_of
 
 if TYPE_CHECKING:
+    from typing import TypeAlias
+
     import networkx as nx
+    import pandas as pd
     from numpy.typing import ArrayLike, NDArray
+    from scipy.sparse import sparray, spmatrix
+
+    from evenbreak.chains.matrices import Rows
+
+    Source: TypeAlias = (
+        Game
+        | nx.DiGraph[Any]
+        | NDArray[Any]
+        | sparray
+        | spmatrix
+        | pd.DataFrame
+        | Mapping[Any, Mapping[Any, float]]
+        | Iterable[tuple[Any, Any, float]]
+    )
 
 
 def chain_of(
-    source: Game | nx.DiGraph[Any] | Iterable[tuple[Any, Any, float]],
+    source: Source,
     *,
     start: Hashable | None = None,
+    rows: Rows | None = None,
+    weight: str | None = None,
 ) -> Chain:
-    """Return the chain of a game, of a directed graph, or of a list of arcs.
+    """Return the chain of a game, a directed graph, a matrix, or arcs.
 
     Parameters
     ----------
     source
-        a game (see `evenbreak.game`); a `networkx.DiGraph` with `probability` on its
-        arcs; or (source, target, probability) triples. A probability is that of the
-        target, given the source.
+        one of
+
+        - a game (see `evenbreak.game`);
+        - a `networkx.DiGraph` with the probabilities on its arcs;
+        - a square numpy array or scipy sparse matrix, whose states are 0, 1, 2, ..., or a
+          pandas DataFrame with the states as its index and its columns;
+        - a dict that has, for each state, a dict from the next states to their probabilities;
+        - (source, target, probability) triples.
+
+        A probability is always that of the target, given the source.
     start
         the state in which to begin. If None: the start of the game, or the graph's node of
-        `kind` 'start' if it has one; a list of arcs has no start of its own.
+        `kind` 'start' if it has one; the others have no start of their own.
+    rows
+        how to read a matrix. 'from': a row holds the chances out of its state. 'to': a row
+        holds the chances into its state, as in `Chain`. It may be left out if the matrix is
+        stochastic one way only, or symmetric.
+    weight
+        the attribute of a graph's arcs that holds their probability; None is 'probability'.
 
     Raises
     ------
     ChainError
-        if the arcs break the rules of this module, or the start is unknown.
+        if the arcs break the rules of this module, a matrix can be read two ways, or the
+        start is unknown.
     GameError
         if the game has too many states or its moves are not probabilities.
 
@@ -59,19 +94,36 @@ def chain_of(
     >>> chain.matrix.toarray()
     array([[0.7, 1. ],
            [0.3, 0. ]])
+    >>> chain_of({"rain": {"rain": 0.7, "sun": 0.3}, "sun": {"rain": 1}}).states
+    ['rain', 'sun']
+    >>> chain_of(np.array([[0.7, 0.3], [1.0, 0.0]]), rows="from").matrix.toarray()
+    array([[0.7, 1. ],
+           [0.3, 0. ]])
     """
+    if is_matrix(source):
+        _only_for(weight, "weight", "a graph")
+        return chain_of_matrix(source, rows, start)
+    _only_for(rows, "rows", "a matrix")
+    if hasattr(source, "adjacency"):
+        arcs, own_start = _arcs_of_graph(source, "probability" if weight is None else weight)
+        return chain_from_arrays(*arcs, start=own_start if start is None else start)
+    _only_for(weight, "weight", "a graph")
     if isinstance(source, Game):
         arcs = arcs_of(source, start=start)
         return chain_from_arrays(*arcs, start=source.start if start is None else start)
-    if hasattr(source, "adjacency"):
-        arcs, own_start = _arcs_of_graph(source)
-        return chain_from_arrays(*arcs, start=own_start if start is None else start)
+    if isinstance(source, Mapping):
+        return chain_from_arrays(*_arcs_of_mapping(source), start=start)
     if not isinstance(source, Iterable):
         raise ChainError(
-            f"the source is {source!r}; give a game, a networkx.DiGraph, or a list of "
-            "(source, target, probability)"
+            f"the source is {source!r}; give a game, a networkx.DiGraph, a matrix, a dict of "
+            "dicts, or a list of (source, target, probability)"
         )
     return chain_from_arrays(*_arcs_of_triples(source), start=start)
+
+
+def _only_for(given: object, name: str, kind: str) -> None:
+    if given is not None:
+        raise ChainError(f"{name} is {given!r}, but the source is not {kind}; leave {name} out")
 
 
 def chain_from_arrays(
@@ -117,10 +169,10 @@ def chain_from_arrays(
             raise _listed_twice(states, key)
         j, i, p = j[table.data], i[table.data], p[table.data]
     listed = np.bincount(j, minlength=n)
-    check_sums(states, np.where(listed > 0, np.bincount(j, weights=p, minlength=n), 1.0))
+    check_sums(states, np.where(listed > 0, sums(j, p, n), 1.0))
     loops = (i == j) & (p > 0.0)
     if loops.any():
-        others = np.bincount(j, weights=np.where(loops, 0.0, p), minlength=n)
+        others = sums(j, np.where(loops, 0.0, p), n)
         p = np.where(loops, np.maximum(1.0 - others[j], 0.0), p)
     made = p > 0.0
     if not made.all():
@@ -145,9 +197,6 @@ def _checked_arrays(
     n = len(states)
     if n == 0:
         raise ChainError("there are no states; give at least one")
-    # Lazy sequences of states are distinct by construction.
-    if isinstance(states, (list, tuple)) and len(set(states)) < n:
-        raise ChainError("a state is listed twice among the states; give each of them once")
     if not j.ndim == 1 or not j.shape == i.shape == p.shape:
         raise ChainError(
             f"sources, targets and probabilities have shapes {j.shape}, {i.shape}, {p.shape}; "
@@ -201,7 +250,7 @@ def _column_stochastic(
     return matrix
 
 
-def _arcs_of_graph(graph: Any) -> tuple[ArcArrays, Hashable | None]:
+def _arcs_of_graph(graph: Any, weight: str) -> tuple[ArcArrays, Hashable | None]:
     if not graph.is_directed() or graph.is_multigraph():
         raise ChainError(
             f"the graph is a {type(graph).__name__}; give a networkx.DiGraph, "
@@ -216,10 +265,10 @@ def _arcs_of_graph(graph: Any) -> tuple[ArcArrays, Hashable | None]:
     )
     try:
         chances = np.fromiter(
-            (arc["probability"] for row in rows for arc in row.values()), np.float64, count=total
+            (arc[weight] for row in rows for arc in row.values()), np.float64, count=total
         )
     except (KeyError, TypeError, ValueError):
-        raise _without_probability(graph) from None
+        raise _without_probability(graph, weight) from None
     starts = [state for state, kind in graph.nodes(data="kind") if kind == "start"]
     if len(starts) > 1:
         raise ChainError(f"the graph has {len(starts)} nodes of kind 'start'; leave one")
@@ -227,20 +276,32 @@ def _arcs_of_graph(graph: Any) -> tuple[ArcArrays, Hashable | None]:
     return arcs, starts[0] if starts else None
 
 
-def _without_probability(graph: Any) -> ChainError:
-    for source, target, chance in graph.edges(data="probability"):
+def _without_probability(graph: Any, weight: str) -> ChainError:
+    for source, target, chance in graph.edges(data=weight):
         try:
             float(chance)
         except (TypeError, ValueError):
             return ChainError(
-                f"the arc {source!r} -> {target!r} has probability {chance!r}; "
+                f"the arc {source!r} -> {target!r} has {weight} {chance!r}; "
                 "give each arc a number from 0 to 1"
             )
-    return ChainError("the arcs carry no probability; give each arc a number from 0 to 1")
+    return ChainError(f"the arcs carry no {weight}; give each arc a number from 0 to 1")
 
 
-def _arcs_of_triples(triples: Iterable[Any]) -> ArcArrays:
-    position: dict[Any, int] = {}
+def _arcs_of_mapping(moves: Mapping[Any, Any]) -> ArcArrays:
+    """Return the arcs of a dict of dicts; the states in order: its keys, then other targets."""
+    for state, row in moves.items():
+        if not isinstance(row, Mapping):
+            raise ChainError(
+                f"the moves from {state!r} are {row!r}; give a dict from states to probabilities"
+            )
+    triples = ((j, i, chance) for j, row in moves.items() for i, chance in row.items())
+    return _arcs_of_triples(triples, moves)
+
+
+def _arcs_of_triples(triples: Iterable[Any], states: Iterable[Any] = ()) -> ArcArrays:
+    """Return the arcs of triples; the states in order: those given, then as they come."""
+    position: dict[Any, int] = {state: k for k, state in enumerate(states)}
     sources: list[int] = []
     targets: list[int] = []
     chances: list[float] = []

@@ -23,7 +23,7 @@ import scipy.sparse.linalg
 from scipy.sparse import csc_array
 
 from evenbreak.chains.eigenpairs import DENSE, EPS
-from evenbreak.chains.limits import limit_matrix
+from evenbreak.chains.limit_matrix import limit_matrix
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.powers import evened
 from evenbreak.checks import number

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csc_array
 
+from evenbreak.chains.arcs import sums
 from evenbreak.chains.birth_death import birth_death_law
 from evenbreak.chains.decimal_elimination import decimal_law
 from evenbreak.chains.line_elimination import line_order
@@ -82,7 +83,7 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     top = np.zeros(structure.count)
     np.maximum.at(top, structure.label[inside], law[inside])
     law[inside] /= top[structure.label[inside]]
-    total = np.bincount(structure.label[inside], law[inside], structure.count)
+    total = sums(structure.label[inside], law[inside], structure.count)
     law[inside] /= total[structure.label[inside]]
     return law, residual
 

@@ -1,5 +1,6 @@
 from .arrays import column as column
 from .arrays import floats as floats
+from .arrays import names as names
 from .arrays import plain as plain
 from .arrays import probability as probability
 from .arrays import together as together

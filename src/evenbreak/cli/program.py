@@ -1,7 +1,5 @@
 """The program `evenbreak`: its list of commands, and how one of them is run."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -38,7 +36,7 @@ SECTIONS = {
         "runs": Entry("practice.runs", "How long runs get, and the score of several innings."),
         "oneball": Entry("match.oneball", "The one-ball game: who wins, and which shot to play."),
     },
-    "The table side": {
+    "The physics of the table": {
         "physics": Entry("physics", "Ball, cloth and cue: throw, aim, spin, speed."),
     },
     "The engine": {
@@ -85,7 +83,7 @@ class Program(LazyGroup):
     "evenbreak",
     cls=Program,
     table=COMMANDS,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
     epilog="evenbreak COMMAND --help shows the options of a command, with examples.",
 )
 @click.version_option(__version__, prog_name="evenbreak", message="%(prog)s %(version)s")

@@ -2,7 +2,6 @@ from .aliases import AliasesFile as AliasesFile
 from .aliases import read_aliases as read_aliases
 from .arcs import ArcsFile as ArcsFile
 from .arcs import read_arcs as read_arcs
-from .chart import chart_frame as chart_frame
 from .chart import find_chart as find_chart
 from .chart import read_chart as read_chart
 from .csv_writer import to_csv as to_csv
@@ -18,5 +17,5 @@ from .roster import RosterFile as RosterFile
 from .roster import read_roster as read_roster
 from .schedule import ScheduleFile as ScheduleFile
 from .schedule import read_schedule as read_schedule
-from .text_table import Table as Table
+from .text_table import TextTable as TextTable
 from .text_table import read_table as read_table

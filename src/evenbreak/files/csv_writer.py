@@ -55,10 +55,10 @@ def rows_of(frame: pd.DataFrame) -> list[tuple[Any, ...]]:
 def csv_lines(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Iterator[str]:
     r"""Yield a header and rows as lines of CSV, each with its line end.
 
-    Cells are separated by commas. Floats have six decimals, whole numbers none; None, NaN and
-    infinities are empty cells; dates are ISO. Text that begins with = + - @ or a control
-    character, which a spreadsheet might run as a formula, gets an apostrophe in front; numbers
-    never do.
+    Cells are separated by commas. Floats have six decimals, whole numbers none; True is yes and
+    False is no; None, NaN and infinities are empty cells; dates are ISO. Text that begins with
+    = + - @ or a control character, which a spreadsheet might run as a formula, gets an apostrophe
+    in front; numbers never do.
 
     >>> list(csv_lines(["race_a", "p_win_a"], [[7, 0.5], [8, None]]))
     ['race_a,p_win_a\n', '7,0.500000\n', '8,\n']
@@ -73,6 +73,8 @@ def _cell(value: Any) -> str:
         return ""
     if isinstance(value, str):
         return text_cell(value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, float):
         return _number(value)
     if hasattr(value, "date"):

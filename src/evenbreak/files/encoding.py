@@ -19,10 +19,10 @@ MAGIC = {
 
 
 def content_of(path: str | Path) -> tuple[str, bytes]:
-    """Return what to call the file, and its bytes."""
+    """Return what to call a file in messages, and its bytes; '-' is standard input."""
     if str(path) == "-":
         if sys.stdin is None:
-            raise DataError(["stdin: is closed; name a file, or send one into the command"])
+            raise DataError(["stdin: is closed; name a file, or pipe one into the command"])
         return "stdin", sys.stdin.buffer.read()
     source = printable(str(path))
     try:
@@ -51,7 +51,7 @@ def encoding_of(content: bytes, source: str) -> tuple[str, list[str]]:
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         try:
-            # After the mark of UTF-8 a byte that is not UTF-8 is damage, no other encoding.
+            # After the mark of UTF-8 a byte that is not UTF-8 is damage, not another encoding.
             encoding = "ascii" if content.startswith(codecs.BOM_UTF8) else "cp1252"
             text = content.decode(encoding)
         except UnicodeDecodeError as also:
@@ -59,11 +59,7 @@ def encoding_of(content: bytes, source: str) -> tuple[str, list[str]]:
             raise DataError(
                 [f"{source}:{line}: is neither UTF-8 nor Windows-1252 text; save it as UTF-8"]
             ) from None
-        warnings = [
-            f"{source}:{line}: is not UTF-8; read as Windows-1252, so look at the accents in names"
-        ]
+        warnings = [f"{source}:{line}: is not UTF-8; read as Windows-1252, so check the accents"]
     if not text.strip():
-        raise DataError(
-            [f"{source}: is empty; write a header line and one line for each row below it"]
-        )
+        raise DataError([f"{source}: is empty; write a header line, then one line for each row"])
     return encoding, warnings

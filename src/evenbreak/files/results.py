@@ -1,4 +1,7 @@
-"""From a results file to `Results`, with everything that is wrong in it told at once."""
+"""Reading a results file as `Results`, with all its problems at once.
+
+Each step is taken once: bytes, encoding, rows, a table of texts, cells, columns, matches.
+"""
 
 from __future__ import annotations
 
@@ -10,28 +13,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.files.aliases import AliasesFile, read_aliases
+from evenbreak.files.doubtful_dates import date_warnings
+from evenbreak.files.player_names import PlayerNames
 from evenbreak.files.problems import quoted
-from evenbreak.files.results_columns import (
-    INSTEAD,
-    OPTIONAL,
-    REQUIRED,
-    ResultsColumns,
-    lacks_columns,
-)
-from evenbreak.files.similar_names import similar_names
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.results_columns import INSTEAD, NAMES, OPTIONAL, REQUIRED, results_columns
+from evenbreak.files.results_rows import results_rows
+from evenbreak.files.similar_names import similar_name_warnings, similar_names
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.ratings.results import Results
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-WARNED = 20
-"""How many groups of similar names are told; the rest are counted."""
+MOST_RENAMED = 20
+"""How many names are listed that aliases changed; the rest are counted."""
 
 
 @dataclass(frozen=True, eq=False)
 class ResultsFile:
-    """What a results file says.
+    """The contents of a results file.
 
     Parameters
     ----------
@@ -40,13 +40,13 @@ class ResultsFile:
     source
         what the file is called in messages.
     warnings
-        what a person should look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     similar_names
         groups of names that may mean one player.
     sha256
         fingerprint of the bytes that were read.
     lines
-        the line in which each match begins; empty where the matches came from no file.
+        the line in which each match begins; empty where the matches did not come from a file.
     """
 
     results: Results
@@ -54,29 +54,32 @@ class ResultsFile:
     warnings: tuple[str, ...]
     similar_names: tuple[tuple[str, ...], ...]
     sha256: str
-    lines: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    lines: NDArray[np.int64] = field(
+        default_factory=lambda: np.zeros(0, dtype=np.int64), repr=False
+    )
 
 
 def read_results(path: str | Path, *, aliases: str | Path | None = None) -> ResultsFile:
     r"""Read match results from a CSV file; '-' is standard input.
 
-    Encoding, separator and header are read as `evenbreak.files.text_table` says; the
-    columns are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double
-    blanks inside, and are put into Unicode's form NFC. `winner` and `first_break` are
-    a, b or the name of one of the two. A forfeit may leave its scores empty; so may a
-    match whose racks are given, or of which only the race and the winner are known.
+    Encoding, separator and header are read as in `evenbreak.files.text_table`; the columns
+    are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double blanks inside,
+    and are put into Unicode's form NFC; those that differ in case or blanks alone are one
+    player's. `winner` and `first_break` are a, b or the name of one of the two players. A
+    forfeit may leave its scores empty; so may a match whose racks are given, or of which only
+    the race and the winner are known.
 
     Parameters
     ----------
     path
         the file.
     aliases
-        a file that says which names mean whom (see `evenbreak.files.aliases`).
+        a file that says which names mean the same player (see `evenbreak.files.aliases`).
 
     Raises
     ------
     DataError
-        with every problem of the file, a line each, if there is any; before that with
+        with every problem of the file, a line each, if there are any; before that with
         those of the file of aliases.
 
     >>> import tempfile, pathlib
@@ -87,39 +90,49 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
     >>> season.results.players, season.results.score_b
     (('Ann', 'Bo'), array([7]))
     """
-    told = None if aliases is None else read_aliases(aliases)
-    table = read_table(path, REQUIRED, OPTIONAL, INSTEAD)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no matches below its header; write one line for each")
-    columns = ResultsColumns(table, None if told is None else told.means)
-    if lacks_columns(table):
-        table.problems.raise_any()
-    results = columns.checked()
+    by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
+    table = read_table(path, REQUIRED, OPTIONAL, INSTEAD, rows="matches")
+    names = PlayerNames(table, NAMES, by_alias.means)
+    results = results_rows(table, names, results_columns(table, names))
     table.problems.raise_any()
     groups = tuple(similar_names(results.players, _met(results)))
     warnings = [
-        *(() if told is None else told.warnings),
+        *by_alias.warnings,
         *table.warnings,
         *_repeated_rows(table),
-        *columns.merged_names(),
-        *_read_as(columns.aliases_met(), table.source, told),
-        *_warnings(groups, table.source),
+        *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),
+        *_merged(names.merged(), table.source),
+        *_renamed(names.renamed(), table.source, by_alias.source),
+        *similar_name_warnings(groups, table.source, "if so, use the same name throughout"),
     ]
     sha256 = hashlib.sha256(table.content).hexdigest()
     return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines)
 
 
-def _read_as(names: list[str], source: str, aliases: AliasesFile | None) -> list[str]:
-    """Return a warning that tells which names a file of aliases has changed."""
-    if aliases is None or not names:
+def _merged(names: dict[str, str], source: str) -> list[str]:
+    """Return a warning for each name that is read as another spelling of it."""
+    found = [
+        f"{source}: {quoted(text)} is read as {quoted(name)}, as names that differ in case or "
+        "spaces alone mean one player"
+        for text, name in names.items()
+    ]
+    more = len(found) - MOST_RENAMED
+    counted = [f"{source}: and {more:,} more names that are read so"] if more > 0 else []
+    return found[:MOST_RENAMED] + counted
+
+
+def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
+    """Return a warning that lists the names that aliases have changed."""
+    if not names:
         return []
-    changed = [f"{quoted(name)} as {quoted(aliases.means[name])}" for name in names[:WARNED]]
-    more = [f"and {len(names) - WARNED:,} more"] if len(names) > WARNED else []
-    return [f"{source}: read as {aliases.source} says: {', '.join([*changed, *more])}"]
+    changed = [f"{quoted(name)} as {quoted(meant)}" for name, meant in names.items()]
+    more = len(changed) - MOST_RENAMED
+    shown = changed[:MOST_RENAMED] + ([f"and {more:,} more"] if more > 0 else [])
+    return [f"{source}: names read according to {aliases}: {', '.join(shown)}"]
 
 
-def _repeated_rows(table: Table) -> list[str]:
-    """Return a warning if whole rows stand in the file again: they may be pasted twice."""
+def _repeated_rows(table: TextTable) -> list[str]:
+    """Return a warning if whole rows appear again: they may have been pasted twice."""
     if "date" not in table:
         return []  # the same two players often play to the same score on another day
     again = np.flatnonzero(table.repeated())
@@ -137,13 +150,3 @@ def _met(results: Results) -> list[tuple[str, str]]:
     """Return the names that played each other, each pair once for either order."""
     pairs = np.unique(np.column_stack([results.player_a, results.player_b]), axis=0)
     return [(results.players[a], results.players[b]) for a, b in pairs.tolist()]
-
-
-def _warnings(groups: tuple[tuple[str, ...], ...], source: str) -> list[str]:
-    told = [
-        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one "
-        "player; if so, write one name throughout"
-        for group in groups[:WARNED]
-    ]
-    more = len(groups) - WARNED
-    return [*told, f"{source}: and {more:,} more groups of similar names"] if more > 0 else told

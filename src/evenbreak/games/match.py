@@ -1,4 +1,4 @@
-"""What all matches share: racks are played, a score is kept, the break passes on.
+"""What all matches have in common: the score, the rule that ends them, and who breaks next.
 
 A match can itself be the rack of a longer match: a race whose rack is a race is a match of
 sets, and so on to any depth.
@@ -61,7 +61,7 @@ class Match(ABC, Generic[ChanceT]):
             raise InputError(f"rack is {self.rack!r}; give a Rack(p), a Rack(p1, p2) or a match")
         if isinstance(self.rack, Match) and self.rack.decided(*self.rack.score) is not None:
             raise InputError(
-                "rack is a set that is over at its start score; give a set that is not"
+                "rack is a set that is over at its start score; give a set that can still be played"
             )
         if isinstance(self.rack, Rack) and self.rack.break_matters and self.breaks is None:
             raise InputError(
@@ -76,7 +76,7 @@ class Match(ABC, Generic[ChanceT]):
             a, b = self.score
         except (TypeError, ValueError):
             raise InputError(
-                f"score is {self.score!r}; give the games of both players, as (2, 1)"
+                f"score is {self.score!r}; give the games that each player has, such as (2, 1)"
             ) from None
         self._check_score(whole(a, "score of player 1"), whole(b, "score of player 2"))
 
@@ -107,7 +107,7 @@ class Match(ABC, Generic[ChanceT]):
 
     @abstractmethod
     def fold(self, a: int, b: int) -> Score:
-        """Return the first score from which the match goes on as it does from a:b."""
+        """Return the lowest score from which the rest of the match is the same as from a:b."""
 
     @property
     def break_matters(self) -> bool:
@@ -155,7 +155,7 @@ class Match(ABC, Generic[ChanceT]):
         return "\n".join(lines)
 
     def next_breaker(self, state: Any) -> int:
-        """Return who would break the rack after a finished match: the last entry of its state."""
+        """Return who breaks the rack after this match: the last entry of its final state."""
         return int(state[2]) if self.break_matters else 1
 
     def _after_rack(self, a: int, b: int, breaker: int, rack: Rack) -> dict[Any, float]:

@@ -9,9 +9,9 @@ from evenbreak.checks import one_of, probability, together
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
     from typing_extensions import TypeVar
+
+    from evenbreak.arrays import Floats
 
     ChanceT = TypeVar("ChanceT", covariant=True, default=Any)
 else:
@@ -57,7 +57,7 @@ class Rack(Generic[ChanceT]):
         object.__setattr__(self, "p1", probability(self.p1, "p1"))
         if self.p2 is not None:
             object.__setattr__(self, "p2", probability(self.p2, "p2"))
-        _ = self.shape  # an error if there is none
+        _ = self.shape  # raises if p1 and p2 do not broadcast
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -74,7 +74,7 @@ class Rack(Generic[ChanceT]):
     @overload
     def chance(self: Rack[float], player: int, breaker: int = 1) -> float: ...
     @overload
-    def chance(self: Rack[Any], player: int, breaker: int = 1) -> NDArray[np.float64]: ...
+    def chance(self: Rack[Any], player: int, breaker: int = 1) -> Floats: ...
     def chance(self: Rack[Any], player: int, breaker: int = 1) -> Any:
         """Return P(`player` wins the rack | `breaker` breaks it)."""
         one_of(player, "player", (1, 2))

@@ -17,14 +17,12 @@ from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.matches.quantiles import quantile_of
-
-Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 _MOST_MOVES = 1_000_000  # states times lengths of one exact step
 _WORK = 200_000_000  # matches times matches times simulated runs
@@ -176,14 +174,14 @@ def _one_table(lengths: list[Floats]) -> Floats:
 
 
 def _all_at_once(lengths: list[Floats]) -> Floats:
-    """Return the distribution of the longest of all."""
+    """Return the distribution of the longest match."""
     longest = max(map(len, lengths))
     padded = np.array([np.pad(length, (0, longest - len(length))) for length in lengths])
     return np.diff(padded.cumsum(axis=1).prod(axis=0), prepend=0.0)
 
 
 def _several_tables(lengths: list[Floats], tables: int) -> Floats | None:
-    """Return the distribution of the end if no player plays twice; None if it has too many states.
+    """Return the distribution of the end if nobody plays twice; None if there are too many states.
 
     A state is the list of times at which the tables become free, in order; the next match begins
     at the first of them.

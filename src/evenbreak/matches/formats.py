@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from evenbreak.checks import whole
+from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
@@ -70,9 +70,8 @@ class MatchFormat:
             object.__setattr__(self, name, whole(getattr(self, name), name, at_least=1))
         if self.ahead and self.win_by > 1:
             raise InputError(f"win_by is {self.win_by} in an n-ahead match; leave it out")
-        if self.breaks is not None and self.breaks not in BREAK_FORMATS:
-            known = ", ".join(BREAK_FORMATS)
-            raise InputError(f"breaks is {self.breaks!r}; give one of {known}")
+        if self.breaks is not None:
+            one_of(self.breaks, "breaks", tuple(BREAK_FORMATS))
 
     def match(
         self, rack: Rack, *, breaks: BreakFormat | None = None, first_breaker: int = 1
@@ -190,7 +189,7 @@ def match_format(text: str) -> MatchFormat:
 
 
 def _half(most: int) -> str:
-    """Return the race that takes at most so many games, or one more.
+    """Return the race that is the best of so many games; of one more if the number is even.
 
     >>> _half(9), _half(10)
     ('5:5', '6:6')

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Generic, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number_probability
 from evenbreak.errors import AccuracyError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import ChanceT
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, broadcast, in_shape
+from evenbreak.matches.parameters import at_score, in_shape
 from evenbreak.matches.quantiles import TIE
 
 if TYPE_CHECKING:
@@ -25,8 +25,6 @@ else:
     from typing import TypeVar
 
     MeanT = TypeVar("MeanT", covariant=True)
-
-Floats: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +49,7 @@ class MatchLength(Generic[ChanceT, MeanT]):
         whether there is a longest length.
     """
 
-    games: NDArray[np.int64]
+    games: Ints
     probability: Floats
     mean: MeanT
     sd: MeanT
@@ -156,7 +154,7 @@ def match_length(
     >>> round(length.mean, 9), length.span, length.tail_mass < 1e-12
     (4.0, 80, True)
     """
-    match, shape = broadcast(at_score(match, score))
+    match, shape = at_score(match, score)
     tail = number_probability(tail, "tail")
     bounded = is_bounded(match)
     # A race of racks has too many scores for a chain, and no tail.

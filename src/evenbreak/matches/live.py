@@ -20,9 +20,6 @@ from evenbreak.matches.rack_by_rack import racks_within
 from evenbreak.matches.rack_graph import breaker_in, rack_moves
 from evenbreak.matches.score_chain import NEVER, ScoreChain
 
-_LONGEST = 100_000
-"""Racks after which a length that is not reached is given up."""
-
 
 class Standing(NamedTuple):
     """Where a match stands at one moment; all probabilities are given that moment.
@@ -217,7 +214,7 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     under_way = replace(inside, score=set_score, first_breaker=match.first_breaker)
     if under_way.decided(*under_way.score) is not None:
         a, b = under_way.score
-        raise InputError(f"set_score is {a}:{b}, where the set is over; count the set in the score")
+        raise InputError(f"set_score is {a}:{b}, where the set is over; count it in the score")
     if match.decided(*match.score) is not None:
         raise InputError("set_score is given, but the match is over; leave it out")
     return (*match.start[:-1], under_way.start)

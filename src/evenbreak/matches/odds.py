@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.matches.parameters import checked_match
@@ -70,9 +69,7 @@ def match_odds(match: Match) -> MatchOdds:
     >>> odds.p_win_1, odds.mean_games, odds.games_p50, odds.p_hill_hill, odds.p_shutout_1
     (0.5, 2.5, 2, 0.5, 0.25)
     """
-    rack = checked_match(match).innermost_rack
-    if not isinstance(rack.p1, float) or not isinstance(rack.p2, float | None):
-        raise InputError("match holds arrays; use win_probability and match_length for those")
+    rack = checked_match(match).innermost_rack.of_numbers()
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
         race = race_odds(
             match.m, match.n, rack.p1, rack.p2, match.breaks, match.first_breaker, match.score

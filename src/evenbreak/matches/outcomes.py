@@ -102,7 +102,7 @@ def _unit(match: Match, breaker: int, *, lengths: bool) -> Outcomes:
 
 
 def _mixture(parts: list[Outcome]) -> Outcome:
-    """Return the outcome 'one of these', by the law of total variance."""
+    """Return the outcome that any of these happens, by the law of total variance."""
     if len(parts) == 1:
         return parts[0]
     chance = sum((part.chance for part in parts), 0.0)
@@ -117,7 +117,7 @@ def _square(sd: Any, surprise: Any, unit: Any) -> Any:
 
 
 def _unit_of_length(lengths: Iterable[Any]) -> Any:
-    """Return the longest of some lengths, but at least 1; elementwise for arrays."""
+    """Return the greatest of some lengths, at least 1; elementwise for arrays."""
     return reduce(_greater, lengths, 1.0)
 
 

@@ -29,7 +29,7 @@ def checked_match(match: AnyMatch) -> AnyMatch:
 
 
 def first_breaker(match: Match) -> int:
-    """Return the first breaker as it stands in states: 1 if the break does not matter."""
+    """Return the first breaker for the states of a match: 1 if the break does not matter."""
     return match.first_breaker if match.break_matters else 1
 
 
@@ -39,8 +39,14 @@ def with_rack(match: AnyMatch, rack: Rack) -> AnyMatch:
     return replace(match, rack=rack if isinstance(inside, Rack) else with_rack(inside, rack))
 
 
-def broadcast(match: AnyMatch) -> tuple[AnyMatch, tuple[int, ...]]:
-    """Return the match with p1 and p2 of the same shape, and that shape; () for numbers."""
+def at_score(match: AnyMatch, score: Score | None) -> tuple[AnyMatch, tuple[int, ...]]:
+    """Return the match from `score` on, and the shape of its parameters; () for numbers.
+
+    The first breaker breaks the next rack; p1 and p2 are broadcast to that shape.
+    """
+    match = checked_match(match)
+    if score is not None:
+        match = replace(match, score=score)
     rack = match.innermost_rack
     shape = rack.shape
     if not shape or rack.p2 is None:
@@ -49,12 +55,6 @@ def broadcast(match: AnyMatch) -> tuple[AnyMatch, tuple[int, ...]]:
 
     p1, p2 = np.broadcast_arrays(rack.p1, rack.p2)
     return with_rack(match, Rack(p1, p2)), shape
-
-
-def at_score(match: AnyMatch, score: Score | None) -> AnyMatch:
-    """Return the match from `score` on; its first breaker breaks the next rack."""
-    match = checked_match(match)
-    return match if score is None else replace(match, score=score)
 
 
 def in_shape(value: Any, shape: tuple[int, ...]) -> Any:

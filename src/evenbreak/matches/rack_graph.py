@@ -1,4 +1,4 @@
-"""The states of a match, rack by rack: a rack leads from each of them to one of two."""
+"""The states of a match, and the two to which the next rack can lead from each of them."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ RackMoves = dict[Any, tuple[tuple[Any, Any], tuple[Any, Any]]]
 
 
 def rack_moves(match: Match, start: Any = None) -> RackMoves:
-    """Return where a rack leads: by state, (next state, chance) if player 1, player 2 wins it.
+    """Return the next state and its chance for each winner of the next rack, by state.
 
-    Both are listed, even with a chance of 0: people win racks that a model gives them no
-    chance of. States that are not listed are final.
+    The entry for player 1 comes first. Both are listed, even with a chance of 0, as people win
+    racks in which a model gives them no chance. States that are not listed are final.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def rack_moves(match: Match, start: Any = None) -> RackMoves:
 
 
 def breaker_in(match: Match, state: Any) -> int:
-    """Return who breaks in a state that goes on; 1 where the break does not matter.
+    """Return who breaks the next rack in a state; 1 where the break does not matter.
 
     >>> from evenbreak.games import Race, winner_breaks
     >>> breaker_in(Race(2, 1, Rack(0.6, 0.5), breaks=winner_breaks), (1, 0, 2))

@@ -1,4 +1,4 @@
-"""The chain of a match's scores: what follows from each of them, by elimination of states.
+"""The Markov chain of a match's scores, solved by elimination of states.
 
 Only positive numbers are added, multiplied and divided (see `evenbreak.chains.elimination`), so
 every answer keeps its relative accuracy however long play goes on. All values may be floats or
@@ -13,7 +13,7 @@ from typing import Any
 from evenbreak.chains.elimination import Elimination
 
 NEVER = "never"
-"""The final state of play that can neither end nor leave a set of states."""
+"""The final state that stands for play that never ends."""
 
 
 def ratio(x: Any, y: Any) -> Any:
@@ -31,7 +31,7 @@ def ratio(x: Any, y: Any) -> Any:
 
 
 class _Elimination(Elimination):
-    """Elimination of states, some of which may never be left; for arrays, at some places only."""
+    """Elimination of states, some of which may never be left (in arrays, for some entries)."""
 
     def __init__(self, arcs: list[dict[int, Any]], leaks: list[Any]) -> None:
         self.stays: dict[int, Any] = {}

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import betainc
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import one_of, plain, probability, together, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
@@ -15,7 +16,7 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, broadcast, in_shape
+from evenbreak.matches.parameters import at_score, in_shape
 
 
 @overload
@@ -25,7 +26,7 @@ def win_probability(
 @overload
 def win_probability(
     match: Match[Any], score: Score | None = None, *, player: int = 1
-) -> NDArray[np.float64]: ...
+) -> Floats: ...
 def win_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins the match).
 
@@ -63,7 +64,7 @@ def win_probability(match: Match, score: Score | None = None, *, player: int = 1
     array([0.25, 0.81])
     """
     one_of(player, "player", (1, 2))
-    match, shape = broadcast(at_score(match, score))
+    match, shape = at_score(match, score)
     return in_shape(_win(match, player), shape)
 
 
@@ -88,7 +89,7 @@ def _win(match: Match, player: int) -> Any:
 @overload
 def race_win_probability(p: float, m: int, n: int) -> float: ...
 @overload
-def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> NDArray[np.float64]: ...
+def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Floats: ...
 def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     """Return W(p; m, n): P(player 1 wins m games before player 2 wins n), elementwise.
 

@@ -34,7 +34,7 @@ from .leg import State as State
 from .objects import Ball as Ball
 from .objects import Cloth as Cloth
 from .objects import Cue as Cue
-from .objects import Table as Table
+from .objects import PoolTable as PoolTable
 from .offset import NATURAL_ROLL_OFFSET as NATURAL_ROLL_OFFSET
 from .offset import ContactPoint as ContactPoint
 from .offset import ball_speed_ratio as ball_speed_ratio

@@ -1,22 +1,18 @@
 """Contour plots of what a break format is worth, with two players as a dot."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from evenbreak.games.breaks import BREAK_FORMATS
 from evenbreak.games.rack import Rack
 from evenbreak.plots.contours import contour_axes
 from evenbreak.plots.point_labels import mark_points
 from evenbreak.practice.breaks import long_run_share
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _X = "$p_1$ = P(A wins | A breaks)"
 _Y = "$p_2$ = P(B wins | B breaks)"
@@ -48,8 +44,6 @@ def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Figure, lis
     >>> len(panels)
     4
     """
-    from matplotlib.figure import Figure
-
     figure = Figure(figsize=(8.8, 9.2), layout="constrained")
     panels = list(np.ravel(figure.subplots(2, 2)))
     for axes, share in zip(panels, _shares(first_breaker), strict=True):

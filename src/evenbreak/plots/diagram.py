@@ -6,6 +6,9 @@ import re
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
 from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.plots.layout import Positions, positions_of
@@ -14,7 +17,7 @@ from evenbreak.plots.style import our_look
 
 if TYPE_CHECKING:
     import networkx as nx
-    from matplotlib.figure import Figure
+
 
 _MOST_STATES = 150
 _INCHES = 1.25
@@ -67,7 +70,6 @@ def draw(
     'One-ball'
     """
     import networkx as nx
-    from matplotlib.figure import Figure
 
     graph = game if isinstance(game, nx.DiGraph) else graph_of(game)
     if not 0 < len(graph) <= _MOST_STATES:
@@ -120,8 +122,6 @@ def image_bytes(figure: Figure, kind: Literal["png", "svg"] = "svg") -> bytes:
     b'PNG'
     """
     import io
-
-    import matplotlib as mpl
 
     out = io.BytesIO()
     # A salt instead of random ids, and no date or program version.

@@ -1,22 +1,16 @@
 """Match formats in one picture: the chance of winning against p, and where the curves cross."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from evenbreak.games.rack import Rack
-from evenbreak.matches.crossings import rack_along
+from evenbreak.matches.crossings import Crossings, rack_along
+from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.win import win_probability
 from evenbreak.plots.style import LINES, new_axes, unit_axis
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.matches.crossings import Crossings
-    from evenbreak.matches.formats import MatchFormat
 
 _POINTS = 401
 
@@ -62,9 +56,8 @@ def plot_formats(
         axes.plot(
             chances,
             win_probability(match),
-            color=style.color,
-            linestyle=style.linestyle,
             label=str(played),
+            **style._asdict(),
         )
     points = [point for found in pairs for point in found.points]
     if points:

@@ -1,18 +1,13 @@
 """A match so far as a picture: how likely each player was to win, rack after rack."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+from matplotlib.figure import Figure
 
+from evenbreak.matches.live import LiveOdds
 from evenbreak.plots.style import LINES
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.matches.live import LiveOdds
 
 _MOST_SCORES = 24
 """The most scores that fit below the picture; of more, only every second, third, ... is written."""
@@ -39,8 +34,6 @@ def plot_course(odds: LiveOdds) -> Figure:
     >>> [label.get_text() for label in figure.axes[1].get_xticklabels()]
     ['0:0', '1:0', '1:1', '2:1']
     """
-    from matplotlib.figure import Figure
-
     figure = Figure(figsize=(7.2, 5.4), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     wins = [moment.p_win_1 for moment in odds.course]

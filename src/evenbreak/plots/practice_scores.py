@@ -1,40 +1,34 @@
-"""Pictures of practice scores: one list over time, or two side by side."""
-
-from __future__ import annotations
+"""Plots of practice scores: one list over time, or two side by side."""
 
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
+from evenbreak.files.scores import ScoresFile
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from numpy.typing import NDArray
-
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.confidence import MeanInterval
+from evenbreak.stats.confidence import MeanInterval
 
 BAND = "0.85"
 STEP = 0.08
-"""How far apart equal scores are drawn, where the lists are 1 apart."""
+"""The distance between equal scores, where the lists are 1 apart."""
 
 WIDEST = 0.3
-"""How far from the middle of its list a score is drawn at most."""
+"""The largest distance of a score from the middle of its list."""
 
 
 def plot_scores(
     file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None
 ) -> Figure:
-    """Return a figure of the scores of a file, their mean and the interval of the true one.
+    """Return a figure of the scores of a file, their mean and the interval of the true mean.
 
     Parameters
     ----------
     file
-        the scores; drawn over their dates, or in the order of the file without them.
+        the scores, drawn over their dates, or in the order of the file if it has no dates.
     interval
         of the true mean; None draws no band.
     new
@@ -57,27 +51,19 @@ def plot_scores(
         axes.locator_params(axis="x", integer=True)
     else:
         when = file.dates
-        # As long after the last score as scores are apart, or a day.
+        # After the last score by the usual distance between scores, or a day.
         apart = (when.max() - when.min()) // max(1, len(when) - 1)
         later = when.max() + max(apart, np.timedelta64(1, "D"))
         figure.autofmt_xdate()
     mean = float(file.scores.mean())
     if interval is not None:
-        share = f"{100 * interval.confidence:g} % interval of the true mean"
+        share = f"{100 * interval.confidence:g}% interval of the true mean"
         axes.axhspan(interval.low, interval.high, color=BAND, linewidth=0, label=share, zorder=0)
     axes.plot(when, file.scores, "o", color=LINES[0].color, label="scores")
-    axes.axhline(
-        mean, color=LINES[1].color, linestyle=LINES[1].linestyle, label=f"mean {mean:.2f}", zorder=1
-    )
+    axes.axhline(mean, **LINES[1]._asdict(), label=f"mean {mean:.2f}", zorder=1)
     if new is not None:
-        axes.plot(
-            np.array([later]),
-            [new],
-            "D",
-            color=LINES[2].color,
-            markersize=8,
-            label=f"new score {new:g}",
-        )
+        label = f"new score {new:g}"
+        axes.plot(np.array([later]), [new], "D", color=LINES[2].color, markersize=8, label=label)
     figure.legend(frameon=False, loc="outside lower center", ncols=2)
     return figure
 
@@ -88,7 +74,7 @@ def plot_two_lists(
     names: tuple[str, str],
     intervals: tuple[MeanInterval | None, MeanInterval | None],
 ) -> Figure:
-    r"""Return a figure of two lists of scores side by side, each with the interval of its mean.
+    r"""Return a figure of two lists of scores side by side, each with its mean and interval.
 
     >>> import numpy as np
     >>> figure = plot_two_lists(
@@ -98,7 +84,7 @@ def plot_two_lists(
     ['before\n2 scores', 'after\n1 score']
     """
     shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
-    with_interval = f" with its {shares.pop()} % interval" if shares else ""
+    with_interval = f" with its {shares.pop()}% interval" if shares else ""
     figure, axes = new_axes("", "score", title=f"Practice scores, and their mean{with_interval}")
     for place, (scores, interval) in enumerate(zip((before, after), intervals, strict=True)):
         _strip(axes, place, scores, interval)
@@ -114,7 +100,7 @@ def plot_two_lists(
 def _strip(
     axes: Axes, place: int, scores: NDArray[np.float64], interval: MeanInterval | None
 ) -> None:
-    """Draw one list: equal scores beside one another, and to the right the mean."""
+    """Draw one list, with equal scores beside one another and the mean to their right."""
     line = LINES[place]
     values = scores.tolist()
     counts, seen = Counter(values), Counter[float]()

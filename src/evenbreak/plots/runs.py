@@ -1,19 +1,16 @@
 """Pictures of a score, with its mean, median and mode, and of the spot in straight pool."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
+import numpy as np
+from matplotlib.figure import Figure
+
+from evenbreak.matches.straight_pool import StraightPool, straight_pool_odds
+from evenbreak.matches.straight_pool_spot import even_spot
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.matches.straight_pool import StraightPool
-    from evenbreak.stats.innings import InningsScore
-    from evenbreak.stats.runs import RunLength
+from evenbreak.stats.innings import InningsScore
+from evenbreak.stats.runs import RunLength
 
 _SHOWN = (0.001, 0.995)
 """The quantiles between which scores are drawn."""
@@ -48,8 +45,6 @@ def plot_score(
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     ['mean 9', 'median 6', 'mode 0']
     """
-    import numpy as np
-
     low, high = (law.quantile(q) for q in _SHOWN)
     scores = np.arange(low, high + 1)
     chances = law.probability(scores)
@@ -71,9 +66,7 @@ def plot_score(
             label=f"{name} ({p:.4f})",
         )
     for line, (name, at) in zip(LINES, law.fair_line._asdict().items(), strict=False):
-        axes.axvline(
-            at, color=line.color, linestyle=line.linestyle, linewidth=1.6, label=f"{name} {at:.4g}"
-        )
+        axes.axvline(at, **line._asdict(), linewidth=1.6, label=f"{name} {at:.4g}")
     axes.set_ylim(0.0)
     axes.margins(x=0.02)
     axes.legend(frameon=False)
@@ -96,11 +89,6 @@ def plot_spot(match: StraightPool) -> Figure:
     >>> figure.axes[0].get_xlabel()
     'points that B needs'
     """
-    import numpy as np
-
-    from evenbreak.matches.straight_pool import straight_pool_odds
-    from evenbreak.matches.straight_pool_spot import even_spot
-
     weaker, even, _ = even_spot(match)
     name = f"points_{weaker}"
     now = getattr(match, name)
@@ -112,7 +100,7 @@ def plot_spot(match: StraightPool) -> Figure:
         f"points that {' AB'[weaker]} needs", "P(A wins the match)", title=shots
     )
     curve, half = LINES[:2]
-    axes.plot(points, wins, color=curve.color, linestyle=curve.linestyle)
+    axes.plot(points, wins, **curve._asdict())
     axes.plot(
         [now],
         [straight_pool_odds(match).p_win_1],
@@ -123,7 +111,7 @@ def plot_spot(match: StraightPool) -> Figure:
     axes.axhline(0.5, color="0.7", linewidth=0.8)
     if even is not None:
         name = f"nearest to even: {even}"
-        axes.axvline(even, color=half.color, linestyle=half.linestyle, label=name)
+        axes.axvline(even, **half._asdict(), label=name)
     axes.set_ylim(-0.02, 1.02)
     axes.margins(x=0.02)
     axes.legend(frameon=False)

@@ -1,25 +1,20 @@
-"""Pictures of sandbagging: what it buys, and what results weigh for it."""
-
-from __future__ import annotations
+"""Pictures of sandbagging: what it pays, and the evidence for it."""
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from matplotlib.figure import Figure
+
+from evenbreak.league.sandbag_pay import Sandbagging
+from evenbreak.league.sandbag_watch import Watched
 from evenbreak.plots.style import LINES, new_axes
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.league.sandbag import Sandbagging
-    from evenbreak.league.watch import Watched
-
 MOST_NAMED = 6
-"""How many players are named in the picture of a league; the others are thin lines."""
+"""How many players of a league are named; the others are thin lines."""
 
 
 def pay_figure(pays: Sandbagging) -> Figure:
-    """Draw the chance to win each match in earnest, after several numbers of dumped matches.
+    """Draw the chance to win each match in earnest, for several numbers of dumped matches.
 
     Parameters
     ----------
@@ -32,7 +27,9 @@ def pay_figure(pays: Sandbagging) -> Figure:
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     ['honest', '2 dumped', '4 dumped', '6 dumped', '8 dumped']
     """
-    figure, axes = new_axes("match in earnest", "chance to win it", title="What dumped matches buy")
+    figure, axes = new_axes(
+        "match in earnest", "chance to win it", title="What dumped matches bring"
+    )
     most, many = len(pays.rows) - 1, pays.p_win.shape[1]
     shown = sorted({round(most * part / 4) for part in range(5)})
     matches = range(1, many + 1)
@@ -49,7 +46,7 @@ def pay_figure(pays: Sandbagging) -> Figure:
 
 
 def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
-    """Draw the evidence against each player over his matches, on a logarithmic axis.
+    """Draw the evidence against each player, match by match, on a logarithmic axis.
 
     Parameters
     ----------
@@ -67,7 +64,7 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
     """
     figure, axes = new_axes(
         "match of the player",
-        "evidence e",
+        "evidence",
         title="Evidence for sandbagging",
         size=(7.4, 4.2),
     )

@@ -1,19 +1,15 @@
 """Shots of the one-ball game on a contour plot of the chance of winning."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+
+from matplotlib.figure import Figure
 
 from evenbreak.checks import one_of
 from evenbreak.plots.contours import contour_axes
 from evenbreak.plots.point_labels import mark_points
 from evenbreak.plots.style import new_axes
 from evenbreak.practice.shots import LOOK_AHEADS, ShotChoice, one_ball_win
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _TITLES = {
     "infinite": "P(you win), the two shots repeated",

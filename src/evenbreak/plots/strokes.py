@@ -7,11 +7,15 @@ from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, inf, pi, sin
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from matplotlib.axes import Axes
+from matplotlib.patches import Circle, FancyArrowPatch
+from matplotlib.path import Path as Curve
+
 from evenbreak.plots.layout import Positions
 
 if TYPE_CHECKING:
     import networkx as nx
-    from matplotlib.axes import Axes
+
 
 Point: TypeAlias = tuple[float, float]
 
@@ -142,8 +146,6 @@ class Pen:
 
     def arc(self, source: Any, target: Any, bend: float) -> None:
         """Draw the arrow from one circle to another."""
-        from matplotlib.patches import FancyArrowPatch
-
         a, b = self.places[source], self.places[target]
         shrink = _RADIUS * self.points_per_unit
         self.axes.add_patch(
@@ -174,9 +176,6 @@ class Pen:
 
     def loop(self, state: Any, label: str) -> None:
         """Draw the arrow from a circle to itself, where there is most room."""
-        from matplotlib.patches import FancyArrowPatch
-        from matplotlib.path import Path as Curve
-
         x, y = self.places[state]
         angle = self.free_angle(state, (pi / 2, -pi / 2, pi, 0.0), spare=pi)
 
@@ -262,8 +261,6 @@ class Pen:
 
     def circle(self, state: Any, label: str) -> None:
         """Draw a state; a terminal one is a double circle, filled by winner."""
-        from matplotlib.patches import Circle
-
         centre = self.places[state]
         fill, ink = "white", "black"
         if is_terminal(self.graph, state):

@@ -1,15 +1,13 @@
 """One style for all plots: readable in black and white and for the colour-blind."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from matplotlib.text import Text
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 
 class LineStyle(NamedTuple):
@@ -50,8 +48,6 @@ def our_look() -> Iterator[None]:
     ...     mpl.rcParams["font.size"]
     10.0
     """
-    import matplotlib as mpl
-
     with mpl.rc_context():
         mpl.rcdefaults()
         yield
@@ -75,8 +71,6 @@ def new_axes(
     >>> axes.get_xlabel()
     'level'
     """
-    from matplotlib.figure import Figure
-
     figure = Figure(figsize=size, layout="constrained")
     axes = figure.add_subplot()
     axes.set(xlabel=x, ylabel=y)
@@ -123,6 +117,16 @@ def label_beside(
     'right'
     """
     offset, ha, va = _BESIDE[side]
-    return axes.annotate(
-        text, (x, y), offset, textcoords="offset points", fontsize=_LABEL, ha=ha, va=va
-    )
+    return note(axes, text, (x, y), offset, fontsize=_LABEL, ha=ha, va=va)
+
+
+def note(
+    axes: Axes, text: str, place: tuple[float, float], beside: tuple[float, float], **style: Any
+) -> Text:
+    """Write a text beside a place, in the units of the axes, by so many points of the page.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> note(axes, "even", (0.5, 0.5), (6, 0), ha="left").get_text()
+    'even'
+    """
+    return axes.annotate(text, place, beside, textcoords="offset points", **style)

@@ -1,4 +1,4 @@
-"""Which shot to take: the chance of winning the one-ball game, given what a shot makes and leaves.
+"""Which shot to take in the one-ball game, given how often it goes in and what a miss leaves.
 
 Player 1 shoots first and makes the ball with probability p1; after a miss player 2 makes it
 with p2. With q = 1 - p, P(player 1 wins) is
@@ -17,8 +17,9 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import number_probability, one_of, plain, probability, together
 from evenbreak.errors import InputError
 from evenbreak.games.one_ball import OneBallLookAhead
@@ -30,9 +31,7 @@ LOOK_AHEADS = ("infinite", "two shots")
 @overload
 def one_ball_win(p1: float, p2: float, *, look_ahead: str = "infinite") -> float: ...
 @overload
-def one_ball_win(
-    p1: ArrayLike, p2: ArrayLike, *, look_ahead: str = "infinite"
-) -> NDArray[np.float64]: ...
+def one_ball_win(p1: ArrayLike, p2: ArrayLike, *, look_ahead: str = "infinite") -> Floats: ...
 def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     """Return P(player 1 wins the one-ball game), given that player 1 shoots first; elementwise.
 
@@ -69,7 +68,9 @@ def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     array([0.46 , 0.545])
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
-    make, leave = _pair(p1, p2)
+    first, second = probability(p1, "p1"), probability(p2, "p2")
+    together(p1=first, p2=second)
+    make, leave = np.broadcast_arrays(first, second)
     if look_ahead == "two shots":
         return plain(make + (1.0 - make) * (1.0 - leave) / 2.0)
     someone = make + (1.0 - make) * leave  # 1 - q1 q2 without the subtraction
@@ -97,7 +98,7 @@ def look_ahead_win(game: OneBallLookAhead) -> float:
 @overload
 def critical_p2(p1: float) -> float: ...
 @overload
-def critical_p2(p1: ArrayLike) -> NDArray[np.float64]: ...
+def critical_p2(p1: ArrayLike) -> Floats: ...
 def critical_p2(p1: Any) -> Any:
     """Return the p2 above which player 2 is the favourite, p1 / (1 - p1); elementwise.
 
@@ -125,8 +126,8 @@ def critical_p2(p1: Any) -> Any:
 def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> float | None:
     """Return the p2 with which a shot wins the game with chance `win`, given its p1.
 
-    None if there is no such p2, or if any p2 will do. For win = 1/2 it is `critical_p2`, if
-    that is not above 1.
+    None if there is no such p2, or every p2 gives that chance. For win = 1/2 it is
+    `critical_p2`, if that is not above 1.
 
     Raises
     ------
@@ -245,7 +246,6 @@ def compare_shots(
     >>> round(best.turning_p2, 4), round(other.turning_p2, 4)
     (0.5143, 0.4667)
     """
-    one_of(look_ahead, "look_ahead", LOOK_AHEADS)
     ranked = sorted(shots, key=lambda shot: -round(shot.win(look_ahead), 12))
     if not ranked:
         raise InputError("shots is empty; give at least one ShotChoice")
@@ -261,10 +261,3 @@ def compare_shots(
         )
         for shot, win, rival in zip(ranked, wins, rivals, strict=True)
     )
-
-
-def _pair(p1: Any, p2: Any) -> tuple[Any, Any]:
-    make, leave = probability(p1, "p1"), probability(p2, "p2")
-    together(p1=make, p2=leave)
-    first, second = np.broadcast_arrays(make, leave)
-    return first, second

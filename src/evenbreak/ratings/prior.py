@@ -1,8 +1,8 @@
 """How wide the prior should be: the width that predicts the next matches best.
 
-The season is cut into stretches of whole days. Each stretch but the first is predicted
-from the ratings of all days before it, by each width; the width whose predictions gave
-what happened the highest likelihood is chosen. Nothing is predicted from itself.
+The season is divided into stretches of whole days. Each stretch but the first is predicted
+from the ratings of all days before it, with each width. The width under which the actual
+results were most likely is chosen. Nothing is predicted from itself.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
 from evenbreak.ratings.fit import PRIOR_SD, fit
-from evenbreak.ratings.mixed_posterior import evidence_of
+from evenbreak.ratings.likelihood_terms import likelihood_terms
 from evenbreak.ratings.results import Results
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
@@ -35,7 +35,7 @@ class PriorChoice(NamedTuple):
     tried
         all widths, in rising order.
     log_loss
-        for each of them the mean of -ln P(what happened | the days before): per game where
+        for each of them the mean of -ln P(the result | the days before): per game where
         scores are known, per match where only the winner is.
     predicted
         how many games and such matches were predicted.
@@ -57,17 +57,17 @@ def best_prior(
 ) -> PriorChoice:
     """Return the width of the prior whose ratings predict later matches best.
 
-    Predictions take the ratings as they stand, without their uncertainty. Players who
-    have not played yet are predicted at the middle, so the matches of newcomers count too.
+    Predictions take the ratings at face value, without their uncertainty. Players who
+    have not played yet are predicted to be average, so the matches of newcomers count too.
 
     Parameters
     ----------
     results
-        matches that all have a date, on two days at least; forfeits and 0-0 may lack one.
+        matches on at least two days, all with a date; forfeits and 0-0 may lack one.
     widths
         the standard deviations to try, in natural log-odds.
     half_life, break_advantage, scale
-        as for `fit`; the scale matters to a break advantage in points alone.
+        as for `fit`; the scale only matters for a break advantage in points.
 
     Raises
     ------
@@ -100,13 +100,13 @@ def best_prior(
         coming = played.select((date >= first) & (date <= last))
         scored, won_only = coming.played().results, coming.won_only()
         weights = np.ones(len(scored)), np.ones(len(won_only))
-        evidence = evidence_of(scored, won_only, weights, breaks=break_advantage is not None)
-        predicted += round(evidence.amount)
+        terms = likelihood_terms(scored, won_only, weights, breaks=break_advantage is not None)
+        predicted += round(terms.amount)
         for k, width in enumerate(widths):
             ratings = fit(before, prior_sd=width, **options)
             skill = ratings.scale.log_odds(ratings.rating - ratings.anchor)
             advantage = ratings.scale.log_odds(ratings.break_advantage or 0.0)
-            losses[k] -= evidence.log_likelihood(skill, advantage)
+            losses[k] -= terms.log_likelihood(skill, advantage)
     order = np.argsort(widths)
     return PriorChoice(
         float(widths[int(np.argmin(losses))]),
@@ -117,29 +117,27 @@ def best_prior(
 
 
 def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
-    """Return the matches that tell something and their dates, or refuse those without."""
+    """Return the matches that count and their dates, or refuse those without one."""
     counted = (results.score_a > 0) | (results.score_b > 0)
     if results.unscored is not None:
         counted |= results.unscored
-    if results.forfeit is not None:
-        counted &= ~results.forfeit
-    played = results.select(counted)
+    played = results.select(counted & ~results.given_away)
     undated = len(played) if played.date is None else int(np.isnat(played.date).sum())
     if undated:
         raise InputError(
-            f"{undated:,} of {len(played):,} matches have no date, and a prior is chosen by what "
-            "it predicts of later days; add the dates, or give the prior's width"
+            f"{undated:,} of {len(played):,} matches have no date, but a prior is chosen by how "
+            "well it predicts later days; add the dates, or give the prior's width"
         )
     if len(played) == 0 or played.date is None or played.date.min() == played.date.max():
         raise InputError(
-            "a prior is chosen by what it predicts of later days, and there are no two days with "
-            "matches; give the prior's width"
+            "a prior is chosen by how well it predicts later days, which takes matches on two "
+            "days at least; give the prior's width"
         )
     return played, played.date
 
 
 def _stretches(date: NDArray[np.datetime64]) -> list[tuple[np.datetime64, np.datetime64]]:
-    """Return the first and last day of each stretch but the first, of about as many matches."""
+    """Return the first and last day of each stretch but the first; all are about equally long."""
     days, matches = np.unique(date, return_counts=True)
     done = np.cumsum(matches) - matches
     number = done // max(math.ceil(len(date) / STRETCHES), 1)

@@ -1,95 +1,39 @@
-"""How far ratings can be trusted: a season walked through, and what came of it."""
+"""How far ratings can be trusted: a season predicted date by date, and what happened."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from evenbreak.ratings.calibration import (
-    CalibrationBin,
-    Estimate,
-    bootstrap_ratio,
-    brier,
-    calibration,
-    log_loss,
-    logistic_coefficient,
-    no_favourites,
-)
+from evenbreak.ratings.advantages import FirstBreaks, break_advantage, first_breaks, side_advantage
+from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.handicap_fairness import SpotFairness, spot_fairness
-from evenbreak.ratings.prior import WIDTHS
+from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.walk_forward import Forecasts, walk_forward
-from evenbreak.ratings.within_matches import (
-    Dispersion,
-    FirstBreaks,
-    Streaks,
-    break_advantage,
-    dispersion,
-    first_breaks,
-    side_advantage,
-    streaks,
+from evenbreak.ratings.scored import (
+    PRIORS,
+    How,
+    Of,
+    Predictions,
+    Scored,
+    best_predictions,
+    loss_as_it_went,
 )
-
-Floats = NDArray[np.float64]
-
-PRIORS = WIDTHS[:9]
-"""The prior standard deviations that are tried, in log-odds: 0.09 to 1.39, `PRIOR_SD` too."""
+from evenbreak.ratings.walk_forward import Forecasts, walk_forward
+from evenbreak.ratings.within_matches import Dispersion, Streaks, dispersion, streaks
 
 FEWEST_DATES = 10
-"""Dates from which the bootstrap draws whole dates; with fewer it draws matches."""
+"""Dates from which the bootstrap resamples whole dates; with fewer it resamples matches."""
 
 BINS = 10
-
-FEWEST_MATCHES = 30
-"""Matches with a favourite from which a slope is told."""
-
-WIDEST_SLOPE = 4.0
-"""A slope whose interval is wider tells nothing."""
-
-SUREST = 1e-12
-"""No chance is taken to be nearer to 0 or 1."""
-
-
-class Scored(NamedTuple):
-    """How good one kind of prediction was, with the prior that suits it best.
-
-    Parameters
-    ----------
-    of
-        'game' or 'match': what is predicted.
-    how
-        'plug-in': the ratings as they stand; 'integrated': with their uncertainty
-        integrated out.
-    prior_sd
-        the prior that gave the least log-loss, or the one that was given.
-    log_loss, brier
-        the mean over games (or matches), in nats; a toss-up has ln 2 and 1/4.
-    slope
-        the calibration slope: 1 is right, below it the predictions are too sure of
-        themselves. None where it cannot be told: of fewer than 30 matches with a
-        favourite, or where its interval is wider than 4.
-    as_it_went
-        the log-loss if each date is predicted with the prior that did best before it;
-        None where the prior was given.
-    """
-
-    of: Literal["game", "match"]
-    how: Literal["plug-in", "integrated"]
-    prior_sd: float
-    log_loss: Estimate
-    brier: Estimate
-    slope: Estimate | None
-    as_it_went: float | None
 
 
 @dataclass(frozen=True, eq=False)
 class Validation:
-    """What a season says of the ratings that it is rated with.
+    """What a season says about the ratings that were predicted from it.
 
     Attributes
     ----------
@@ -100,29 +44,28 @@ class Validation:
     priors
         each prior that was tried with its log-loss a game, integrated.
     scored
-        games and matches, plug-in and integrated, each at its own best prior; no matches
+        games and matches, plug-in and integrated, each with its own best prior; no matches
         where there are no races.
     usual
-        the integrated predictions with the prior that is used unless another is given,
-        `PRIOR_SD`; empty where the prior was given here.
+        the integrated predictions with the default prior, `PRIOR_SD`; empty where a prior
+        was given.
     gain
-        log-loss of plug-in less that of integrated, each at its own best prior, by what
-        is predicted: above 0, the uncertainty is worth its while.
+        log-loss of plug-in less that of integrated, each with its own best prior, by what is
+        predicted: above 0, integrating out the uncertainty helps.
     skill
-        ln 2 less the log-loss a game, integrated: above 0, the ratings know something.
+        ln 2 less the log-loss a game, integrated: above 0, the ratings beat a coin.
     games, matches
-        calibration of the favourites' chances, integrated, at the prior to use.
+        calibration of the favourites' chances, integrated, with the prior to use.
     matches_plug_in
-        the same of matches by the ratings as they stand.
+        the same for matches, by the ratings at face value.
     toss_ups
         how many matches have no favourite and so are in no bin, by what is predicted.
     dispersion, streaks, side, breaker, first_breaks
-        whether play inside matches is what the model says; None where the file does not
-        tell.
+        whether play inside matches agrees with the model; None where the file does not say.
     spots
         how often the player with the longer race won.
     drawn
-        what the bootstrap draws: 'dates' or 'matches'.
+        what the bootstrap resamples: 'dates' or 'matches'.
     """
 
     forecasts: Forecasts
@@ -141,7 +84,7 @@ class Validation:
     side: Estimate | None
     breaker: Estimate | None
     first_breaks: FirstBreaks | None
-    spots: tuple[SpotFairness, ...]
+    spots: tuple[HandicapFairness, ...]
     drawn: Literal["dates", "matches"]
 
 
@@ -151,23 +94,23 @@ def validate(
     prior_sd: float | None = None,
     half_life: float | None = None,
     seed: int = 1,
-    progress: Callable[[str], None] = lambda _: None,
+    progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Validation:
-    """Walk forward through a season, and say how good the predictions were.
+    """Predict a season date by date, and return how good the predictions were.
 
     Parameters
     ----------
     results
         the matches, with dates.
     prior_sd
-        standard deviation of the prior in natural log-odds; None: each kind of
-        prediction gets that of `PRIORS`, or between them, which suits it best.
+        standard deviation of the prior in natural log-odds; None: each kind of prediction
+        gets the one that suits it best, from `PRIORS` or between them.
     half_life
         days after which a game counts half; None: games never age.
     seed
-        of the bootstrap and of the seasons that chance plays.
+        of the bootstrap and of the simulated seasons.
     progress
-        is told in a sentence what is done next.
+        called with how many steps are done, and of how many.
 
     Raises
     ------
@@ -176,8 +119,8 @@ def validate(
 
     Notes
     -----
-    A prior that is chosen on the season which it is judged by looks a little better than
-    it is: `Scored.as_it_went` does not.
+    A prior chosen on the season by which it is judged looks slightly better than it is;
+    `Scored.as_it_went` is free of that.
 
     >>> season = Results.from_names(["Ann", "Ann", "Bo"], ["Bo", "Bo", "Ann"], [7, 7, 3], [2, 4, 7],
     ...     date=["2024-09-03", "2024-09-10", "2024-09-17"])
@@ -186,166 +129,75 @@ def validate(
     [('game', 'plug-in', 0.654), ('game', 'integrated', 0.655)]
     """
     tried = PRIORS if prior_sd is None else (prior_sd,)
-    many = "" if len(tried) == 1 else f", with each of {len(tried)} priors"
-    progress(f"Predicting each date from those before it{many}")
-    walks = [walk_forward(results, prior_sd=sd, half_life=half_life) for sd in tried]
-    found = {}
-    for of in ("game", "match"):
-        for how in ("plug-in", "integrated"):
-            if of == "game" or walks[0].race_a.any():
-                found[of, how] = _best(walks, of, how, results, half_life)
-    used = found["game", "integrated"].walk
-    dates = int(used.date_of[-1]) + 1
-    drawn: Literal["dates", "matches"] = "dates" if dates >= FEWEST_DATES else "matches"
-    cluster = used.date_of if drawn == "dates" else np.arange(len(used))
+    steps = len(tried) + 5
+    walks = []
+    for done, sd in enumerate(tried, 1):
+        walks.append(walk_forward(results, prior_sd=sd, half_life=half_life))
+        progress(done, steps)
+    raced = bool(walks[0].race_a.any())
+    kinds: list[tuple[Of, How]] = [("game", "plug-in"), ("game", "integrated")]
+    kinds += [("match", "plug-in"), ("match", "integrated")] if raced else []
+    best = {}
+    for done, kind in enumerate(kinds, len(tried) + 1):
+        best[kind] = best_predictions(walks, *kind, results, half_life)
+        progress(done, steps)
+    used = best["game", "integrated"]
+    walk = used.walk
+    by_dates = int(walk.date_of[-1]) + 1 >= FEWEST_DATES
+    cluster = walk.date_of if by_dates else np.arange(len(walk))
     rng = np.random.default_rng(seed)
-    progress("Comparing the season with seasons that chance plays")
-    spread = dispersion(used, rng)
-    of_all = tuple(dict.fromkeys(of for of, _ in found))
-    scored = tuple(_scored(best, cluster, rng) for best in found.values())
+    spread = dispersion(walk, rng)
+    progress(steps, steps)
+    scored = tuple(
+        one.scored(cluster, rng, loss_as_it_went(walks, *kind)) for kind, one in best.items()
+    )
+    of_all = tuple(dict.fromkeys(of for of, _ in best))
+    usual: tuple[Scored, ...] = ()
+    if prior_sd is None:
+        own_rng = np.random.default_rng(seed)
+        default = walks[PRIORS.index(PRIOR_SD)]
+        usual = tuple(
+            Predictions.of_walk(default, of, "integrated").scored(cluster, own_rng) for of in of_all
+        )
+    tried_walks = sorted({*walks, walk}, key=lambda one: one.prior_sd)
     return Validation(
-        forecasts=used,
-        prior_sd=used.prior_sd,
+        forecasts=walk,
+        prior_sd=walk.prior_sd,
         priors=tuple(
-            (walk.prior_sd, _mean_loss(walk, "game", "integrated"))
-            for walk in sorted({*walks, used}, key=lambda walk: walk.prior_sd)
+            (one.prior_sd, Predictions.of_walk(one, "game", "integrated").mean_loss)
+            for one in tried_walks
         ),
         scored=scored,
-        usual=() if prior_sd is not None else _usual(walks, of_all, cluster, seed),
-        gain=_gains(found, cluster, rng),
-        skill=_skill(used, cluster, rng),
-        games=_calibrated(used, "game", "integrated", spread),
-        matches=_calibrated(used, "match", "integrated", None),
-        matches_plug_in=_calibrated(used, "match", "plug-in", None),
-        toss_ups={of: _toss_ups(used, of) for of in of_all},
+        usual=usual,
+        gain={
+            of: bootstrap_ratio(
+                best[of, "plug-in"].losses - best[of, "integrated"].losses,
+                best[of, "plug-in"].trials,
+                cluster,
+                rng,
+            )
+            for of in of_all
+        },
+        skill=bootstrap_ratio(np.log(2.0) * used.trials - used.losses, used.trials, cluster, rng),
+        games=_calibrated(used, spread),
+        matches=_calibrated(Predictions.of_walk(walk, "match", "integrated")),
+        matches_plug_in=_calibrated(Predictions.of_walk(walk, "match", "plug-in")),
+        toss_ups={of: Predictions.of_walk(walk, of, "integrated").toss_ups for of in of_all},
         dispersion=spread,
-        streaks=streaks(used),
-        side=side_advantage(used),
-        breaker=break_advantage(used),
-        first_breaks=first_breaks(used),
-        spots=tuple(spot_fairness(used)),
-        drawn=drawn,
+        streaks=streaks(walk),
+        side=side_advantage(walk),
+        breaker=break_advantage(walk),
+        first_breaks=first_breaks(walk),
+        spots=tuple(handicap_fairness(walk)),
+        drawn="dates" if by_dates else "matches",
     )
-
-
-class _Best(NamedTuple):
-    """The walk whose prior suits one kind of prediction best."""
-
-    of: str
-    how: str
-    walk: Forecasts
-    as_it_went: float | None
-
-
-def _best(
-    walks: list[Forecasts], of: str, how: str, results: Results, half_life: float | None
-) -> _Best:
-    if len(walks) == 1:
-        return _Best(of, how, walks[0], None)
-    losses = [_mean_loss(walk, of, how) for walk in walks]
-    least = int(np.argmin(losses))
-    walk = walks[least]
-    if 0 < least < len(walks) - 1:
-        walk = walk_forward(results, prior_sd=_vertex(losses, least), half_life=half_life)
-        if _mean_loss(walk, of, how) > losses[least]:
-            walk = walks[least]
-    return _Best(of, how, walk, _as_it_went(walks, of, how))
-
-
-def _vertex(losses: list[float], least: int) -> float:
-    """Return where the parabola through the least loss and its neighbours is lowest."""
-    x = np.log(PRIORS)
-    before, at, after = losses[least - 1 : least + 2]
-    shift = 0.5 * (before - after) / (before - 2.0 * at + after)
-    return float(np.exp(x[least] + shift * (x[1] - x[0])))
-
-
-def _as_it_went(walks: list[Forecasts], of: str, how: str) -> float:
-    """Return the log-loss where each date has the prior that did best on earlier dates."""
-    date_of = walks[0].date_of
-    many = int(date_of[-1]) + 1
-    by_date = np.array(
-        [np.bincount(date_of, log_loss(*_predictions(walk, of, how)), many) for walk in walks]
-    )
-    before = np.cumsum(by_date, axis=1) - by_date
-    # Without a date to judge by all are equal up to rounding: then the default speaks.
-    equal = np.ptp(before, axis=0) < 1e-9
-    chosen = np.where(equal, PRIORS.index(PRIOR_SD), before.argmin(0))
-    return float(by_date[chosen, np.arange(many)].sum() / _predictions(walks[0], of, how)[2].sum())
-
-
-def _predictions(walk: Forecasts, of: str, how: str) -> tuple[Floats, Floats, Floats]:
-    """Return the chances, wins and trials of all matches; none where there is no race."""
-    plain = how == "plug-in"
-    if of == "game":
-        p = walk.p_game if plain else walk.p_game_integrated
-        won, trials = walk.results.score_a.astype(float), walk.games.astype(float)
-    else:
-        raced = walk.race_a > 0
-        p = np.where(raced, walk.p_match if plain else walk.p_match_integrated, 0.5)
-        won, trials = np.where(raced, walk.won, 0.0), raced.astype(float)
-    # Nothing is certain: a chance that rounds to 1 would cost more than can be counted.
-    return np.clip(p, SUREST, 1.0 - SUREST), won, trials
-
-
-def _mean_loss(walk: Forecasts, of: str, how: str) -> float:
-    p, won, trials = _predictions(walk, of, how)
-    return float(log_loss(p, won, trials).sum() / trials.sum())
-
-
-def _scored(best: _Best, cluster: NDArray[np.int64], rng: np.random.Generator) -> Scored:
-    p, won, trials = _predictions(best.walk, best.of, best.how)
-    slope = logistic_coefficient(np.log(p) - np.log1p(-p), won, trials, cluster)
-    favourites = int((trials > 0).sum()) - no_favourites(p, trials)
-    if favourites < FEWEST_MATCHES or (slope and slope.high - slope.low > WIDEST_SLOPE):
-        slope = None
-    return Scored(
-        best.of,  # type: ignore[arg-type]
-        best.how,  # type: ignore[arg-type]
-        best.walk.prior_sd,
-        bootstrap_ratio(log_loss(p, won, trials), trials, cluster, rng),
-        bootstrap_ratio(brier(p, won, trials), trials, cluster, rng),
-        slope,
-        best.as_it_went,
-    )
-
-
-def _usual(
-    walks: list[Forecasts], of_all: tuple[str, ...], cluster: NDArray[np.int64], seed: int
-) -> tuple[Scored, ...]:
-    """Return how good the predictions are with the prior that is used unless told otherwise."""
-    rng = np.random.default_rng(seed)
-    walk = walks[PRIORS.index(PRIOR_SD)]
-    return tuple(_scored(_Best(of, "integrated", walk, None), cluster, rng) for of in of_all)
-
-
-def _toss_ups(walk: Forecasts, of: str) -> int:
-    p, _, trials = _predictions(walk, of, "integrated")
-    return no_favourites(p, trials)
-
-
-def _gains(
-    found: dict[tuple[str, str], _Best], cluster: NDArray[np.int64], rng: np.random.Generator
-) -> dict[str, Estimate]:
-    gains = {}
-    for of in dict.fromkeys(of for of, _ in found):
-        plain, whole = (
-            _predictions(found[of, how].walk, of, how) for how in ("plug-in", "integrated")
-        )
-        gain = log_loss(*plain) - log_loss(*whole)
-        gains[of] = bootstrap_ratio(gain, plain[2], cluster, rng)
-    return gains
-
-
-def _skill(walk: Forecasts, cluster: NDArray[np.int64], rng: np.random.Generator) -> Estimate:
-    p, won, games = _predictions(walk, "game", "integrated")
-    return bootstrap_ratio(np.log(2.0) * games - log_loss(p, won, games), games, cluster, rng)
 
 
 def _calibrated(
-    walk: Forecasts, of: str, how: str, spread: Dispersion | None
+    predictions: Predictions, spread: Dispersion | None = None
 ) -> tuple[CalibrationBin, ...]:
-    p, won, trials = _predictions(walk, of, how)
-    # Games of a match share what the ratings do not know, so they are worth fewer.
+    # Games of a match share what the ratings do not know, so each is worth less than one.
     worth = 1.0 if spread is None else min(1.0, 1.0 / spread.seen)
-    return tuple(calibration(p, won, trials, bins=BINS, worth=worth))
+    return tuple(
+        calibration(predictions.p, predictions.won, predictions.trials, bins=BINS, worth=worth)
+    )

@@ -1,14 +1,8 @@
 """Any answer as a page: one file, no script, nothing fetched from elsewhere."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import to_html
 from evenbreak.sheets.html_page import html_page
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 
 def answer_page(answer: Answer) -> bytes:

@@ -1,9 +1,9 @@
 """The small plot on the sheet's page: how even the races are, by rating difference."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
+
+from matplotlib.ticker import MaxNLocator
 
 from evenbreak.answers.chart_bands import Band
 from evenbreak.answers.sure_pairs import SurePair
@@ -46,8 +46,6 @@ class Plot(NamedTuple):
 
 def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale) -> Plot:
     """Return P(the stronger wins) against the rating difference: the chart, and each pair."""
-    from matplotlib.ticker import MaxNLocator
-
     chances = [p for band in bands for p in (band.p_first, band.p_after)]
     chances += [pair.p_win for pair in pairs]
     away = max(0.2, *(abs(p - 0.5) for p in chances)) + 0.02

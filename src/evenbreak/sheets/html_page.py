@@ -1,7 +1,5 @@
 """What all HTML pages share: one frame, one style, and a policy that allows nothing else."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import unicodedata

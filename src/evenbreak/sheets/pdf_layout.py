@@ -1,7 +1,5 @@
 """How large everything on the paper sheet is, so that the table fills the page."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -26,7 +24,7 @@ SLANT = 45
 
 
 @dataclass(frozen=True)
-class Layout:
+class PageSizes:
     """Sizes that all pages share: inches, and points for letters.
 
     `place`, `name` and `rating` are the widths of those columns, `cell` and `row` the size of
@@ -59,7 +57,7 @@ class Layout:
         return start, min(start + WIDEST_BARS, WIDTH - MARGIN)
 
 
-def layout_of(lines: Sequence[PlayerLine], races: Races, room: float) -> Layout:
+def page_sizes(lines: Sequence[PlayerLine], races: Races, room: float) -> PageSizes:
     """Return how large all can be, so that names, table and ticks have the height `room`."""
     rows = len(parts_of(lines, MOST_ON_A_PAGE)[0])
     size = min(LARGEST, 0.64 * POINTS * (room - 1.2) / rows)
@@ -78,7 +76,7 @@ def layout_of(lines: Sequence[PlayerLine], races: Races, room: float) -> Layout:
     slant_size = min(size, 0.6 * cell * POINTS)
     slanted = widest([slanted_name(line, slant_size) for line in lines], slant_size) + 0.15
     height = slanted * math.sin(math.radians(SLANT))
-    return Layout(
+    return PageSizes(
         columns=columns,
         place=place,
         name=name,

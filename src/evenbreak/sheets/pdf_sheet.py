@@ -1,11 +1,11 @@
 """The fair-race sheet on paper: the race against each opponent, and each rating, to pin up."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.figure import Figure
 
 from evenbreak.answers.left_out import left_out
 from evenbreak.answers.report_frames import file_name
@@ -25,8 +25,8 @@ from evenbreak.sheets.pdf_layout import (
     LARGEST,
     MOST_ON_A_PAGE,
     SLANT,
-    Layout,
-    layout_of,
+    PageSizes,
+    page_sizes,
     rating_text,
     slanted_name,
 )
@@ -43,9 +43,6 @@ from evenbreak.sheets.pdf_page import (
 )
 from evenbreak.sheets.race_blocks import Block, parts_of, race_blocks
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, Tick, player_lines
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MOST_PAIRED = 48
 """Players that are put on paper; the files hold all."""
@@ -82,17 +79,17 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
         [*_notes(sheet, shown), *_about_names(lines, len(sheet.rated)), version_and_source(sheet)]
     )
     room = HEIGHT - 2 * MARGIN - HEADING - len(notes) * LEADING * SMALL / POINTS
-    layout = layout_of(lines, shown.races, room)
+    sizes = page_sizes(lines, shown.races, room)
     blocks = [
         (down, block)
         for down in parts_of(lines, MOST_ON_A_PAGE)
-        for block in race_blocks(lines, shown.races, layout.columns)
+        for block in race_blocks(lines, shown.races, sizes.columns)
     ]
     pages = []
     for number, (down, block) in enumerate(blocks, 1):
         page = Paper()
         _heading(page, sheet, shown)
-        bottom = _Table(page, layout, down, block, bars.ticks()).draw()
+        bottom = _Table(page, sizes, down, block, bars.ticks()).draw()
         _lines(page, bottom + 0.42, notes)
         if len(blocks) > 1:
             text = f"page {number} of {len(blocks)}"
@@ -143,17 +140,17 @@ class _Table:
     """The part of the sheet that is on one page: some players against some others."""
 
     page: Paper
-    layout: Layout
+    sizes: PageSizes
     down: Sequence[PlayerLine]
     block: Block
     ticks: Sequence[Tick]
 
     def draw(self) -> float:
         """Draw it all, and return where the table ends."""
-        layout, end = self.layout, self._bars[1]
+        sizes, end = self.sizes, self._bars[1]
         for k in range(0, len(self.down), 2):
-            top = layout.top + k * layout.row
-            self.page.band(MARGIN, top, end - MARGIN, layout.row, grey="0.945")
+            top = sizes.top + k * sizes.row
+            self.page.band(MARGIN, top, end - MARGIN, sizes.row, grey="0.945")
         self._draw_names()
         self._draw_races()
         self._draw_ratings()
@@ -161,63 +158,63 @@ class _Table:
 
     @property
     def _bottom(self) -> float:
-        return self.layout.top + self.layout.row * len(self.down)
+        return self.sizes.top + self.sizes.row * len(self.down)
 
     @property
     def _bars(self) -> tuple[float, float]:
-        return self.layout.bars(len(self.block.across))
+        return self.sizes.bars(len(self.block.across))
 
     def _middles(self) -> Iterator[tuple[float, PlayerLine]]:
         for k, line in enumerate(self.down):
-            yield self.layout.top + (k + 0.5) * self.layout.row, line
+            yield self.sizes.top + (k + 0.5) * self.sizes.row, line
 
     def _draw_names(self) -> None:
-        layout, page = self.layout, self.page
-        look: dict[str, Any] = {"size": layout.text_size}
+        sizes, page = self.sizes, self.page
+        look: dict[str, Any] = {"size": sizes.text_size}
         for y, line in self._middles():
-            x = MARGIN + layout.place
+            x = MARGIN + sizes.place
             page.centred(x, y, str(line.place), ha="right", color="0.35", **look)
-            name = shortened(line.name, layout.text_size, layout.name)
+            name = shortened(line.name, sizes.text_size, sizes.name)
             page.centred(x + GAP, y, name, ha="left", **look)
         for column, line in enumerate(self.block.across):
-            x = layout.left + (column + 0.5) * layout.cell + 0.03
-            size = layout.slant_size
-            page.slanted(x, layout.top - 0.06, slanted_name(line, size), size=size, angle=SLANT)
+            x = sizes.left + (column + 0.5) * sizes.cell + 0.03
+            size = sizes.slant_size
+            page.slanted(x, sizes.top - 0.06, slanted_name(line, size), size=size, angle=SLANT)
 
     def _draw_races(self) -> None:
-        layout, page = self.layout, self.page
+        sizes, page = self.sizes, self.page
         races = dict(self.block.rows)
         for y, line in self._middles():
             for column, race in enumerate(races[line]):
-                x = layout.left + column * layout.cell
+                x = sizes.left + column * sizes.cell
                 if race is None:
-                    page.band(x, y - layout.row / 2, layout.cell, layout.row, grey="0.78")
+                    page.band(x, y - sizes.row / 2, sizes.cell, sizes.row, grey="0.78")
                 else:
-                    page.centred(x + layout.cell / 2, y, race, size=layout.race_size)
-        right = layout.right(len(self.block.across))
+                    page.centred(x + sizes.cell / 2, y, race, size=sizes.race_size)
+        right = sizes.right(len(self.block.across))
         for k in range(len(self.down) + 1):
-            y = layout.top + k * layout.row
-            page.line([layout.left, right], [y, y], color="0.55", lw=0.4)
+            y = sizes.top + k * sizes.row
+            page.line([sizes.left, right], [y, y], color="0.55", lw=0.4)
         for column in range(len(self.block.across) + 1):
-            x = layout.left + column * layout.cell
-            page.line([x, x], [layout.top, self._bottom], color="0.55", lw=0.4)
+            x = sizes.left + column * sizes.cell
+            page.line([x, x], [sizes.top, self._bottom], color="0.55", lw=0.4)
 
     def _draw_ratings(self) -> None:
-        layout, page = self.layout, self.page
+        sizes, page = self.sizes, self.page
         start, end = self._bars
 
         def place(at: float) -> float:
             return start + (end - start) * at / 100
 
         for tick in self.ticks:
-            page.line([place(tick.at)] * 2, [layout.top, self._bottom], color="0.75")
+            page.line([place(tick.at)] * 2, [sizes.top, self._bottom], color="0.75")
             page.centred(place(tick.at), self._bottom + 0.1, tick.label, size=SMALL)
         for y, line in self._middles():
-            size = layout.text_size
-            text = shortened(rating_text(line), size, layout.rating)
+            size = sizes.text_size
+            text = shortened(rating_text(line), size, sizes.rating)
             page.centred(start - GAP, y, text, size=size, ha="right")
             ends = [place(line.low), place(line.high)]
             page.line(ends, [y, y], color="0.45", lw=2.2, solid_capstyle="butt")
             page.line([place(line.middle)], [y], marker="o", ms=4.5)
         for k, text in enumerate(("bar: two of them either way", "rating ± standard error")):
-            page.text(end, layout.top - 0.06 - 0.15 * k, text, size=SMALL, ha="right")
+            page.text(end, sizes.top - 0.06 - 0.15 * k, text, size=SMALL, ha="right")

@@ -1,15 +1,13 @@
 """Ratings with their bars, on an axis from 0 to 100 per cent, for pages and for paper."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import pandas as pd
+from matplotlib.ticker import MaxNLocator
 
 from evenbreak.answers.scale_words import decimals_of
 from evenbreak.ratings.scale import Scale
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 NOT_OVER_THE_EDGE = (4, 96)
 """A label nearer to an end of the axis would hang over it."""
@@ -68,8 +66,6 @@ class Bars:
 
     def ticks(self) -> list[Tick]:
         """Return the marks on the axis."""
-        from matplotlib.ticker import MaxNLocator
-
         found = MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]).tick_values(self.low, self.high)
         ticks = [Tick(self.place(float(tick)), f"{tick:g}") for tick in found]
         least, most = NOT_OVER_THE_EDGE

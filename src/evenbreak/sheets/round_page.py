@@ -1,21 +1,21 @@
 """The races of a round as one HTML file: for the wall, a phone and a screen reader."""
 
-from __future__ import annotations
-
+from collections import defaultdict
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from evenbreak.answers.remarks import warnings_of
 from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.round import Round
 from evenbreak.answers.round_words import (
     about_method,
-    about_model,
     about_pairs,
     about_players,
     evening_words,
+    game_model,
     races_of,
     which_races,
 )
@@ -26,46 +26,14 @@ from evenbreak.answers.wording import race
 from evenbreak.errors import InputError
 from evenbreak.files.csv_writer import rows_of
 from evenbreak.sheets.html_page import html_page
-from evenbreak.sheets.race_blocks import Block, RaceCard, race_blocks, race_cards
+from evenbreak.sheets.race_blocks import race_blocks, race_cards
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, player_lines
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MOST_ACROSS = 48
 """The most players whose races against each other stand on a page."""
 
 MOST_MATCHES = 500
 """The most matches of a list on a page."""
-
-
-class MatchLine(NamedTuple):
-    """A match as the page shows it; the numbers of one without a race are empty."""
-
-    a: PlayerLine
-    b: PlayerLine
-    needs_a: str
-    needs_b: str
-    chance: str = ""
-    chance_b: str = ""
-    games: str = ""
-    games_p90: str = ""
-    minutes: str = ""
-    minutes_p90: str = ""
-    fairest: str = ""
-    fairest_chance: str = ""
-
-
-class Kind(NamedTuple):
-    """All races of one kind: by the chart, or the fairest."""
-
-    id: str
-    title: str
-    which_races: str
-    how_to_read: str
-    blocks: Sequence[Block]
-    cards: Sequence[RaceCard]
-    remarks: Sequence[str]
 
 
 def round_html(tonight: Round) -> bytes:
@@ -104,7 +72,7 @@ def round_html(tonight: Round) -> bytes:
     grouped = bool(rated["component"].max() > 1)
     lines = player_lines(rated, tonight.scale, bars, grouped=grouped)
     kinds = [] if tonight.listed else [_kind(tonight, prefix, lines) for prefix in tonight.kinds]
-    links = [(kind.id, kind.title) for kind in kinds]
+    links = [(kind["id"], kind["title"]) for kind in kinds]
     links += [("ratings", "Ratings")] if kinds else [("matches", "Matches")]
     return html_page(
         "round.html",
@@ -126,7 +94,7 @@ def round_html(tonight: Round) -> bytes:
             *about_method(tonight),
             *warnings_of(tonight.file),
         ],
-        model=about_model(tonight),
+        model=game_model(tonight),
         made_of="a list of players",
         file=tonight.file,
     )
@@ -135,15 +103,19 @@ def round_html(tonight: Round) -> bytes:
 def _check(tonight: Round, players: int) -> None:
     matches = len(tonight.pairs)
     if tonight.listed and matches > MOST_MATCHES:
-        raise InputError(f"there are {matches:,} matches; give {MOST_MATCHES:,} at most")
+        raise InputError(
+            f"{matches:,} matches are too many for a page, which holds {MOST_MATCHES} at most; "
+            "make a list and a page for each part of the round"
+        )
     if not tonight.listed and players > MOST_ACROSS:
-        raise InputError(f"there are {players:,} players; give {MOST_ACROSS} at most, or a list")
+        raise InputError(
+            f"{players:,} players are too many for a page, which holds all pairs of {MOST_ACROSS} "
+            "at most; name those who meet with --pairs PAIRS.csv"
+        )
 
 
 def _rated(tonight: Round) -> pd.DataFrame:
     """Return the players who are on the page, the strongest first."""
-    import pandas as pd
-
     roster = tonight.roster
     here = np.unique(tonight.pairs)
     order = here[np.argsort(-roster.rating[here], kind="stable")]
@@ -156,22 +128,22 @@ def _rated(tonight: Round) -> pd.DataFrame:
     )
 
 
-def _kind(tonight: Round, prefix: str, lines: Sequence[PlayerLine]) -> Kind:
+def _kind(tonight: Round, prefix: str, lines: Sequence[PlayerLine]) -> dict[str, Any]:
     paired = races_of(tonight.matchups.frame, prefix)
     races = races_by_name(paired)
     first = prefix == next(iter(tonight.kinds))
-    return Kind(
-        "races" if first else "fairest",
-        "The races" if first else "The fairest races",
-        which_races(tonight, prefix),
-        how_to_read(paired),
-        race_blocks(lines, races),
-        race_cards(lines, races, paired),
-        list(how_even(paired)),
-    )
+    return {
+        "id": "races" if first else "fairest",
+        "title": "The races" if first else "The fairest races",
+        "which_races": which_races(tonight, prefix),
+        "how_to_read": how_to_read(paired),
+        "blocks": race_blocks(lines, races),
+        "cards": race_cards(lines, races, paired),
+        "remarks": list(how_even(paired)),
+    }
 
 
-def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[MatchLine]:
+def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[dict[str, Any]]:
     by_name = {line.name: line for line in lines}
     main, *others = tonight.kinds
     frame = tonight.matchups.frame
@@ -179,28 +151,21 @@ def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[MatchLine]:
     for values in rows_of(frame):
         row: dict[str, Any] = dict(zip(frame.columns, values, strict=True))
         a, b = by_name[row["player_a"]], by_name[row["player_b"]]
+        # What is not set is empty on the page.
+        match: dict[str, Any] = defaultdict(str, a=a, b=b, needs_a=NO_RACE, needs_b=NO_RACE)
+        matches.append(match)
         if row["difference"] is None:
-            matches.append(MatchLine(a, b, NO_RACE, NO_RACE))
             continue
         # Rounded first, so that the two chances are 1 together.
         chance = round(row[f"{main}p_win_a"], 2)
-        match = MatchLine(
-            a,
-            b,
-            f"{row[f'{main}race_a']}",
-            f"{row[f'{main}race_b']}",
-            f"{chance:.2f}",
-            f"{1.0 - chance:.2f}",
-            f"{row[f'{main}mean_games']:.1f}",
-            f"{row[f'{main}games_p90']}",
-        )
+        match |= {f"needs_{side}": str(row[f"{main}race_{side}"]) for side in "ab"}
+        match |= {"chance": f"{chance:.2f}", "chance_b": f"{1.0 - chance:.2f}"}
+        match["games"] = f"{row[f'{main}mean_games']:.1f}"
+        match["games_p90"] = str(row[f"{main}games_p90"])
         if tonight.minutes_per_game is not None:
-            match = match._replace(
-                minutes=f"{row[f'{main}mean_minutes']:.0f}",
-                minutes_p90=f"{row[f'{main}minutes_p90']:.0f}",
-            )
+            match["minutes"] = f"{row[f'{main}mean_minutes']:.0f}"
+            match["minutes_p90"] = f"{row[f'{main}minutes_p90']:.0f}"
         if others:
-            fairest = race((row["race_a"], row["race_b"]))
-            match = match._replace(fairest=fairest, fairest_chance=f"{row['p_win_a']:.2f}")
-        matches.append(match)
+            match["fairest"] = race((row["race_a"], row["race_b"]))
+            match["fairest_chance"] = f"{row['p_win_a']:.2f}"
     return matches

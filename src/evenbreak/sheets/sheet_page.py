@@ -1,19 +1,17 @@
 """The fair-race sheet as one HTML file: for a phone, a screen, a printer and a screen reader."""
 
-from __future__ import annotations
-
 from evenbreak.answers.left_out import left_out
 from evenbreak.answers.remarks import warnings_of
 from evenbreak.answers.report_frames import count_groups, file_name
 from evenbreak.answers.scale_words import decimals_of
 from evenbreak.answers.sheet import Sheet
 from evenbreak.answers.sheet_words import (
-    about_model,
     about_ratings,
     how_even,
     how_rated,
     how_to_read,
     played,
+    rating_model,
     source_and_dates,
 )
 from evenbreak.answers.sure_pairs import how_sure, three_pairs
@@ -81,7 +79,7 @@ def sheet_html(sheet: Sheet) -> bytes:
             *left_out(sheet, listed=len(listed), in_table=len(across)),
             *warnings_of(sheet.file),
         ],
-        model=about_model(sheet),
+        model=rating_model(sheet),
         made_of="results",
         file=sheet.file,
     )

@@ -1,7 +1,8 @@
 import pytest
 
-from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_text import paragraph, to_text
+from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 
 
 def wide_table(columns):
@@ -45,3 +46,14 @@ def test_details_are_for_those_who_ask():
     assert "model" not in to_text(answer)
     assert "statistics" in to_text(answer, verbose=True)
     assert "model" in to_text(answer, verbose=True)
+
+
+def test_numbers_stand_flush_right_and_names_flush_left():
+    columns = [Column("player", "player", left=True), Column("games", "games")]
+    table = Table("", columns, [("Ann", 7), ("Christopher", 1234), ("Bo", None)])
+    assert to_text(Answer("Heading", [table])).splitlines()[2:] == [
+        "  player       games",
+        "  Ann              7",
+        "  Christopher   1234",
+        "  Bo",
+    ]

@@ -6,10 +6,10 @@ from click.testing import CliRunner
 
 from evenbreak.cli.kit.options import (
     PlainCommand,
+    race_limit_options,
     refuse_both,
     scale_option,
     seed_option,
-    which_races,
 )
 
 
@@ -71,7 +71,7 @@ def test_a_seed() -> None:
 
 def test_races_by_games_or_by_what_the_stronger_player_needs() -> None:
     @click.command()
-    @which_races
+    @race_limit_options
     def command(games, race_to) -> None:
         refuse_both(games, race_to)
         click.echo(f"{games} {race_to}")

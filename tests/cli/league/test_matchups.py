@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
-from evenbreak.handicaps.charts.uncertain import win_given_ratings
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from places import DATA
 
 CLUB = "player,rating\nAnn,92\nBo,71\nCy,80\nDi,60\n"
@@ -51,7 +51,7 @@ def test_all_pairs_as_csv(run, roster):
     assert list(rows[0]) == COLUMNS
     assert (rows[1]["chart_race_a"], rows[1]["chart_race_b"]) == ("6", "4")
     assert rows[1]["difference_error"] == ""
-    assert "npl scale" in result.stderr
+    assert "NPL scale" in result.stderr
 
 
 def test_pairs_in_the_order_of_the_list(run, roster):
@@ -206,7 +206,7 @@ def test_stdin(run):
         (("--race-to", "7", "--starter-sd", "-1"), "'-1'"),
         (("--race-to", "7", "--starter-sd", "151"), "150"),
         (("--race-to", "7", "--scale", "x"), "npl, fargo, elo"),
-        (("--race-to", "7", "--pairs", "-", "--chart", "-"), "stdin"),
+        (("--race-to", "7", "--pairs", "-", "--chart", "-"), "standard input"),
     ],
 )
 def test_wrong_use_says_how_to_mend_it(run, roster, words, remedy):
@@ -291,3 +291,46 @@ def test_more_than_a_page_holds_is_refused_with_the_remedy(run, roster, tmp_path
     result = run("matchups", club, *SURE, "--html", "page.txt")
     assert "'page.txt'" in result.stderr
     assert not page.exists()
+
+
+@pytest.fixture
+def fargo_list(run, tmp_path):
+    """Return the list that `report --scale fargo` writes of the demo league."""
+    assert run(
+        *("report", str(DATA / "demo_league.csv"), "--out", str(tmp_path), "--scale", "fargo")
+    ).exit_code == 0  # fmt: skip
+    return tmp_path / "ratings.csv"
+
+
+def test_a_list_keeps_its_scale(run, fargo_list):
+    found = run("matchups", str(fargo_list), *SURE, "--csv")
+    stated = run("matchups", str(fargo_list), *SURE, "--scale", "fargo", "--csv")
+    assert table(found) == table(stated)
+    unlike = run("matchups", str(fargo_list), "--chart", "npl_10")
+    assert "npl_10 is made for ratings on the NPL scale" in unlike.stderr
+
+
+def test_another_scale_than_that_of_the_list_is_refused(run, fargo_list):
+    refused = run("matchups", str(fargo_list), *SURE, "--scale", "elo")
+    assert refused.exit_code == 2
+    assert "Fargo scale" in refused.stderr
+    assert "Elo scale" in refused.stderr
+
+
+@pytest.mark.parametrize("command", [
+    ("rate", str(DATA / "demo_league.csv"), "--system", "npl", "--roster"),
+    ("sandbag", "watch", str(DATA / "demo_league.csv"), "--roster"),
+    ("ladder", "--league"),
+    ("ladder", "--compare", "--league"),
+])  # fmt: skip
+def test_a_system_of_another_scale_than_the_list_is_refused(run, fargo_list, command):
+    refused = run(*command, str(fargo_list))
+    assert refused.exit_code == 2
+    assert "Fargo scale" in refused.stderr
+    assert "NPL scale" in refused.stderr
+
+
+def test_a_season_on_another_scale_than_the_list_is_refused(run, fargo_list, tmp_path):
+    refused = run("simulate", str(fargo_list), "--out", str(tmp_path / "season"))
+    assert refused.exit_code == 2
+    assert "Fargo scale" in refused.stderr

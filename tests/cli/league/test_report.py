@@ -68,7 +68,17 @@ def test_the_same_as_json(run, demo, tmp_path):
 def test_the_columns_are_those_of_the_documentation(demo):
     _, folder = demo
     assert list(rows(folder, "ratings.csv")[0]) == (
-        ["player", "rating", "standard_error", "quasi_error", "games", "won", "lost", "component"]
+        [
+            "player",
+            "rating",
+            "standard_error",
+            "quasi_error",
+            "games",
+            "won",
+            "lost",
+            "component",
+            "scale",
+        ]
     )
     assert list(rows(folder, "matchups.csv")[0]) == (
         [
@@ -188,10 +198,10 @@ def test_aliases_mend_names_and_the_page_keeps_their_folder_to_itself(run, tmp_p
     words = ("report", "-", "--out", str(out), "--aliases", str(aliases), "--html")
     result = run(*words, stdin=season)
     assert result.exit_code == 0
-    assert f"{aliases} says: 'Annie' as 'Ann'" in result.stderr
+    assert f"{aliases}: 'Annie' as 'Ann'" in result.stderr
     assert {row["player"] for row in rows(out, "ratings.csv")} == {"Ann", "Bo", "Cy"}
     page = content(out)["sheet.html"].decode()
-    assert "aliases.csv says: &#39;Annie&#39; as &#39;Ann&#39;" in page
+    assert "aliases.csv: &#39;Annie&#39; as &#39;Ann&#39;" in page
     assert "private" not in page
 
 
@@ -226,7 +236,7 @@ def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
     short = "".join(season[:81])
     words = ("--prior", "best", "--half-life", "180", "--as-of", "2024-10-20")
     result = run("report", "-", "--out", str(tmp_path), *words, stdin=short)
-    assert "of 12 spreads this one" in " ".join(result.stdout.split())
+    assert "of 12 values tried" in " ".join(result.stdout.split())
     listed = list(csv.DictReader(io.StringIO(run("rate", "-", *words, stdin=short).stdout)))
     columns = ("player", "rating", "standard_error")
     assert [[row[name] for name in columns] for row in listed] == (
@@ -237,7 +247,7 @@ def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "code", "remedy"),
     [
-        (["--prior", "0"], 2, "'0'"),
+        (["--prior", "0"], 2, "--prior is 0"),
         (["--prior", "1e9"], 2, "--prior"),
         (["--half-life", "0"], 2, "'0'"),
         (["--as-of", "yesterday"], 2, "'yesterday'"),
@@ -253,12 +263,12 @@ def test_wrong_words_on_how_to_rate_write_nothing(run, tmp_path, words, code, re
 
 
 def test_warnings_go_to_stderr(run, tmp_path):
-    season = SMALL + "2024-09-24,ann,Bo,7,5\n"
+    season = SMALL + "2024-09-24,Zoë,Bo,7,5\n2024-09-24,Zoe,Bo,7,5\n"
     result = run("report", "-", "--out", str(tmp_path), stdin=season.replace("date", "when"))
     assert result.exit_code == 0
     unused, alike = [line for line in result.stderr.splitlines() if line.startswith("Warning: ")]
     assert "'when'" in unused
-    assert "'Ann' and 'ann'" in alike
+    assert "'Zoe' and 'Zoë'" in alike
     assert "Warning" not in result.stdout
     assert summary(tmp_path)["groups_of_similar_names"] == "1"
 
@@ -430,3 +440,24 @@ def test_an_end_while_files_take_their_places_leaves_the_new_ones(run, tmp_path,
             process.kill()
         assert b"Traceback" not in process.stderr.read()
     assert content(old) == content(new)
+
+
+@pytest.mark.parametrize("name", ["ratings.csv", "matchups.csv", "summary.csv"])
+def test_the_results_are_never_overwritten(run, tmp_path, name):
+    season = tmp_path / name
+    season.write_bytes(DEMO.read_bytes())
+    result = run("report", str(season), "--out", str(tmp_path))
+    assert result.exit_code == 2
+    assert name in result.stderr
+    assert [file.name for file in tmp_path.iterdir()] == [name]
+    assert season.read_bytes() == DEMO.read_bytes()
+
+
+def test_a_page_never_takes_the_place_of_what_was_read(run, tmp_path):
+    season = tmp_path / "season.html"
+    season.write_bytes(DEMO.read_bytes())
+    assert run("rate", str(season), "--html", str(season)).exit_code == 2
+    assert season.read_bytes() == DEMO.read_bytes()
+    other = str(tmp_path / "page.html")
+    for _ in range(2):  # a page of last time may be written over
+        assert run("rate", str(season), "--html", other).exit_code == 0

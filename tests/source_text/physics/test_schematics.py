@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from typing import Any
 
@@ -10,16 +9,11 @@ import numpy as np
 import pytest
 from matplotlib.patches import FancyArrowPatch
 
-from evenbreak.source_text.physics.chosen import CAPTIONS
-from evenbreak.source_text.physics.figures import figures
-from places import SHARED
-
-NAMES = tuple(f"figure_{n}" for n in ("1_1", "1_2", "2_1", "4_1", "4_2", "4_3", "4_6"))
+from drawings import figure
 
 
-@functools.cache
 def axes_of(name: str) -> Any:
-    return figures()[name]().axes[0]
+    return figure(name).axes[0]
 
 
 def arrows(name: str, label: str) -> list[Any]:
@@ -41,11 +35,6 @@ def cross(a: Any, b: Any) -> float:
 def turn(arrow: Any, centre: Any) -> float:
     """Return above 0 for an arrow counterclockwise about a centre."""
     return cross(arrow[0] - centre, arrow[1] - centre)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_a_sketch_says_that_it_is_one(name: str) -> None:
-    assert "A sketch" in CAPTIONS[name]
 
 
 def test_friction_turns_two_balls_the_same_way() -> None:
@@ -118,11 +107,3 @@ def test_the_axis_of_a_thrown_ball_is_tilted_by_seven_halves_of_the_throw() -> N
     low, high = np.array(equator.get_xydata())
     assert (high - low) @ axis == pytest.approx(0)
     assert (low + high) / 2 == pytest.approx([0, 1])
-
-
-def test_all_figures_of_the_source_are_here() -> None:
-    facts = SHARED / "seed" / "physics_figures.csv"
-    if not facts.exists():
-        pytest.skip("the facts about the text's figures do not lie beside this copy")
-    numbers = {line.split(",")[0] for line in facts.read_text("utf-8").splitlines()[1:]}
-    assert {f"figure_{number.replace('.', '_')}" for number in numbers} == set(figures())

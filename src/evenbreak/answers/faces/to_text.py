@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Quantities, Table
+from evenbreak.answers.parts import Quantities, Table
 from evenbreak.files.problems import printable
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer, Part
+    from evenbreak.answers.answer import Answer
+    from evenbreak.answers.parts import Part
 
 WIDTH = 80
 NARROWEST, LONGEST_NAME = 20, 30
@@ -17,6 +18,7 @@ NARROWEST, LONGEST_NAME = 20, 30
 leaves them as many columns as the first; else after as many as the second."""
 
 _GAP = 2
+"""Blanks between two columns."""
 
 
 def to_text(answer: Answer, *, width: int = WIDTH, verbose: bool = False) -> str:
@@ -37,7 +39,7 @@ def to_text(answer: Answer, *, width: int = WIDTH, verbose: bool = False) -> str
 
 
 def paragraph(text: str, width: int = WIDTH) -> str:
-    r"""Return text with each of its lines broken between words where the terminal ends.
+    r"""Return text with its lines broken between words, in items too.
 
     >>> print(paragraph("Left out:\n- 11 forfeited matches: no games were played.", 32))
     Left out:

@@ -1,7 +1,5 @@
 """Groups of commands, each of which is imported only when it runs."""
 
-from __future__ import annotations
-
 import importlib
 import itertools
 from collections.abc import Mapping

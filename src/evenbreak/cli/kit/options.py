@@ -1,20 +1,25 @@
 """Options shared by several commands, each declared once, and commands that take ratings."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import click
 
-from evenbreak.cli.kit.values import CHANCE, LONGEST, NUMBER, SPAN, Whole, meant, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.ratings.scale import Scale
+from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Whole, meant, refuse
+from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale, scale_of
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Decorator = Callable[[Command], Command]
+
+
+def with_options(command: Command, *options: Decorator[Any]) -> Command:
+    """Return a command with more options, the last of them first in its help."""
+    for option in options:
+        command = option(command)
+    return command
+
 
 HIGHEST_SEED = 2**32 - 1
 
@@ -40,23 +45,12 @@ class PlainCommand(click.Command):
         return rest
 
 
-class ScaleName(click.ParamType):  # type: ignore[type-arg]
-    """A scale, by its name or by the points that double the odds."""
-
-    name = "scale"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Scale:
-        """Return the scale."""
-        from evenbreak.errors import InputError
-        from evenbreak.ratings.scale import scale_of
-
-        try:
-            scale: Scale = scale_of(value)
-        except InputError as error:
-            self.fail(str(error), param, ctx)
-        return scale
+def _scale(name: str) -> Scale:
+    try:
+        scale: Scale = scale_of(name)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+    return scale
 
 
 def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
@@ -72,21 +66,28 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
     """
     return click.option(
         "--scale",
-        type=ScaleName(),
+        type=_scale,
         default=without if fixed else None,
+        show_default=False,
         metavar="npl|fargo|elo|POINTS",
-        help="What ratings mean: POINTS of difference double the odds of winning a game.  "
+        help="The scale of the ratings: POINTS double the odds of winning a game.  "
         f"[default: {without}]",
     )
 
 
-def seed_option(what: str = "The seed of all random draws.", *, default: int = 1) -> Decorator[Any]:
+drill_option = click.option(
+    "--drill", metavar="NAME", help="The drill to look at, if the file has several."
+)
+
+
+def seed_option(
+    what: str = "The seed of all random draws.", *, default: int | None = 1
+) -> Decorator[Any]:
     """Return the option --seed; `what` says what is drawn."""
     return click.option(
         "--seed",
         type=Whole(0, HIGHEST_SEED),
         default=default,
-        show_default=True,
         metavar="N",
         help=what,
     )
@@ -99,10 +100,24 @@ def chart_option(
     return click.option("--chart", metavar="NAME|FILE", help=what)
 
 
+def _folder(ctx: click.Context, param: click.Parameter, value: str) -> str:  # noqa: ARG001
+    if not value.strip():
+        refuse("--out is empty; name a folder, or . for this one")
+    return value
+
+
+def out_option(what: str) -> Decorator[Any]:
+    """Return the option --out; `what` says what is written to the folder."""
+    kind = click.Path(file_okay=False)
+    return click.option(
+        "--out", required=True, metavar="DIR", type=kind, callback=_folder, help=what
+    )
+
+
 aliases_option = click.option(
     "--aliases",
     metavar="ALIASES.csv",
-    help="Which names mean the same player: a file with the columns name and means.",
+    help="Names that mean the same player: a file with the columns name and means.",
 )
 """The option --aliases of every command that reads results."""
 
@@ -110,31 +125,33 @@ aliases_option = click.option(
 safety_option = click.option(
     "--safety",
     metavar="ALPHA",
-    type=CHANCE,
+    type=SHARE,
     default="1",
-    show_default=True,
     help="The first shot of an inning goes in ALPHA times as often as the others.",
 )
 """The option --safety of the commands about straight pool."""
 
 
-def which_races(command: Command) -> Command:
+def race_limit_options(command: Command) -> Command:
     """Add the options that limit the races: --games or --race-to."""
-    command = click.option(
-        "--race-to",
-        type=Whole(1, LONGEST),
-        metavar="N",
-        help="Races in which the stronger player needs N games.",
-    )(command)
-    return click.option(
-        "--games",
-        metavar="LO..HI",
-        type=SPAN,
-        help="Races whose longest possible match has LO to HI games.",
-    )(command)
+    return with_options(
+        command,
+        click.option(
+            "--race-to",
+            type=Whole(1, LONGEST),
+            metavar="N",
+            help="Races in which the stronger player needs N games.",
+        ),
+        click.option(
+            "--games",
+            metavar="LO..HI",
+            type=SPAN,
+            help="Races whose longest possible match has LO to HI games.",
+        ),
+    )
 
 
 def refuse_both(games: tuple[int, int] | None, race_to: int | None) -> None:
     """Refuse --games together with --race-to."""
     if games is not None and race_to is not None:
-        refuse("--games and --race-to exclude each other; leave one out")
+        refuse("--games and --race-to cannot be combined; leave one out")

@@ -1,13 +1,11 @@
 """Who plays: two ratings, one game probability, or one for each breaker with a break format."""
 
-from __future__ import annotations
-
 import math
 
 import click
 
 from evenbreak.answers.two_players import FORMATS, TwoPlayers
-from evenbreak.cli.kit.options import Command, scale_option
+from evenbreak.cli.kit.options import Command, scale_option, with_options
 from evenbreak.cli.kit.values import CHANCE, refuse
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale, scale_of
@@ -30,7 +28,7 @@ def players_of(
     if ways != 1:
         refuse(("the players are given twice; " if ways else "the players are missing; ") + REMEDY)
     if scale is not None and not ratings:
-        refuse("--scale says what ratings mean, but none are given; leave it out")
+        refuse("--scale is for ratings, but none are given; leave it out")
     if by_break:
         if p1 is None or p2 is None or breaks is None:
             refuse("--p1, --p2 and --breaks go together; give all three")
@@ -51,13 +49,18 @@ def players_of(
 
 def player_options(command: Command) -> Command:
     """Add the arguments and options that describe the players."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--first-break",
             type=click.Choice(["a", "b"]),
             help="Who breaks the next game.  [default: a; b with --breaks b]",
         ),
-        click.option("--breaks", type=click.Choice(list(FORMATS)), help="Who breaks."),
+        click.option(
+            "--breaks",
+            type=click.Choice(list(FORMATS)),
+            help="Who breaks: winner, loser, in turn, or always A or B.",
+        ),
         click.option(
             "--p2", metavar="P", type=CHANCE, help="Chance that B wins a game that B breaks."
         ),
@@ -67,6 +70,4 @@ def player_options(command: Command) -> Command:
         click.option("--p", metavar="P", type=CHANCE, help="Chance that A wins a game."),
         scale_option(fixed=False),
         click.argument("ratings", nargs=-1, metavar="[A B]"),
-    ):
-        command = add(command)
-    return command
+    )

@@ -1,7 +1,5 @@
 """A line on stderr that shows the progress of a long computation."""
 
-from __future__ import annotations
-
 import math
 import sys
 import time

@@ -6,25 +6,27 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.answers.scale_doubts import league_doubts
+from evenbreak import answers, files, handicaps, ratings, sheets
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name
 from evenbreak.cli.kit.options import (
     chart_option,
+    race_limit_options,
     refuse_both,
     scale_option,
     seed_option,
-    which_races,
 )
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.systems import refuse_other_scale
+from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.kit.values import Number, Whole, refuse
+from evenbreak.ratings.scale import SCALES, Scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.round import AnyChart, Round
-    from evenbreak.ratings.roster import Roster
-    from evenbreak.ratings.scale import Scale
+    from evenbreak.answers.round import AnyChart
+
 
 MOST_PAIRS = 1_000_000
 """The most pairs that are written to a file: about a minute and 200 MB."""
@@ -50,9 +52,9 @@ Examples:
 @click.command("matchups", epilog=EXAMPLES)
 @click.argument("roster", metavar="ROSTER.csv")
 @chart_option("The league's chart, by name or in a file.")
-@which_races
+@race_limit_options
 @click.option("--pairs", metavar="PAIRS.csv", help="Who meets whom.  [default: all pairs]")
-@scale_option("the scale of the chart, else npl", fixed=False)
+@scale_option("the one that the file states, else the chart's, else npl", fixed=False)
 @click.option(
     "--starter",
     metavar="RATING",
@@ -63,7 +65,7 @@ Examples:
     "--starter-sd",
     metavar="POINTS",
     type=SPREAD,
-    help="How far off that may be: one standard deviation.  [default: what doubles the odds]",
+    help="How far off that may be (standard deviation).  [default: what doubles the odds]",
 )
 @click.option(
     "--minutes-per-game", metavar="MINUTES", type=MINUTES, help="Give the lengths in minutes."
@@ -94,19 +96,15 @@ def command(
     seed: int,
     html: str | None,
 ) -> Answer:
-    """Find the race for each pair of players tonight, and what it is worth.
+    """Find the race for each pair of players tonight, and how often each player wins it.
 
     ROSTER.csv has a row for each player, with the columns player and rating and, if you
-    have them, standard_error and games; - is stdin. Races come from --chart, or are the
-    fairest ones with --games or --race-to, or both. Where standard errors are given, the
-    chances are averaged over what the ratings may be.
+    have them, standard_error and games; - reads standard input. --chart looks the
+    races up, --games or --race-to finds the fairest ones; with both, they stand side by side.
+    Where standard errors are given, the chances are averaged over how far the ratings may be
+    off.
     """
-    from evenbreak.answers.matchups import matchups_answer
-    from evenbreak.answers.offered_races import OfferedRaces
     from evenbreak.answers.roster_matchups import check_roster
-    from evenbreak.answers.round import Round
-    from evenbreak.answers.scale_doubts import starter_doubts
-    from evenbreak.files.roster import read_roster
 
     refuse_both(games, race_to)
     if chart is None and games is None and race_to is None:
@@ -114,33 +112,37 @@ def command(
     if tables is not None and minutes_per_game is None:
         refuse("--tables needs to know how long a game takes; add --minutes-per-game, such as 8")
     if [roster, pairs, chart].count("-") > 1:
-        refuse("only one list can be on stdin; name a file for the other")
+        refuse("only one list can come from standard input; name a file for the other")
     of_league, warnings = (None, []) if chart is None else _chart(chart)
-    points = _scale(chart, of_league) if scale is None else scale
-    file = read_roster(roster)
+    file = files.read_roster(roster)
+    if scale is not None:
+        refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
+    points = scale or file.scale or _scale(chart, of_league)
     players = _with_starters(file.roster, points, starter, starter_sd)
     check_roster(file, players, of_league, points)
-    if scale is None:
-        remedy = "if they are on another scale, say which with --scale"
+    if scale is None and file.scale is not None:
+        warnings += _other_chart(file.scale, of_league)
+    elif scale is None:
+        remedy = "if they are on another scale, name it with --scale"
         warnings += league_doubts(points, file.roster.rating, remedy)
     if starter is None:
         warnings += starter_doubts(points, file.roster.rating)
     meet, more = _pairs(pairs, file.source, players, tables, face)
-    tonight = Round(
+    tonight = answers.Round(
         file=file,
         roster=players,
         pairs=meet,
         scale=points,
         chart=of_league,
-        offered=None if games is None and race_to is None else OfferedRaces(games, race_to),
+        offered=None if games is None and race_to is None else answers.OfferedRaces(games, race_to),
         minutes_per_game=minutes_per_game,
         tables=tables,
         seed=seed,
         listed=pairs is not None,
     )
     if html is not None:
-        _write_page(html, tonight)
-    return matchups_answer(tonight, warnings=[*warnings, *more])
+        write_file(html, sheets.round_html(tonight))
+    return answers.matchups_answer(tonight, warnings=[*warnings, *more])
 
 
 def _chart(name: str) -> tuple[AnyChart, list[str]]:
@@ -152,10 +154,7 @@ def _chart(name: str) -> tuple[AnyChart, list[str]]:
 
 def _scale(name: str | None, chart: AnyChart | None) -> Scale:
     """Return the scale of the chart, else the NPL's."""
-    from evenbreak.handicaps.charts.level_chart import LevelChart
-    from evenbreak.ratings.scale import SCALES
-
-    if isinstance(chart, LevelChart):
+    if isinstance(chart, handicaps.LevelChart):
         refuse(
             f"{name} is a chart of skill levels, which have no scale of their own; say how many "
             "levels double the odds of winning a game, such as --scale 2"
@@ -164,26 +163,42 @@ def _scale(name: str | None, chart: AnyChart | None) -> Scale:
     return SCALES.get(of_chart, SCALES["npl"])
 
 
-def _with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float | None) -> Roster:
+def _other_chart(stated: Scale, chart: AnyChart | None) -> list[str]:
+    """Return a warning if a chart is made for another scale than the one of the ratings."""
+    from evenbreak.answers.scale_words import scale_words
+
+    made_for = None if chart is None else SCALES.get(chart.name.partition("_")[0])
+    if chart is None or made_for is None or made_for.same_points(stated):
+        return []
+    return [
+        f"the ratings are {scale_words(stated)}, but {chart.name} is made for ratings "
+        f"{scale_words(made_for)}"
+    ]
+
+
+def _with_starters(
+    roster: ratings.Roster, scale: Scale, starter: float | None, sd: float | None
+) -> ratings.Roster:
     """Return the roster with new players filled in."""
     import numpy as np
 
-    from evenbreak.handicaps.charts.uncertain import MOST_DOUBLINGS
-    from evenbreak.ratings.scale import SCALES
+    from evenbreak.handicaps.charts.given_ratings import MOST_DOUBLINGS
 
     unrated = np.isnan(roster.rating)
     if unrated.any() and starter is None and scale.name not in SCALES:
         name = roster.players[int(unrated.argmax())]
-        refuse(f"{name!r} has no rating; say with --starter RATING what a new player starts with")
+        refuse(f"{name!r} has no rating; give the rating of a new player with --starter RATING")
     spread = scale.points_per_doubling if sd is None else sd
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
     if spread > most:
-        refuse(f"--starter-sd is {spread:g}, which says nothing about a player; {most:g} at most")
+        refuse(
+            f"--starter-sd is {spread:g}, which says nothing about a player; give {most:g} at most"
+        )
     return roster.with_starters(scale.centre if starter is None else starter, spread)
 
 
 def _pairs(
-    path: str | None, source: str, roster: Roster, tables: int | None, face: str
+    path: str | None, source: str, roster: ratings.Roster, tables: int | None, face: str
 ) -> tuple[NDArray[Any], tuple[str, ...]]:
     """Return who meets whom, and the warnings of the list; refuse too many."""
     from evenbreak.answers.roster_matchups import all_pairs
@@ -208,25 +223,3 @@ def _refuse_too_many(found: str, many: int, tables: int | None, face: str) -> No
         refuse(f"{found}, and {MOST_PAIRS:,} are the most; {meet}")
     if many > MOST_SHOWN and face != "csv":
         refuse(f"{found}, too many for {face}; write them with --csv > pairs.csv, or {meet}")
-
-
-def _write_page(path: str, tonight: Round) -> None:
-    from pathlib import PurePath
-
-    from evenbreak.files.folder import write_files
-    from evenbreak.sheets.round_page import MOST_ACROSS, MOST_MATCHES, round_html
-
-    players, matches = len(tonight.roster), len(tonight.pairs)
-    if not tonight.listed and players > MOST_ACROSS:
-        refuse(
-            f"{players:,} players are too many for --html, which holds all pairs of {MOST_ACROSS} "
-            "at most; name those who meet with --pairs PAIRS.csv"
-        )
-    if tonight.listed and matches > MOST_MATCHES:
-        refuse(
-            f"{matches:,} matches are too many for --html, which holds {MOST_MATCHES} at most; "
-            "make a list and a page for each part of the round"
-        )
-    place = PurePath(path)
-    write_files(str(place.parent), {place.name: round_html(tonight)})
-    say(f"Wrote {path}")

@@ -9,17 +9,24 @@ from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak import answers, sheets
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import aliases_option, refuse_both, scale_option, which_races
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.options import (
+    aliases_option,
+    out_option,
+    race_limit_options,
+    refuse_both,
+    scale_option,
+)
+from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.league.rate_options import how_to_rate, rated
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.sheet import Sheet
     from evenbreak.files.results import ResultsFile
-    from evenbreak.ratings.scale import Scale
+
 
 TOP, MOST_PAIRED = 10, 1000
 RACE_TO = 7
@@ -36,21 +43,17 @@ Examples:
 
 @click.command("report", epilog=EXAMPLES)
 @click.argument("results", metavar="RESULTS.csv")
-@click.option(
-    "--out",
-    required=True,
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="The folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if needed.",
+@out_option(
+    "The folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if needed."
 )
 @scale_option()
 @how_to_rate
-@which_races
+@race_limit_options
 @click.option(
     "--players",
     multiple=True,
     metavar="NAMES",
-    help="The players to pair: names separated by commas; may be given again.",
+    help="The players to pair, separated by commas; can be repeated.",
 )
 @click.option(
     "--top",
@@ -63,9 +66,7 @@ Examples:
     "--html", is_flag=True, help="Also write sheet.html, one file for phones, screens and printers."
 )
 @click.option("--excel", is_flag=True, help="Also write sheet.xlsx, a workbook of all tables.")
-@click.option(
-    "--excel-csv", is_flag=True, help="Write the CSV files as Excel likes them: BOM and CRLF."
-)
+@click.option("--excel-csv", is_flag=True, help="Write the CSV files for Excel, with BOM and CRLF.")
 @faces(page=False, always_text=True)
 def command(
     results: str,
@@ -86,47 +87,40 @@ def command(
     """Make the fair-race sheet of a league from its results file.
 
     RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a,
-    score_b and, if you like, date, race_a, race_b, winner, first_break, break_format,
-    racks, event and forfeit; - reads standard input. The sheet says how strong each
-    player is and which race is nearest to even for each pair: races to 7, unless --games
-    or --race-to says otherwise. The sheet is printed, and sheet.pdf has it for the wall;
+    score_b and, if known, date, race_a, race_b, winner, first_break, break_format,
+    racks, event and forfeit; - reads standard input. The sheet gives the rating
+    of each player and the race nearest to even for each pair, a race to 7 unless --games
+    or --race-to says otherwise. The sheet is printed here, and sheet.pdf is for the wall;
     --html adds a page to hand out, --excel a workbook.
     """
     refuse_both(games, race_to)
     if players and top is not None:
-        refuse("--players and --top exclude each other; leave one out")
-    if not out.strip():
-        refuse("--out is empty; name a folder, or . for this one")
+        refuse("--players and --top cannot be combined; leave one out")
     if excel:
         from evenbreak.sheets.workbook import check_workbook
 
         check_workbook()
-    from evenbreak.answers.chosen_players import find_players, most_active
-    from evenbreak.answers.offered_races import OfferedRaces
-    from evenbreak.answers.report import report_answer
-    from evenbreak.answers.sheet import Sheet
-    from evenbreak.files.folder import check_folder, write_files
+    from evenbreak.files.folder import check_folder
 
     check_folder(out)
-    offered = OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
+    offered = answers.OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
     say(f"Reading {'standard input' if results == '-' else results}")
     file, warnings = _read(results, aliases)
     say(f"Rating {len(file.results.players):,} players")
     ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of)
     if players:
-        chosen = find_players(ratings, _names(players, ratings.players), said="--players")
+        chosen = answers.find_players(ratings, _names(players, ratings.players), said="--players")
     else:
-        chosen = most_active(ratings, TOP if top is None else top)
+        chosen = answers.most_active(ratings, TOP if top is None else top)
     if len(chosen) < 2:
         refuse("--players names one player; name two or more")
     more = not players and top is None and len(chosen) < len(ratings.players)
     hint = " (--top N pairs more, --players those you name)" if more else ""
     say(f"Pairing {len(chosen):,} of them{hint}")
-    sheet = Sheet.of(file, ratings, offered, chosen, choice)
+    sheet = answers.Sheet.of(file, ratings, offered, chosen, choice)
     files = _files(sheet, html=html, excel=excel, excel_csv=excel_csv)
-    write_files(out, files)
-    say(f"Wrote {', '.join(files)} to {out}")
-    return replace(report_answer(sheet), warnings=warnings)
+    write_folder(out, files)
+    return replace(answers.report_answer(sheet), warnings=warnings)
 
 
 def _read(results: str, aliases: str | None) -> tuple[ResultsFile, Sequence[str]]:
@@ -141,25 +135,20 @@ def _read(results: str, aliases: str | None) -> tuple[ResultsFile, Sequence[str]
     return replace(file, warnings=tuple(public)), file.warnings
 
 
-def _files(sheet: Sheet, *, html: bool, excel: bool, excel_csv: bool) -> dict[str, bytes]:
+def _files(sheet: answers.Sheet, *, html: bool, excel: bool, excel_csv: bool) -> dict[str, bytes]:
     """Return the content of each file by its name."""
     from evenbreak.files.csv_writer import to_csv
-    from evenbreak.sheets.pdf_sheet import sheet_pdf
 
     files = {
         "ratings.csv": to_csv(sheet.rated, excel=excel_csv),
         "matchups.csv": to_csv(sheet.paired, excel=excel_csv),
         "summary.csv": to_csv(sheet.summary, excel=excel_csv),
-        "sheet.pdf": sheet_pdf(sheet),
+        "sheet.pdf": sheets.sheet_pdf(sheet),
     }
     if html:
-        from evenbreak.sheets.sheet_page import sheet_html
-
-        files["sheet.html"] = sheet_html(sheet)
+        files["sheet.html"] = sheets.sheet_html(sheet)
     if excel:
-        from evenbreak.sheets.workbook import report_tables, workbook_bytes
-
-        files["sheet.xlsx"] = workbook_bytes(report_tables(sheet))
+        files["sheet.xlsx"] = sheets.workbook_bytes(sheets.report_tables(sheet))
     return files
 
 

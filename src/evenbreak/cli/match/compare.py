@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak import matches
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.players import player_options, players_of
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import NUMBER, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.matches.formats import MatchFormat
+from evenbreak.matches.formats import MatchFormat
 
 MOST_FORMATS = 7
 """As many formats as a picture has lines for."""
@@ -66,15 +65,13 @@ class CompareCommand(PlainCommand):
 @plot_option
 @faces()
 def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) -> Answer:
-    """Compare match formats for two players: which is better for whom, and at what strength.
+    """Compare match formats for two players: which is better for whom.
 
     A FORMAT is 9:5 (A needs 9 games, B needs 5), "7:7 win by 2", "ahead 5:3" or
-    "3:1 of 3:3" (sets), and may end in a break format, such as "winner breaks". The
-    players: two ratings A B; or --p; or --p1, --p2 and --breaks.
+    "3:1 of 3:3" (sets), and may end in a break format, such as "winner breaks".
+    Describe the players by two ratings A B, by --p, or by --p1, --p2 and --breaks.
     """
     from evenbreak.answers.compare import Compared, compare_answer
-    from evenbreak.matches.crossings import crossings, even_probability
-    from evenbreak.matches.odds import match_odds
 
     _refuse_numbers(**who)
     players = players_of(**who)
@@ -85,9 +82,12 @@ def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) 
         match = played.match(
             players.rack, breaks=players.break_format, first_breaker=players.first_breaker
         )
-        compared.append(Compared(played, match_odds(match), even_probability(played, **line)))
+        compared.append(
+            Compared(played, matches.match_odds(match), matches.even_probability(played, **line))
+        )
     pairs = {
-        (i, j): crossings(read[i], read[j], **line) for i, j in combinations(range(len(read)), 2)
+        (i, j): matches.crossings(read[i], read[j], **line)
+        for i, j in combinations(range(len(read)), 2)
     }
     if plot is not None:
         from evenbreak.plots.formats import plot_formats
@@ -109,13 +109,11 @@ def _refuse_numbers(
 
 def _read(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
     """Return the formats, or refuse those that cannot be compared here."""
-    from evenbreak.matches.formats import match_format
-
     if not texts:
         refuse('the formats are missing; give some, such as 9:5 "3:1 of 3:3" "ahead 5:3"')
     if len(texts) > MOST_FORMATS:
-        refuse(f"{len(texts)} formats are given; compare {MOST_FORMATS} at the most")
-    read = [match_format(text) for text in texts]
+        refuse(f"{len(texts)} formats are given; compare {MOST_FORMATS} at most")
+    read = [matches.match_format(text) for text in texts]
     for played in read:
         kinds = [played]
         while kinds[-1].set_ is not None:
@@ -133,8 +131,8 @@ def _read(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
             scores = kind.scores // (kind.set_.scores if kind.set_ else 1)
             if scores > most:
                 refuse(
-                    f"{str(played)!r} has a part with about {scores:,} scores; compare such "
-                    f"matches with {most:,} at the most, or ask evenbreak odds for one"
+                    f"{str(played)!r} has a part with about {scores:,} scores, and {most:,} are "
+                    "the most that can be compared here; use evenbreak odds for such a match"
                 )
     return read
 

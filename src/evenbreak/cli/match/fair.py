@@ -1,18 +1,14 @@
 """`evenbreak fair`: the races that come nearest to a target chance."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand, refuse_both, which_races
+from evenbreak.cli.kit.options import PlainCommand, race_limit_options, refuse_both
 from evenbreak.cli.kit.players import player_options, players_of
 from evenbreak.cli.kit.values import CHANCE, Whole, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 MOST = 300
 """The most races that are listed, so that every answer takes seconds."""
@@ -27,21 +23,19 @@ Examples:
 
 @click.command("fair", cls=PlainCommand, epilog=EXAMPLES)
 @player_options
-@which_races
+@race_limit_options
 @click.option(
     "--target",
     metavar="P",
     type=CHANCE,
     default=0.5,
-    show_default=True,
-    help="The chance that A should have to win the match.",
+    help="The chance of winning that A should have.",
 )
 @click.option(
     "--top",
     type=Whole(1, MOST),
     metavar="K",
     default=5,
-    show_default=True,
     help="How many races to list.",
 )
 @faces()
@@ -54,8 +48,8 @@ def command(
 ) -> Answer:
     """Find the fairest races for two players, the fairest first.
 
-    The players: two ratings A B; or --p; or --p1, --p2 and --breaks. The length: --games
-    or --race-to.
+    Describe the players by two ratings A B, by --p, or by --p1, --p2 and --breaks; limit the
+    length by --games or --race-to.
     """
     from evenbreak.answers.fair import fair_answer
     from evenbreak.handicaps.charts.fair import fair_races

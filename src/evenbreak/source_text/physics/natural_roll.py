@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import (
     MOON_GRAVITY,
     SHAPES,
@@ -28,10 +28,10 @@ from evenbreak.physics.slide import (
 )
 from evenbreak.physics.table_speed import lag_distance, table_speed
 from evenbreak.physics.units import GRAVITY, INCH
-from evenbreak.source_text.physics.inputs import Answers, Inputs
+from evenbreak.source_text.inputs import Answers, Inputs
 
 _MU = 0.1
-"""A coefficient for what does not depend on it."""
+"""Any coefficient would do: the answers do not depend on it."""
 
 
 def _rolling_energy() -> Energy:
@@ -56,7 +56,7 @@ def _mean_drag_speed(i: Inputs) -> float:
 
 
 def _time_saved(i: Inputs) -> float:
-    """Return the share of the time saved against rolling at the speed of arrival all the way."""
+    """Return the share of time saved, compared with rolling at the speed of arrival."""
     return 1.0 - float(roll_speed(1.0, i["J"])) / _mean_drag_speed(i)
 
 
@@ -76,7 +76,7 @@ def _spread(i: Inputs) -> float:
 
 
 def _parabola(i: Inputs) -> float:
-    """Return the way along the force, from the way across it at the end of the slide."""
+    """Return the distance along the force, from that across it at the end of the slide."""
     shot = _masse(i)
     along = -shot.slip / np.hypot(*shot.slip)
     across = np.array([along[1], -along[0]])
@@ -88,7 +88,7 @@ def _moon_time(i: Inputs, shape: str) -> float:
     friction = i.get("mu_rolling")
     if friction is None:
         friction = rolling_friction(1.0 / table_speed(i["t"]))
-    way = lag_distance(Table(), Ball())
+    way = lag_distance(PoolTable(), Ball())
     return float(rolling_time(way, friction, shape=SHAPES[shape], gravity=MOON_GRAVITY))
 
 
@@ -135,7 +135,7 @@ ANSWERS: Answers = {
     ("P2.6", "t_R, s"): _of_stop("roll_time", 1.0),
     ("P2.6", "d_R, in"): _of_stop("roll_distance", INCH),
     ("P2.6", "d_total, in"): _of_stop("distance", INCH),
-    # What the text takes as given, and the library holds.
+    # Numbers that the text takes as given.
     ("P2.5", "g on the moon, in/s^2"): lambda _: MOON_GRAVITY / INCH,
 }
-"""What the text answers."""
+"""How each quantity of these problems is computed."""

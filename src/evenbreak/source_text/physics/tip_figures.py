@@ -1,4 +1,4 @@
-"""The plots of section 3: where the tip meets the ball, and how fast the ball gets."""
+"""The plots of section 3: where the tip meets the ball, and the speed it gives."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from evenbreak.physics.offset import (
     roll_speed_ratio,
     small_circle_point,
 )
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, note
 from evenbreak.source_text.physics.ball_view import (
     angle_arc,
     ball_view,
@@ -114,28 +114,14 @@ def lag_speeds() -> Figure:
     for height in (0.0, NATURAL_ROLL_OFFSET):
         axes.axvline(height, color="0.6", lw=0.8, zorder=0)
     top: Any = {"xycoords": axes.get_xaxis_transform(), "fontsize": 9, "va": "top"}
-    axes.annotate("centre", (0.0, 0.97), (-4, 0), textcoords="offset points", ha="right", **top)
-    axes.annotate(
-        "immediate\nnatural roll",
-        (NATURAL_ROLL_OFFSET, 0.97),
-        (4, 0),
-        textcoords="offset points",
-        ha="left",
-        **top,
-    )
+    note(axes, "centre", (0.0, 0.97), (-4, 0), ha="right", **top)
+    note(axes, "immediate\nnatural roll", (NATURAL_ROLL_OFFSET, 0.97), (4, 0), ha="left", **top)
     _ratio_curves(axes, roll_speed_ratio)
     for ratio in MASS_RATIOS:
         best = best_lag_offset(float(ratio))
         height = roll_speed_ratio(best, float(ratio))
         axes.plot([best], [height], "ko", ms=4, zorder=4)
-        axes.annotate(
-            f"{best:.3f}",
-            (best, height),
-            (0, 6),
-            textcoords="offset points",
-            fontsize=9,
-            ha="center",
-        )
+        note(axes, f"{best:.3f}", (best, height), (0, 6), fontsize=9, ha="center")
     axes.set(ylim=(0.0, 1.4))
     axes.legend(loc="lower right", frameon=False, handlelength=3.5)
     return figure

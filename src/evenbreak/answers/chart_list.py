@@ -1,0 +1,45 @@
+"""The charts that come with the package."""
+
+from typing import Any
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.wording import count_of
+from evenbreak.handicaps.charts.chart import CHARTS, chart
+from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, level_chart
+
+
+def chart_list_answer() -> Answer:
+    """Return the charts that come with the package, with the races of each.
+
+    >>> [row["chart"] for row in chart_list_answer().to_dict()["charts"]][-1]
+    'apa_8ball'
+    """
+    return Answer(
+        "Handicap charts that come with evenbreak",
+        [
+            f"There are {count_of(len(CHARTS), 'chart')} by rating difference and "
+            f"{count_of(len(LEVEL_CHARTS), 'chart')} by skill level.",
+            Table(
+                "charts",
+                [
+                    Column("chart", "name", left=True),
+                    Column("what", "full name", left=True),
+                    Column("looked_up_by", "looked up by", left=True),
+                    Column("races", "races"),
+                    Column("longest_games", "games\nat most"),
+                ],
+                [_row(name, title) for name, title in {**CHARTS, **LEVEL_CHARTS}.items()],
+            ),
+        ],
+    )
+
+
+def _row(name: str, title: str) -> tuple[Any, ...]:
+    if name in CHARTS:
+        by, races = "difference", {row[2:] for row in chart(name).rows}
+    else:
+        table = level_chart(name)
+        pairs = [(i, j) for i in table.levels for j in table.levels if i >= j]
+        by, races = "skill level", {table.race(*pair) for pair in pairs}
+    return name, title, by, len(races), max(m + n - 1 for m, n in races)

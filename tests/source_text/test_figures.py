@@ -1,0 +1,85 @@
+"""What holds for every figure of the text."""
+
+from importlib.resources import files
+
+import matplotlib as mpl
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from drawings import figure
+from evenbreak.plots.diagram import image_bytes
+from evenbreak.source_text.figures import figures
+from places import SHARED
+
+PLOTS = [
+    *(f"figure_5_{n}" for n in (1, 3, 6, 8, 9, 11)),
+    *(f"figure_{n}" for n in ("3_1", "3_2", "3_3", "3_4", "4_4", "4_5", "4_7", "4_8")),
+]
+SKETCHES = [f"figure_{n}" for n in ("1_1", "1_2", "2_1", "4_1", "4_2", "4_3", "4_6")]
+DIAGRAMS = ["figure_p5_24", *(f"figure_5_{n}" for n in (2, 4, 5, 7, 10))]
+CHOSEN = [name for name in PLOTS if name < "figure_4_7" or name == "figure_4_8"]
+"""Where the copy of the text has lost for which values it drew its curves."""
+
+
+def caption(name):
+    """Return what the page says of a figure of sections 1 to 4."""
+    page = files("evenbreak.source_text.physics").joinpath("page.md").read_text("utf-8")
+    number = name.removeprefix("figure_").replace("_", ".")
+    return page.partition("{{figure " + number + " ")[2].partition("}}")[0]
+
+
+def test_every_figure_of_the_text_is_here():
+    assert set(figures()) == {*PLOTS, *SKETCHES, *DIAGRAMS}
+    facts = SHARED / "seed" / "physics_figures.csv"
+    if facts.exists():
+        numbers = {line.split(",")[0] for line in facts.read_text("utf-8").splitlines()[1:]}
+        assert {f"figure_{number.replace('.', '_')}" for number in numbers} <= set(figures())
+
+
+@pytest.mark.parametrize("name", PLOTS)
+def test_every_panel_says_what_its_axes_measure(name):
+    for axes in figure(name).axes:
+        # The second scale of Fig. 4.7 shares the cut angles of the first.
+        shares = name == "figure_4_7" and axes is figure(name).axes[1]
+        assert shares or axes.get_xlabel()
+        assert axes.get_ylabel()
+
+
+@pytest.mark.parametrize("name", CHOSEN)
+def test_what_is_chosen_is_said_in_the_picture_and_beside_it(name):
+    drawn = figure(name)
+    texts = [axes.get_title() for axes in drawn.axes]
+    if drawn.get_suptitle():
+        texts.append(drawn.get_suptitle())
+    assert any("chosen" in text for text in texts)
+    assert "chosen" in caption(name)
+
+
+@pytest.mark.parametrize("name", SKETCHES)
+def test_a_sketch_says_that_it_is_one(name):
+    assert "sketch" in caption(name)
+
+
+@pytest.mark.parametrize("name", ["figure_5_11", "figure_5_5", "figure_3_3"])
+def test_a_readers_own_settings_do_not_change_a_figure(name):
+    draw = figures()[name]
+    usual = image_bytes(draw(), "svg")
+    own = {"font.size": 20, "font.sans-serif": ["DejaVu Sans Mono"], "mathtext.fontset": "stix"}
+    with mpl.rc_context(own | {"axes.linewidth": 3, "savefig.bbox": "tight"}):
+        assert image_bytes(draw(), "svg") == usual
+
+
+@pytest.mark.parametrize("name", PLOTS)
+def test_plots_are_of_moderate_size(reproduced, name):
+    assert 900 <= figure(name).get_size_inches()[0] * 150 <= 1400
+    assert len(reproduced.files[f"{name}.svg"]) < 200_000
+
+
+@pytest.mark.parametrize("name", [name for name in PLOTS if not name.startswith("figure_5")])
+def test_no_two_names_overlap(name):
+    drawn = figure(name)
+    FigureCanvasAgg(drawn).draw()
+    for axes in drawn.axes:
+        boxes = [text.get_window_extent() for text in axes.texts if text.get_text()]
+        for here, box in enumerate(boxes):
+            assert not any(box.overlaps(other) for other in boxes[here + 1 :])
