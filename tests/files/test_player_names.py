@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from evenbreak.files.player_names import PlayerNames, clean_name
+from evenbreak.files.player_names import PlayerNames, clean_name, hidden_letter_warnings
 from evenbreak.files.text_table import read_table
 
 COLUMNS = ("player_a", "player_b")
@@ -23,6 +23,24 @@ def test_clean_names():
     assert clean_name("\u00a0Zoe\u0308 \t Kestleman\n") == "Zoë Kestleman"
     assert clean_name("'+1") == "+1"
     assert clean_name("'t Hooft") == "'t Hooft"
+
+
+@pytest.mark.parametrize(
+    "hidden", ["\u202e", "\u2066", "\u200b", "\ufeff", "\uffff", "\U0001fffe", "\ufdd0", "\udc80"]
+)
+def test_letters_that_cannot_be_seen_or_turn_the_text_are_removed_with_a_warning(hidden, table):
+    assert clean_name(f"{hidden}Ann{hidden} {hidden} Lee") == "Ann Lee"
+    if hidden.isascii() or (hidden > "\ud7ff" and hidden < "\ue000"):
+        return  # no file can hold it
+    rows = table(f"An{hidden}n,Bo,", "Ann,Bo,")
+    assert PlayerNames(rows, COLUMNS, {}).players == ("Ann", "Bo")
+    (warning,) = hidden_letter_warnings(rows, COLUMNS)
+    assert repr(f"An{hidden}n") in warning
+    assert repr("Ann") in warning
+
+
+def test_joiners_that_scripts_need_stay():
+    assert clean_name("می\u200cخواهم") == "می\u200cخواهم"
 
 
 def test_players_are_sorted_and_read_as_their_places(table):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from evenbreak.files.player_names import clean_name
+from evenbreak.files.player_names import clean_name, hidden_letter_warnings
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import TextTable, read_table
 
@@ -77,7 +77,8 @@ def read_aliases(path: str | Path) -> AliasesFile:
             )
     table.problems.raise_any()
     means = {name: meant for name, meant in means.items() if name != meant}
-    return AliasesFile(means, table.source, table.warnings)
+    hidden = hidden_letter_warnings(table, ["means"])
+    return AliasesFile(means, table.source, (*table.warnings, *hidden))
 
 
 def _names(table: TextTable, column: str) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -10,27 +11,56 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.cells import Values, letters, read_cells
-from evenbreak.files.csv_writer import FORMULA_STARTS
+from evenbreak.files.csv_writer import undefused
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import TextTable
 
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 
-DEFUSED = tuple(f"'{start}" for start in FORMULA_STARTS)
-"""The beginnings of names that were kept from being formulas."""
+NAME = "a name that can be printed"
+WRITE_IT = "write the player's name"
+
+MOST_LISTED = 20
+"""How many names are listed in warnings about a file."""
+
+_HIDDEN = re.compile(
+    "[\u00ad\u061c\u180e\u200b\u200e\u200f\u202a-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb"
+    "\U0001d173-\U0001d17a\U000e0000-\U000e007f"
+    "\ud800-\udfff\ufdd0-\ufdef"
+    + "".join(
+        f"{chr(plane + 0xFFFE)}{chr(plane + 0xFFFF)}" for plane in range(0, 0x110000, 0x10000)
+    )
+    + "]"
+)
+"""What has no place in a name: letters that cannot be seen or that turn the text around them (as
+U+202E does), and code points that are no letters. Joiners stay; some scripts need them."""
 
 
 def clean_name(text: str) -> str:
-    r"""Return a name without blanks around and double blanks inside, in Unicode's form NFC.
+    r"""Return a name as it is to be printed.
 
-    The apostrophe that `evenbreak.files.csv_writer` puts before what a spreadsheet would run
-    as a formula is removed too.
+    That is in Unicode's form NFC, without hidden letters, blanks around or double blanks inside,
+    and without the apostrophes by which `evenbreak.files.csv_writer` keeps a spreadsheet from
+    running a formula.
 
-    >>> clean_name(" Zoe\u0308  Kestleman "), clean_name("'=cmd()")
-    ('Zoë Kestleman', '=cmd()')
+    >>> clean_name(" Zoe\u0308  Kestleman "), clean_name("'=cmd()"), clean_name("Bo\u202e")
+    ('Zoë Kestleman', '=cmd()', 'Bo')
     """
-    clean = " ".join(unicodedata.normalize("NFC", text).split())
-    return clean[1:] if clean.startswith(DEFUSED) else clean
+    return undefused(" ".join(unicodedata.normalize("NFC", _HIDDEN.sub("", text)).split()))
+
+
+def hidden_letter_warnings(table: TextTable, columns: Sequence[str]) -> list[str]:
+    """Return a warning for each name that has lost letters which cannot be seen."""
+    texts = {text: None for column in columns for text in table.columns[column].distinct}
+    found = [
+        f"{table.source}: {quoted(text)} has letters that cannot be seen; it is read as "
+        f"{quoted(clean_name(text))}"
+        for text in texts
+        if _HIDDEN.search(text)
+    ]
+    more = len(found) - MOST_LISTED
+    counted = [f"{table.source}: and {more:,} more names with such letters"] if more > 0 else []
+    return found[:MOST_LISTED] + counted
 
 
 def same_name(name: str) -> str:
@@ -77,9 +107,9 @@ class PlayerNames:
         self._written = set(rows)
         self._spelling = self._spellings(rows)
         meant = {text: self._meant(text) for text in self._written}
-        self.players = tuple(sorted({name for name in meant.values() if _is_name(name)}))
+        self.players = tuple(sorted({name for name in meant.values() if is_name(name)}))
         self._place = {name: place for place, name in enumerate(self.players)}
-        self.places = {text: self._place[name] for text, name in meant.items() if _is_name(name)}
+        self.places = {text: self._place[name] for text, name in meant.items() if is_name(name)}
 
     def _spellings(self, rows: Mapping[str, int]) -> dict[str, str]:
         """Return the spelling to use of all names that differ in case or blanks alone."""
@@ -105,8 +135,8 @@ class PlayerNames:
             table,
             name,
             self.places.get,
-            wanted="a name that can be printed",
-            remedy="write the player's name",
+            wanted=NAME,
+            remedy=WRITE_IT,
             dtype=np.int64,
             empty=0,
         )
@@ -188,5 +218,10 @@ def _side(places: NDArray[np.int64], a: Values, b: Values) -> NDArray[np.int8]:
     return np.where(places == a.values, 1, np.where(places == b.values, 2, 0)).astype(np.int8)
 
 
-def _is_name(name: str) -> bool:
+def is_name(name: str) -> bool:
+    r"""Return whether a clean name can be printed: it is not empty and has no control characters.
+
+    >>> is_name("Zoë"), is_name("Bo\x07"), is_name("")
+    (True, False, False)
+    """
     return name != "" and not any(unicodedata.category(letter) == "Cc" for letter in name)

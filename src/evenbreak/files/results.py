@@ -14,7 +14,7 @@ import numpy as np
 
 from evenbreak.files.aliases import AliasesFile, read_aliases
 from evenbreak.files.doubtful_dates import date_warnings
-from evenbreak.files.player_names import PlayerNames
+from evenbreak.files.player_names import PlayerNames, hidden_letter_warnings
 from evenbreak.files.problems import quoted
 from evenbreak.files.results_columns import INSTEAD, NAMES, OPTIONAL, REQUIRED, results_columns
 from evenbreak.files.results_rows import results_rows
@@ -101,6 +101,7 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
         *table.warnings,
         *_repeated_rows(table),
         *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),
+        *hidden_letter_warnings(table, NAMES),
         *_merged(names.merged(), table.source),
         *_renamed(names.renamed(), table.source, by_alias.source),
         *similar_name_warnings(groups, table.source, "if so, use the same name throughout"),

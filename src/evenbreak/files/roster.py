@@ -11,7 +11,14 @@ import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.files.cells import numbers, read_cells, whole_numbers
-from evenbreak.files.player_names import clean_name, same_name
+from evenbreak.files.player_names import (
+    NAME,
+    WRITE_IT,
+    clean_name,
+    hidden_letter_warnings,
+    is_name,
+    same_name,
+)
 from evenbreak.files.problems import quoted
 from evenbreak.files.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.text_table import TextTable, read_table
@@ -164,7 +171,8 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
     similar = similar_name_warnings(similar_names(names), table.source, "if so, keep one of them")
     sha256 = hashlib.sha256(table.content).hexdigest()
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
-    warnings = (*table.warnings, *similar)
+    hidden = hidden_letter_warnings(table, ["player"])
+    warnings = (*table.warnings, *hidden, *similar)
     return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi, scale)
 
 
@@ -177,6 +185,8 @@ def _names(table: TextTable) -> list[str]:
             if "player" in table:
                 table.problems.add(line, "player is empty; write a name")
             continue
+        if not is_name(name):
+            table.problems.add(line, f"player {quoted(name)} is not {NAME}; {WRITE_IT}")
         earlier, spelling = first.setdefault(same_name(name), (line, name))
         if earlier != line:
             spelt = "" if spelling == name else f" as {quoted(spelling)}"
