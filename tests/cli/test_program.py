@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import click
@@ -121,6 +122,72 @@ def test_an_interrupt_caught_during_an_import_ends_with_130(tmp_path):
         [sys.executable, "-m", "stopped"], cwd=tmp_path, capture_output=True, text=True
     )
     assert (ended.returncode, ended.stdout, ended.stderr.strip()) == (130, "", "Interrupted.")
+
+
+SWALLOWED = """
+import os, signal, sys, time
+from evenbreak import cli
+from evenbreak.cli.kit.terminal import write
+from evenbreak.cli.program import program
+def invoke(_):
+    {happens}
+    write("went on")
+program.invoke = invoke
+sys.argv[1:] = ["odds"]
+cli.main()
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
+@pytest.mark.parametrize(
+    "happens",
+    [
+        "import swallows; time.sleep(5)",  # in an import: it waits, and comes right after
+        "type('X', (), {'__del__': lambda _: os.kill(os.getpid(), signal.SIGINT)})()",
+    ],
+)
+def test_an_interrupt_that_something_swallows_ends_the_run(tmp_path, happens):
+    (tmp_path / "swallows.py").write_text(
+        "import os, signal, time\ntry:\n os.kill(os.getpid(), signal.SIGINT)\n time.sleep(0.1)\n"
+        "except BaseException: pass\n"
+    )
+    (tmp_path / "run.py").write_text(SWALLOWED.format(happens=happens))
+    begun = time.monotonic()
+    ended = subprocess.run([sys.executable, "run.py"], cwd=tmp_path, capture_output=True, text=True)
+    assert (ended.returncode, ended.stdout) == (130, "")
+    assert ended.stderr.endswith("Interrupted.\n")
+    assert time.monotonic() - begun < 4.5
+
+
+def test_python_m_runs_no_code_of_the_working_folder(tmp_path):
+    for name in ("click", "pickle", "numpy", "difflib"):
+        (tmp_path / f"{name}.py").write_text("print('run')\n", encoding="utf-8")
+    done = run_program("odds", "60", "50", "--race", "7", cwd=tmp_path)
+    assert done.returncode == 0
+    assert "run" not in done.stdout
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a shell closes the streams")
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    "words", ["--help", "odds 60 50 --race 7", "odds x y", "drill --p 0.8 --plot d.svg", "chain -"]
+)
+def test_closed_streams_are_no_bug(tmp_path, words, closed):
+    command = f"{sys.executable} -m evenbreak {words} {closed}"
+    done = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True)  # noqa: S602
+    assert done.returncode in (0, 2, 3)
+    assert "Traceback" not in done.stderr
+    assert "Exception ignored" not in done.stderr
+    if words.endswith("svg"):
+        assert (tmp_path / "d.svg").read_bytes().endswith(b"</svg>\n")
+
+
+@pytest.mark.parametrize("backend", ["absent", "module://absent.inline"])
+def test_a_matplotlib_backend_that_is_absent_does_not_matter(tmp_path, backend):
+    environment = {**os.environ, "MPLBACKEND": backend}
+    words = ("drill", "--p", "0.8", "--plot", "d.svg", "--text")
+    done = run_program(*words, cwd=tmp_path, env=environment)
+    assert (done.returncode, done.stderr) == (0, "Wrote d.svg\n")
 
 
 def test_a_reader_that_leaves_is_not_an_error(tmp_path):

@@ -83,6 +83,27 @@ def test_a_killed_worker_is_one_error():
         list(in_order(operator.call, os._exit, [1] * 4, jobs=2))
 
 
+IN_A_FOLDER = """
+import sys
+sys.path = [place for place in sys.path if place]
+from evenbreak.league.workers import in_order
+if __name__ == "__main__":
+    print(list(in_order(pow, 2, range(5), jobs=2)))
+"""
+
+
+def test_workers_run_no_code_of_the_working_folder(tmp_path):
+    (tmp_path / "scripts").mkdir()
+    script = tmp_path / "scripts" / "powers.py"
+    script.write_text(IN_A_FOLDER, encoding="utf-8")
+    for name in ("pickle", "struct", "signal", "threading"):
+        (tmp_path / f"{name}.py").write_text("print('run')\n", encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, str(script)], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert (done.stdout, done.stderr) == ("[1, 2, 4, 8, 16]\n", "")
+
+
 @pytest.mark.parametrize("jobs", [0, -1, 1.5, "two"])
 def test_jobs_are_counted_from_one(jobs):
     with pytest.raises(InputError, match="jobs is "):

@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import __version__
+from evenbreak.cli.interrupts import raise_if_interrupted, stop_listening
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 SECTIONS = {
@@ -70,9 +71,11 @@ class Program(LazyGroup):
             return super().main(args, prog_name, complete_var, standalone_mode=False, **extra)
         try:
             code = super().main(args, prog_name, complete_var, standalone_mode=False, **extra)
+            raise_if_interrupted()
             if sys.stdout is not None:
                 sys.stdout.flush()
         except (Exception, KeyboardInterrupt) as error:
+            stop_listening()
             from evenbreak.cli.kit.failures import report_error
 
             code = report_error(error)

@@ -29,6 +29,8 @@ from evenbreak.errors import WorkerError
 if TYPE_CHECKING:
     import distributed
 
+_SAFE_PATH = "PYTHONSAFEPATH"
+
 Shared = TypeVar("Shared")
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")
@@ -138,18 +140,37 @@ def _processes(
 
     They are spawned: a fork copies the locks that other threads hold, and Windows has none.
     """
-    pool = ProcessPoolExecutor(
-        jobs, get_context("spawn"), initializer=_begin, initargs=(task, shared)
-    )
+    with _safe_path():  # a process that keeps track of the others is started
+        pool = ProcessPoolExecutor(
+            jobs, get_context("spawn"), initializer=_begin, initargs=(task, shared)
+        )
 
     def submit(piece: Piece) -> Any:
-        with _interrupts_blocked():  # a process is started when there is work for it
+        with _interrupts_blocked(), _safe_path():  # a process is started when there is work for it
             return pool.submit(_do, piece)
 
     try:
         yield submit
     finally:
         pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """Let processes that start in the block not look for modules in the working folder.
+
+    There a file of data, or of somebody else, may have the name of a module. Once such a process
+    runs, it looks for modules where this one does.
+    """
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[_SAFE_PATH]
+        else:
+            os.environ[_SAFE_PATH] = before
 
 
 @contextmanager

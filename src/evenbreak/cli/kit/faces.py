@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from evenbreak.answers.answer import Answer
+from evenbreak.cli.interrupts import raise_if_interrupted
 from evenbreak.cli.kit.terminal import say, to_terminal, write, write_file
 
 Function = Callable[..., "Answer"]
@@ -87,6 +88,7 @@ def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
 
     With CSV on stdout, the sentences of the answer go to stderr too.
     """
+    raise_if_interrupted()
     if face == "json":
         from evenbreak.answers.faces.to_json import to_json
 

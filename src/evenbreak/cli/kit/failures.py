@@ -32,7 +32,8 @@ def report_error(error: BaseException) -> int:
             return INTERRUPTED
         case OSError(errno=errno.EPIPE):
             # The reader of the pipe is gone; what is still buffered must not fail at exit.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            if sys.stdout is not None:
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return FAILED
         case EvenbreakError() | OSError() | MemoryError() | OverflowError():
             pass

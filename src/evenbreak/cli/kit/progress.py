@@ -36,7 +36,7 @@ class Progress:
     def __call__(self, count: int, total: int | None = None) -> None:
         """Show how many are done and, if the total is known, how long the rest will take."""
         now = time.monotonic()
-        if now < self._next or not sys.stderr.isatty():
+        if now < self._next or sys.stderr is None or not sys.stderr.isatty():
             return
         self._next = now + _PAUSE
         line = f"{count} {self._what} so far ..."

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from evenbreak.answers.faces.to_text import WIDTH, paragraph
+from evenbreak.cli.interrupts import raise_if_interrupted
 from evenbreak.cli.kit.values import refuse
 from evenbreak.files.problems import printable
 
@@ -18,6 +19,7 @@ def to_terminal() -> bool:
 
 def write(text: str) -> None:
     """Write text to stdout; letters that the terminal cannot show become question marks."""
+    raise_if_interrupted()
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     click.echo(text.encode(encoding, "replace"), nl=False)
 
@@ -30,6 +32,7 @@ def write_file(path: str, content: bytes) -> None:
     # The option itself is one that names it.
     if len(list(_named_by(place))) > 1:
         refuse(f"{path} is read by this command and would be overwritten; name another file")
+    raise_if_interrupted()
     write_files(str(place.parent), {place.name: content})
     say(f"Wrote {path}")
 
@@ -44,6 +47,7 @@ def write_folder(out: str, files: Mapping[str, bytes]) -> None:
                 f"{given} is read by this command and would be overwritten by the {name} that it "
                 "writes; name another folder with --out"
             )
+    raise_if_interrupted()
     write_files(out, files)
     say(f"Wrote {', '.join(files)} to {out}")
 
@@ -60,6 +64,7 @@ def _named_by(place: Path) -> Iterator[str]:
 
 def say(message: str) -> None:
     """Print a message on stderr; on a terminal its lines are wrapped."""
+    raise_if_interrupted()
     terminal = sys.stderr is not None and sys.stderr.isatty()
     # File names stay whole, so that they can be copied.
     click.echo(paragraph(message, WIDTH) if terminal else printable(message), err=True)
