@@ -190,6 +190,25 @@ def test_a_matplotlib_backend_that_is_absent_does_not_matter(tmp_path, backend):
     assert (done.returncode, done.stderr) == (0, "Wrote d.svg\n")
 
 
+def test_somebodys_matplotlibrc_changes_nothing(tmp_path):
+    words = ("drill", "--p", "0.8", "--plot", "d.svg", "--text")
+    pictures = []
+    for settings in ("", "text.usetex: True\nfont.size: 30\naxes.facecolor: red\n"):
+        (tmp_path / "matplotlibrc").write_text(settings)
+        done = run_program(*words, cwd=tmp_path)
+        assert (done.returncode, done.stderr) == (0, "Wrote d.svg\n")
+        pictures.append((tmp_path / "d.svg").read_bytes())
+    assert pictures[0] == pictures[1]
+
+
+def test_a_matplotlibrc_that_is_no_text_is_one_line(tmp_path):
+    (tmp_path / "matplotlibrc").write_bytes(b"\xff\xfe")
+    done = run_program("drill", "--p", "0.8", "--plot", "d.svg", "--text", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "remove the file matplotlibrc" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
 def test_a_reader_that_leaves_is_not_an_error(tmp_path):
     arcs = tmp_path / "arcs.csv"
     rows = (f"{i},{i + 1},1\n" for i in range(20_000))

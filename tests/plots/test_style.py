@@ -1,7 +1,13 @@
 """Plots look alike, and no line needs colour to be told from the others."""
 
-import pytest
+import importlib
+import inspect
+import pkgutil
 
+import pytest
+from matplotlib.figure import Figure
+
+from evenbreak import plots
 from evenbreak.plots.style import LINES, label_beside, label_on, new_axes, unit_axis
 
 
@@ -48,3 +54,16 @@ def test_names_of_curves_stand_on_or_beside_their_point() -> None:
     assert on.get_window_extent().contains(x, y)
     assert beside["left"].get_window_extent().x1 < x < beside["right"].get_window_extent().x0
     assert above.get_window_extent().y0 > y
+
+
+def test_every_figure_is_drawn_in_our_own_look() -> None:
+    figures = [
+        function
+        for module in pkgutil.iter_modules(plots.__path__, "evenbreak.plots.")
+        for _, function in inspect.getmembers(importlib.import_module(module.name))
+        if inspect.isfunction(function)
+        and function.__module__ == module.name
+        and inspect.signature(function).return_annotation in ("Figure", Figure)
+    ]
+    assert len(figures) > 20
+    assert [figure.__name__ for figure in figures if not hasattr(figure, "__wrapped__")] == []

@@ -12,6 +12,7 @@ from evenbreak.games.breaks import BREAK_FORMATS
 from evenbreak.games.rack import Rack
 from evenbreak.plots.contours import contour_axes
 from evenbreak.plots.point_labels import mark_points
+from evenbreak.plots.style import our_look
 from evenbreak.practice.breaks import long_run_share
 
 _X = "$p_1$ = P(A wins | A breaks)"
@@ -63,6 +64,7 @@ def _shares(first_breaker: int) -> list[Callable[[Any, Any], Any]]:
     return [winner, loser, alternate, lambda p1, p2: winner(p1, p2) - loser(p1, p2)]
 
 
+@our_look()
 def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Figure:
     """Draw player 1's long-run share of racks over (p1, p2), with the two players as a dot.
 

@@ -4,11 +4,12 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, our_look
 from evenbreak.ratings.calibration import CalibrationBin
 from evenbreak.ratings.validate import Validation
 
 
+@our_look()
 def calibration_figure(found: Validation) -> Figure:
     """Draw how often favourites won against the chance that they had been given.
 

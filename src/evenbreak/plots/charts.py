@@ -6,13 +6,14 @@ from matplotlib.figure import Figure
 
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit
 from evenbreak.matches.win import race_win_probability
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, our_look
 
 _STEPS = 25  # of the curve over one band
 _NARROW = 0.05
 """A race is written upright if its band takes up a smaller share of the width."""
 
 
+@our_look()
 def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Figure:
     """Draw the stronger player's chance over the rating difference, race by race.
 

@@ -27,6 +27,7 @@ _KNOWN_FILLS = 3
 """Of a terminal node: nobody has won, player 1, player 2; a legend names any more."""
 
 
+@our_look()
 def draw(
     game: Game | nx.DiGraph[Any], *, layout: Positions | None = None, title: str | None = None
 ) -> Figure:

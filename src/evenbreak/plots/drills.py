@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from evenbreak.plots.style import new_axes
+from evenbreak.plots.style import new_axes, our_look
 from evenbreak.practice.drills import DrillStatistics
 from evenbreak.practice.log_analysis import LogAnalysis
 
@@ -17,6 +17,7 @@ _TICKS = 20
 """Up to this many levels, each one has its own tick."""
 
 
+@our_look()
 def drill_figure(statistics: DrillStatistics) -> Figure:
     """Draw the fraction of attempts at each level of a drill in the long run.
 
@@ -39,6 +40,7 @@ def drill_figure(statistics: DrillStatistics) -> Figure:
     return figure
 
 
+@our_look()
 def log_figure(analysis: LogAnalysis) -> Figure:
     """Draw the levels of a log beside those of the long run with its success rates.
 

@@ -10,11 +10,12 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.crossings import Crossings, rack_along
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.win import win_probability
-from evenbreak.plots.style import LINES, new_axes, unit_axis
+from evenbreak.plots.style import LINES, new_axes, our_look, unit_axis
 
 _POINTS = 401
 
 
+@our_look()
 def plot_formats(
     formats: Sequence[MatchFormat],
     line: Mapping[str, Any],

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from evenbreak.handicaps.ladders.settling import Settling
-from evenbreak.plots.style import LINES, new_axes, unit_axis
+from evenbreak.plots.style import LINES, new_axes, our_look, unit_axis
 from evenbreak.stats.summary import Distribution
 
 _SHOWN = 1e-3
@@ -48,6 +48,7 @@ class SystemPoint(NamedTuple):
     unbeaten: bool | None
 
 
+@our_look()
 def ladder_figure(
     law: Distribution,
     *,
@@ -166,6 +167,7 @@ def _draw_settling(axes: Axes, curve: Settling) -> None:
     )
 
 
+@our_look()
 def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
     """Draw how far off ratings stay over how long newcomers take, for several systems.
 

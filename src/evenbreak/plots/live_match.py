@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from evenbreak.matches.live import LiveOdds
-from evenbreak.plots.style import LINES
+from evenbreak.plots.style import LINES, our_look
 
 _MOST_SCORES = 24
 """The most scores that fit below the picture; of more, only every second, third, ... is written."""
@@ -16,6 +16,7 @@ _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
 """Shares of the picture: the width and height of a label, and its distance from the line."""
 
 
+@our_look()
 def plot_course(odds: LiveOdds) -> Figure:
     """Return a figure of a match so far; player 1 is A and player 2 is B.
 

@@ -5,9 +5,10 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from evenbreak.handicaps.charts.pareto import ParetoChart
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, our_look
 
 
+@our_look()
 def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> Figure:
     """Draw the unfairness of charts over their mean length.
 

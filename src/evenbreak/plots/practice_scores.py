@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from evenbreak.files.scores import ScoresFile
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, our_look
 from evenbreak.stats.confidence import MeanInterval
 
 BAND = "0.85"
@@ -20,6 +20,7 @@ WIDEST = 0.3
 """The largest distance of a score from the middle of its list."""
 
 
+@our_look()
 def plot_scores(
     file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None
 ) -> Figure:
@@ -68,6 +69,7 @@ def plot_scores(
     return figure
 
 
+@our_look()
 def plot_two_lists(
     before: NDArray[np.float64],
     after: NDArray[np.float64],

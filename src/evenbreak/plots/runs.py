@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from evenbreak.matches.straight_pool import StraightPool, straight_pool_odds
 from evenbreak.matches.straight_pool_spot import even_spot
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, our_look
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
 
@@ -23,6 +23,7 @@ _POINTS = 150
 """The most points that a curve is drawn through."""
 
 
+@our_look()
 def plot_score(
     law: RunLength | InningsScore,
     innings: int = 1,
@@ -73,6 +74,7 @@ def plot_score(
     return figure
 
 
+@our_look()
 def plot_spot(match: StraightPool) -> Figure:
     """Return a figure of A's chance in straight pool against the weaker player's points.
 

@@ -7,12 +7,13 @@ from matplotlib.figure import Figure
 
 from evenbreak.league.sandbag_pay import Sandbagging
 from evenbreak.league.sandbag_watch import Watched
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, our_look
 
 MOST_NAMED = 6
 """How many players of a league are named; the others are thin lines."""
 
 
+@our_look()
 def pay_figure(pays: Sandbagging) -> Figure:
     """Draw the chance to win each match in earnest, for several numbers of dumped matches.
 
@@ -45,6 +46,7 @@ def pay_figure(pays: Sandbagging) -> Figure:
     return figure
 
 
+@our_look()
 def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
     """Draw the evidence against each player, match by match, on a logarithmic axis.
 

@@ -5,12 +5,13 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from evenbreak.files.problems import printable
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, our_look
 
 MOST_PLAYERS = 40
 """How many players of the standings are drawn: the first half and the last half of them."""
 
 
+@our_look()
 def errors_figure(weeks: pd.DataFrame) -> Figure:
     """Draw how far off the ratings are, week by week.
 
@@ -51,6 +52,7 @@ def errors_figure(weeks: pd.DataFrame) -> Figure:
     return figure
 
 
+@our_look()
 def gaps_figure(fairness: pd.DataFrame) -> Figure:
     """Draw how often the stronger player wins, by the gap between the two skills.
 
@@ -89,6 +91,7 @@ def gaps_figure(fairness: pd.DataFrame) -> Figure:
     return figure
 
 
+@our_look()
 def standings_figure(standings: pd.DataFrame) -> Figure:
     """Draw how many matches each player wins: the mean, and the range of 8 seasons in 10.
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from evenbreak.checks import one_of
 from evenbreak.plots.contours import contour_axes
 from evenbreak.plots.point_labels import mark_points
-from evenbreak.plots.style import new_axes
+from evenbreak.plots.style import new_axes, our_look
 from evenbreak.practice.shots import LOOK_AHEADS, ShotChoice, one_ball_win
 
 _TITLES = {
@@ -17,6 +17,7 @@ _TITLES = {
 }
 
 
+@our_look()
 def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -> Figure:
     """Draw P(player 1 wins the one-ball game) over (p1, p2), with each shot as a dot.
 

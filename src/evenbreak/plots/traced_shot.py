@@ -14,7 +14,7 @@ from evenbreak.physics.leg import Leg
 from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.shot import Shot
 from evenbreak.physics.units import DEGREE, INCH
-from evenbreak.plots.style import LINES
+from evenbreak.plots.style import LINES, our_look
 from evenbreak.plots.table_from_above import bare_axes, draw_ball, draw_table
 
 _SIZE = (9.0, 8.0)
@@ -38,6 +38,7 @@ _NEAR = 5.6
 """How much is shown on each side of the hit in the enlargement, in inches."""
 
 
+@our_look()
 def shot_on_table(traced: Shot | AimedShot) -> Figure:
     """Draw a shot from above, to scale: where both balls go, and how they meet.
 

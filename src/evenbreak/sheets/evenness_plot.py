@@ -3,13 +3,11 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from matplotlib.ticker import MaxNLocator
-
 from evenbreak.answers.chart_bands import Band
 from evenbreak.answers.sure_pairs import SurePair
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale
-from evenbreak.sheets.rating_bars import Tick
+from evenbreak.sheets.rating_bars import Tick, round_numbers
 
 WIDTH, HEIGHT = 360, 230
 _LEFT, _RIGHT, _TOP, _BOTTOM = 40, 350, 12, 188
@@ -68,12 +66,12 @@ def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale
         if x(band.after) - x(band.first) >= _NAME:
             middle = (x(band.first) + x(band.after)) / 2
             names.append((round(middle, 2), _BOTTOM - 6.0, f"{band.stronger}:{band.weaker}"))
-    across = MaxNLocator(nbins=6, steps=[1, 2, 5, 10]).tick_values(0.0, furthest)
-    up = MaxNLocator(nbins=5, steps=[1, 2, 5, 10]).tick_values(0.5 - away, 0.5 + away)
+    across = round_numbers(0.0, furthest, most=6, steps=[1, 2, 5, 10])
+    up = round_numbers(0.5 - away, 0.5 + away, most=5, steps=[1, 2, 5, 10])
     return Plot(
         curves,
         names,
         [(x(pair.difference), y(pair.p_win)) for pair in pairs],
-        [Tick(x(float(d)), f"{d:g}") for d in across if 0 <= d <= furthest],
-        [Tick(y(float(p)), f"{p:.1f}") for p in up if abs(p - 0.5) <= away],
+        [Tick(x(d), f"{d:g}") for d in across if 0 <= d <= furthest],
+        [Tick(y(p), f"{p:.1f}") for p in up if abs(p - 0.5) <= away],
     )

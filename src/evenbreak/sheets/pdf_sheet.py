@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from evenbreak.answers.left_out import left_out
@@ -53,7 +54,9 @@ SMALL, LEADING = 8.0, 1.45
 
 def sheet_pdf(sheet: Sheet) -> bytes:
     """Return the sheet as a PDF document, the same bytes every time."""
-    return pdf_bytes(sheet_pages(sheet), f"Fair races from {file_name(sheet.file)}")
+    with mpl.rc_context():
+        mpl.rcdefaults()  # nothing from the reader's own settings
+        return pdf_bytes(sheet_pages(sheet), f"Fair races from {file_name(sheet.file)}")
 
 
 def sheet_pages(sheet: Sheet) -> list[Figure]:

@@ -37,6 +37,11 @@ def report_error(error: BaseException) -> int:
             return FAILED
         case EvenbreakError() | OSError() | MemoryError() | OverflowError():
             pass
+        case UnicodeDecodeError() if _in_matplotlib(error):
+            error = InputError(
+                f"matplotlib cannot read its settings ({error}); mend or remove the file "
+                "matplotlibrc in this folder"
+            )
         case _:
             raise error
     for line in _lines(error):
@@ -47,6 +52,16 @@ def report_error(error: BaseException) -> int:
         case InputError():
             return USAGE
     return FAILED
+
+
+def _in_matplotlib(error: BaseException) -> bool:
+    """Return whether an error comes from matplotlib as it loads, where it reads its settings."""
+    place = error.__traceback__
+    names = set()
+    while place is not None:
+        names.add(place.tb_frame.f_globals.get("__name__"))
+        place = place.tb_next
+    return "matplotlib" in names
 
 
 def _chain(error: BaseException | None) -> Iterator[BaseException]:
