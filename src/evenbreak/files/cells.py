@@ -280,6 +280,6 @@ def _number(text: str) -> float | None:
     if text.strip(_IN_NUMBERS):
         return None
     try:
-        return float(text)
+        return float(text) + 0.0  # -0 is 0
     except ValueError:
         return None

@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from evenbreak.cli.kit.values import CHANCE, PAIR, SCORE, SPAN, Whole, refuse
+from evenbreak.cli.kit.values import CHANCE, PAIR, SCORE, SPAN, Whole, number_of, refuse
 
 
 @pytest.mark.parametrize(
@@ -49,6 +49,11 @@ def test_other_texts_are_refused_and_shown(kind: click.ParamType, text: str) -> 
     with pytest.raises(click.BadParameter) as refused:
         kind.convert(text, None, None)
     assert repr(text) in refused.value.message
+
+
+@pytest.mark.parametrize("text", ["-0", "-0.0", "-.0", "-0e5"])
+def test_minus_nothing_is_nothing(text: str) -> None:
+    assert str(number_of(text)) == str(CHANCE.convert(text, None, None)) == "0.0"
 
 
 @pytest.mark.parametrize(("text", "hint"), [("95", "0.95"), ("80%", "0.8"), ("0,5", "0.5")])

@@ -6,7 +6,7 @@ import click
 
 from evenbreak.answers.two_players import FORMATS, TwoPlayers
 from evenbreak.cli.kit.options import Command, scale_option, with_options
-from evenbreak.cli.kit.values import CHANCE, refuse
+from evenbreak.cli.kit.values import CHANCE, number_of, refuse
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale, scale_of
 
@@ -41,7 +41,7 @@ def players_of(
     if len(ratings) != 2:
         given = "only one rating is" if len(ratings) == 1 else f"{len(ratings)} ratings are"
         refuse(f"{given} given, {' '.join(ratings)}; {REMEDY}")
-    a, b = (float(rating) for rating in ratings)
+    a, b = map(number_of, ratings)
     if not math.isfinite(a - b):
         refuse("the ratings are too far apart to calculate with; give smaller numbers")
     return TwoPlayers.rated(a, b, scale or scale_of("npl"))

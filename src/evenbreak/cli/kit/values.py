@@ -20,6 +20,15 @@ NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.AS
 """A finite number, as text."""
 
 
+def number_of(text: str) -> float:
+    """Return the number that a text means; -0 is 0.
+
+    >>> number_of("1.5"), number_of("-0")
+    (1.5, 0.0)
+    """
+    return float(text) + 0.0
+
+
 class Whole(click.IntRange):
     """A whole number from `min` to `max`."""
 
@@ -46,7 +55,7 @@ class Number(click.ParamType):  # type: ignore[type-arg]
         """Return the number."""
         if isinstance(value, float):  # a default
             return value
-        found = float(value) if NUMBER.fullmatch(str(value).strip()) else math.nan
+        found = number_of(value) if NUMBER.fullmatch(str(value).strip()) else math.nan
         if not self.low <= found <= self.high:
             hint = meant(str(value), self.low, self.high)
             self.fail(f"{str(value)!r}{self.wanted}{hint}", param, ctx)
@@ -126,7 +135,7 @@ def numbers(
 
     def read(value: str) -> tuple[float, ...]:
         parts = [part.strip() for part in re.split(sign, value)]
-        found = tuple(float(part) for part in parts if NUMBER.fullmatch(part))
+        found = tuple(number_of(part) for part in parts if NUMBER.fullmatch(part))
         fit = all(low <= number <= high for number in found)
         if len(parts) not in counts or len(found) < len(parts) or not fit:
             raise click.BadParameter(f"{value!r}; {wanted}")

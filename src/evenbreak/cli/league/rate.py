@@ -13,7 +13,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, chart_option, scale_option
 from evenbreak.cli.kit.systems import read_system
-from evenbreak.cli.kit.values import NUMBER, refuse
+from evenbreak.cli.kit.values import NUMBER, number_of, refuse
 from evenbreak.cli.league.rate_options import PointsOr, how_to_rate, rated
 from evenbreak.ratings.scale import Scale
 
@@ -154,9 +154,9 @@ def _anchor(file: files.ResultsFile, texts: Sequence[str]) -> float | dict[str, 
             refuse(f"--anchor is {text!r}; give points, such as 80, or NAME=POINTS")
         if name.strip():
             (place,) = _places(file.results, [name], "--anchor")
-            named[file.results.players[place]] = float(number)
+            named[file.results.players[place]] = number_of(number)
         else:
-            means.append(float(number))
+            means.append(number_of(number))
     if len(means) + bool(named) > 1:
         refuse("--anchor gives either one mean or the ratings of named players, not both")
     return named or (means[0] if means else None)
