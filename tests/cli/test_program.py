@@ -182,12 +182,25 @@ def test_closed_streams_are_no_bug(tmp_path, words, closed):
         assert (tmp_path / "d.svg").read_bytes().endswith(b"</svg>\n")
 
 
-@pytest.mark.parametrize("backend", ["absent", "module://absent.inline"])
-def test_a_matplotlib_backend_that_is_absent_does_not_matter(tmp_path, backend):
-    environment = {**os.environ, "MPLBACKEND": backend}
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("MPLBACKEND", "absent"),
+        ("MPLBACKEND", "module://absent.inline"),
+        ("SOURCE_DATE_EPOCH", "yesterday"),
+    ],
+)
+def test_settings_of_matplotlib_in_the_environment_do_not_matter(tmp_path, name, value):
     words = ("drill", "--p", "0.8", "--plot", "d.svg", "--text")
-    done = run_program(*words, cwd=tmp_path, env=environment)
+    done = run_program(*words, cwd=tmp_path, env={**os.environ, name: value})
     assert (done.returncode, done.stderr) == (0, "Wrote d.svg\n")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere a folder in use cannot be removed")
+def test_a_working_folder_that_is_gone_does_not_matter(tmp_path):
+    command = f"mkdir gone; cd gone; rmdir ../gone; {sys.executable} -m evenbreak --version"
+    done = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True)  # noqa: S602
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_somebodys_matplotlibrc_changes_nothing(tmp_path):

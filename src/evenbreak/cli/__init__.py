@@ -25,8 +25,9 @@ def main() -> None:
     # What is made at the start lives to the end: collecting it would only cost time, now and
     # once more at exit.
     gc.set_threshold(100_000)
-    # The program opens no window, and matplotlib fails to load where this names what is absent.
-    os.environ.pop("MPLBACKEND", None)
+    # The program opens no window and writes no date, and matplotlib fails where these are wrong.
+    for name in ("MPLBACKEND", "SOURCE_DATE_EPOCH"):
+        os.environ.pop(name, None)
     try:
         from evenbreak.cli.program import program
 
