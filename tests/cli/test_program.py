@@ -41,6 +41,7 @@ def test_help_lists_every_command_under_its_heading(run):
 
 def test_help_imports_no_command():
     assert {name for name in loaded_by("--help") if name.startswith("evenbreak.cli.")} == {
+        "evenbreak.cli.interrupts",
         "evenbreak.cli.kit",
         "evenbreak.cli.kit.groups",
         "evenbreak.cli.program",

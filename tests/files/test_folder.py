@@ -98,6 +98,23 @@ def test_a_file_in_the_place_of_a_folder_above_is_told(tmp_path, place):
     assert content(tmp_path) == {"one.csv": b"mine"}
 
 
+@pytest.mark.parametrize("failing", range(1, 5))  # the journal and the three files
+def test_an_interrupt_while_files_take_their_places_waits(folder, monkeypatch, failing):
+    replace, calls = os.replace, []
+
+    def replace_and_interrupt(*places):
+        calls.append(places)
+        if len(calls) == failing:
+            signal.raise_signal(signal.SIGINT)
+        return replace(*places)
+
+    monkeypatch.setattr(os, "replace", replace_and_interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        write_files(folder, NEW)
+    assert content(folder) == NEW
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
 def test_an_interrupt_before_that_leaves_the_old_files(folder, monkeypatch):
     def interrupt(_):
         raise KeyboardInterrupt

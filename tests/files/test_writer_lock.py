@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from evenbreak.files import writer_lock
+from evenbreak.files import folder as folder_module
 from evenbreak.files.folder import check_folder, write_files
 from evenbreak.files.writer_lock import LOCK, sole_writer
 
@@ -33,7 +33,7 @@ def holder(tmp_path):
 
 
 def test_a_second_writer_waits_and_is_told_why(holder, tmp_path, monkeypatch):
-    monkeypatch.setattr(writer_lock, "PATIENCE", 0.1)
+    monkeypatch.setattr(folder_module, "PATIENCE", 0.1)
     with pytest.raises(OSError, match="another run is writing into it"):
         write_files(tmp_path, {"a.csv": b"1"})
     with pytest.raises(OSError, match="another run is writing into it"):
@@ -77,6 +77,6 @@ def test_a_file_system_without_locks_is_written_to(tmp_path, monkeypatch):
 
     monkeypatch.setattr(fcntl, "flock", none)
     begun = time.monotonic()
-    with sole_writer(tmp_path):
-        pass
+    with sole_writer(tmp_path) as alone:
+        assert alone
     assert time.monotonic() - begun < 1.0

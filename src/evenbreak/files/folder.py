@@ -9,11 +9,18 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-from collections.abc import Iterator, Mapping
+import time
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from evenbreak.files.transaction import WORK, Tree, change, recover
+from evenbreak.files.undisturbed import undisturbed
 from evenbreak.files.writer_lock import LOCK, sole_writer
+
+PATIENCE = 10.0
+"""Seconds to wait for another run to finish writing."""
+
+_PAUSE = 0.02
 
 
 def check_folder(folder: str | Path) -> None:
@@ -29,8 +36,7 @@ def check_folder(folder: str | Path) -> None:
 
     >>> check_folder(".")
     """
-    with _changing(Path(folder)) as there:
-        change(there, {})
+    _when_alone(Path(folder), lambda there: change(there, {}))
 
 
 def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
@@ -58,32 +64,49 @@ def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
     ['a.csv', 'b.csv']
     """
     folder = Path(folder)
-    with _changing(folder) as there:
+
+    def write(there: Path) -> None:
         entries: Tree = files
         for name in reversed(folder.absolute().relative_to(there.absolute()).parts):
             entries = {name: entries}
         change(there, entries)
 
+    _when_alone(folder, write)
 
-@contextlib.contextmanager
-def _changing(folder: Path) -> Iterator[Path]:
-    """Yield the folder, or the nearest one above it that exists, with nobody else writing there."""
+
+def _when_alone(folder: Path, write: Callable[[Path], None]) -> None:
+    """Write into the folder, or the nearest one above it that exists, when nobody else does.
+
+    A request to end waits until all is written, but not until another run has finished.
+    """
     try:
         if folder.is_symlink() and not folder.exists():
             raise NotADirectoryError(
                 errno.ENOTDIR, "a link to something that does not exist; name another"
             )
-        while True:
-            there = _nearest(folder)
-            with sole_writer(there):
-                # Another run may just have made a folder nearer to it.
-                if _nearest(folder) == there:
-                    yield there
-                    break
+        end = time.monotonic() + PATIENCE
+        while not _written(folder, write):
+            if time.monotonic() > end:
+                raise OSError(
+                    errno.EBUSY, "another run is writing into it; try again when it is done"
+                )
+            time.sleep(_PAUSE)
     except OSError as error:
         # The system would name a temporary file, which means nothing to a person.
         raise OSError(error.errno, error.strerror, str(folder)) from error
-    _tidy_above(folder)
+
+
+def _written(folder: Path, write: Callable[[Path], None]) -> bool:
+    """Write, unless another run does, or has just made a folder nearer to the one that is meant."""
+    there = _nearest(folder)
+    with undisturbed():
+        with sole_writer(there) as alone:
+            ready = alone and _nearest(folder) == there
+            if ready:
+                write(there)
+        if ready:
+            _tidy_above(folder)
+    return ready
 
 
 def _tidy_above(folder: Path) -> None:
@@ -91,8 +114,9 @@ def _tidy_above(folder: Path) -> None:
     for above in folder.absolute().parents:
         with contextlib.suppress(OSError):
             if any(os.path.lexists(above / name) for name in (WORK, LOCK)):
-                with sole_writer(above, patience=0.0):
-                    recover(above)
+                with sole_writer(above) as alone:
+                    if alone:
+                        recover(above)
 
 
 def _nearest(folder: Path) -> Path:

@@ -28,8 +28,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TypedDict, Union
 
-from evenbreak.files.undisturbed import undisturbed
-
 WORK = ".evenbreak-writing"
 """The folder in which a run prepares its changes."""
 
@@ -71,13 +69,10 @@ def change(folder: Path, entries: Tree) -> None:
             _stage(work / f"new-{number}", content)
         if len(entries) == 1:
             _sync(work)
-            with undisturbed():
-                (work / "new-0").replace(folder / next(iter(entries)))
+            (work / "new-0").replace(folder / next(iter(entries)))
             _sync(folder)
         elif entries:
-            journal = _keep_old(folder, entries)
-            with undisturbed():
-                _put_in_place(folder, journal)
+            _put_in_place(folder, _keep_old(folder, entries))
     finally:
         # What cannot be removed or put back now is left to the next run.
         with contextlib.suppress(OSError):
@@ -95,16 +90,15 @@ def recover(folder: Path) -> None:
     work = folder / WORK
     if not os.path.lexists(work):
         return
-    with undisturbed():
-        if work.is_dir() and not work.is_symlink():
-            found = _names_in(work)
-            if MADE_BY_US in found:
-                if _JOURNAL in found:
-                    _put_back(folder)
-                _remove(work)
-            # Without the mark it was just made, and is empty, or it is not ours.
-            with contextlib.suppress(OSError):
-                work.rmdir()
+    if work.is_dir() and not work.is_symlink():
+        found = _names_in(work)
+        if MADE_BY_US in found:
+            if _JOURNAL in found:
+                _put_back(folder)
+            _remove(work)
+        # Without the mark it was just made, and is empty, or it is not ours.
+        with contextlib.suppress(OSError):
+            work.rmdir()
     if os.path.lexists(work):
         raise OSError(errno.EEXIST, f"{WORK} in it was not made by this program; move it away")
 

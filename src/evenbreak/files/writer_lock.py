@@ -10,7 +10,6 @@ import contextlib
 import errno
 import os
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -22,46 +21,27 @@ else:
 LOCK = ".evenbreak.lock"
 """The file that a run holds while it writes into a folder, and then removes."""
 
-PATIENCE = 10.0
-"""Seconds to wait for another run to finish writing."""
-
-_PAUSE = 0.02
 _HELD = (errno.EAGAIN, errno.EACCES, errno.EDEADLK)
 """What the system says of a lock that another process holds."""
 
 
 @contextlib.contextmanager
-def sole_writer(folder: Path, *, patience: float | None = None) -> Iterator[None]:
-    """Let no other run write into a folder until the block is done; wait for one that does.
+def sole_writer(folder: Path) -> Iterator[bool]:
+    """Let no other run write into a folder until the block is done; yield False if one does now.
 
-    Parameters
-    ----------
-    folder
-        where to write.
-    patience
-        seconds to wait; None: `PATIENCE`.
-
-    Raises
-    ------
-    OSError
-        if another run is still writing then.
-
-    >>> with sole_writer(Path(".")):
-    ...     Path(LOCK).exists()
-    True
+    >>> with sole_writer(Path(".")) as alone, sole_writer(Path(".")) as also:
+    ...     alone, also, Path(LOCK).exists()
+    (True, False, True)
     >>> Path(LOCK).exists()
     False
     """
     path = folder / LOCK
-    end = time.monotonic() + (PATIENCE if patience is None else patience)
-    while (handle := _held(path)) is None:
-        if time.monotonic() > end:
-            raise OSError(errno.EBUSY, "another run is writing into it; try again when it is done")
-        time.sleep(_PAUSE)
+    handle = _held(path)
     try:
-        yield
+        yield handle is not None
     finally:
-        _release(handle, path)
+        if handle is not None:
+            _release(handle, path)
 
 
 def _held(path: Path) -> int | None:
