@@ -20,6 +20,7 @@ import numpy as np
 from evenbreak.arrays import Floats
 from evenbreak.checks import number, one_of
 from evenbreak.errors import InputError
+from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, place_of, time_to
@@ -27,7 +28,7 @@ from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import Energy
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
-from evenbreak.physics.throw import BALL_FRICTION, FRICTION_LAWS
+from evenbreak.physics.throw import FRICTION_LAWS
 
 _ROUNDING = 1e-12
 """The rounding error allowed in the distance between touching balls, in diameters."""
@@ -52,7 +53,7 @@ class Shot:
     approach
         the cue ball's path until the hit, or until it ends without one.
     collision
-        the hit, mirrored for a cut to the left; None if there is none.
+        the hit; None if there is none.
     cue_leg, object_leg
         the paths of the balls after the hit; None if there is none.
     """
@@ -157,7 +158,7 @@ def shot(
     table: PoolTable | None = None,
     cue_ball: Sequence[float] | None = None,
     direction: float = 0.0,
-    mu: float = BALL_FRICTION,
+    mu: float | SlipFriction = BALL_FRICTION,
     friction: str = "limited",
 ) -> Shot:
     """Trace a shot at an object ball.
@@ -201,7 +202,7 @@ def shot(
     sound_strike(strike)
     # Check these even if no ball is hit.
     one_of(friction, "friction", FRICTION_LAWS)
-    mu = number(mu, "mu", low=0.0)
+    mu = one_friction(mu)
     cut, direction = number(cut, "cut"), number(direction, "direction")
     if abs(cut) >= 0.5 * math.pi:
         raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2")
@@ -223,13 +224,12 @@ def shot(
     cue_leg = object_leg = None
     if approach.ending == "hit":
         found = _collision(approach, cut, mu, friction)
-        turn = (math.copysign(1.0, cut), direction)
         after = {
             "cue ball": (struck, found.cue_velocity, found.cue_spin),
             "object ball": (standing, found.object_velocity, found.object_spin),
         }
         cue_leg, object_leg = (
-            leg_until(name, _set_off(ball, cloth, *state, *turn), approach.end, table)
+            leg_until(name, _set_off(ball, cloth, *state, direction), approach.end, table)
             for name, state in after.items()
         )
     return Shot(
@@ -283,15 +283,11 @@ def spin_ratios(state: State, radius: float) -> tuple[float, float]:
     return float(radius * around / state.speed), float(radius * state.spin[2] / state.speed)
 
 
-def _collision(approach: Leg, cut: float, mu: float, friction: str) -> Collision:
-    """Return the hit; a cut to the left as its mirror image, with the sidespin reversed."""
+def _collision(approach: Leg, cut: float, mu: float | SlipFriction, friction: str) -> Collision:
     state = approach.state(approach.end)
     ball = approach.slide.ball
     topspin, side = spin_ratios(state, ball.radius)
-    turn = math.copysign(1.0, cut)
-    return collide(
-        abs(cut), topspin, turn * side, speed=state.speed, mu=mu, friction=friction, ball=ball
-    )
+    return collide(cut, topspin, side, speed=state.speed, mu=mu, friction=friction, ball=ball)
 
 
 def _set_off(
@@ -300,14 +296,11 @@ def _set_off(
     position: Floats,
     velocity: Floats,
     spin: Floats,
-    mirror: float,
     direction: float,
 ) -> Slide:
-    """Return a ball that leaves the hit; its state is given in the mirrored frame of the shot."""
-    velocity = velocity[:2] * [1.0, mirror]
-    # Spin is an axial vector: a mirror reverses the components that it keeps of a velocity.
-    spin = spin * [mirror, 1.0, mirror]
-    return Slide(ball, cloth, position, _turned(velocity, direction), _turned(spin, direction))
+    """Return a ball that leaves the hit; its state is given in the frame of the shot."""
+    velocity = _turned(velocity[:2], direction)
+    return Slide(ball, cloth, position, velocity, _turned(spin, direction))
 
 
 def _turned(vector: Floats, angle: float) -> Floats:
