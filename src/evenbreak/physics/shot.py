@@ -50,6 +50,8 @@ class Shot:
         the cut angle in radians, above 0 if the object ball is cut to the right.
     object_position
         where the object ball is at first, in metres; shape (2,).
+    mu, friction
+        the friction between the balls, and its law.
     approach
         the cue ball's path until the hit, or until it ends without one.
     collision
@@ -64,6 +66,8 @@ class Shot:
     direction: float
     cut: float
     object_position: Floats
+    mu: float | SlipFriction
+    friction: str
     approach: Leg
     collision: Collision | None
     cue_leg: Leg | None
@@ -232,9 +236,8 @@ def shot(
             leg_until(name, _set_off(ball, cloth, *state, direction), approach.end, table)
             for name, state in after.items()
         )
-    return Shot(
-        strike, cloth, table, direction, cut, standing, approach, found, cue_leg, object_leg
-    )
+    setting = (strike, cloth, table, direction, cut, standing, mu, friction)
+    return Shot(*setting, approach, found, cue_leg, object_leg)
 
 
 def sound_strike(strike: Strike) -> None:
