@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from evenbreak.arrays import Floats
+from evenbreak.checks import kind_or_usual
 from evenbreak.errors import InputError
 from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
 from evenbreak.physics.leg import State, on_table, place_of, time_to
@@ -110,7 +111,7 @@ def aimed_shot(
     >>> round(math.degrees(found.turn), 2), round(math.degrees(found.shot.throw), 2)
     (3.16, 3.16)
     """
-    cloth, table = cloth or Cloth(), table or PoolTable()
+    cloth, table = kind_or_usual(cloth, "cloth", Cloth), kind_or_usual(table, "table", PoolTable)
     sound_strike(strike)
     mu = one_friction(mu)
     places = {"cue_ball": cue_ball, "object_ball": object_ball, "target": target}

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import plain
+from evenbreak.checks import kind_or_usual, plain
 from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.ball_friction import BALL_FRICTION, checked_friction, friction_of_slip
 from evenbreak.physics.objects import Ball
@@ -245,7 +245,7 @@ def collide(
     mu = friction_of_slip(mu, speed, *slip)
     left, up = thrown(cos, *slip, mu, friction)
     found = (cut, topspin, side, speed, mu, speed * cos, speed * left, speed * up)
-    return Collision(ball or Ball(), *map(plain, found))
+    return Collision(kind_or_usual(ball, "ball", Ball), *map(plain, found))
 
 
 def axis_tilt(throw: Any) -> Any:

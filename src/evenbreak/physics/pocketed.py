@@ -12,6 +12,7 @@ from functools import partial
 import numpy as np
 
 from evenbreak.arrays import Floats
+from evenbreak.checks import kind_of
 from evenbreak.errors import InputError
 from evenbreak.physics.aimed import AimedShot, aimed_shot
 from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction
@@ -71,6 +72,7 @@ def pocketed_shot(
         mu=mu,
         friction=friction,
     )
+    kind_of(pocket, "pocket", Pocket)
     straight = aim_at([pocket.x, pocket.y])
     if not _blocked(straight, pocket):
         return straight

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import number, one_of
+from evenbreak.checks import kind_of, kind_or_usual, number, one_of
 from evenbreak.errors import InputError
 from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
 from evenbreak.physics.collision import Collision, collide
@@ -202,7 +202,7 @@ def shot(
     >>> [leg.ending for leg in found.legs], round(math.degrees(found.deflection), 1)
     (['hit', 'rest', 'rest'], 35.7)
     """
-    cloth, table = cloth or Cloth(), table or PoolTable()
+    cloth, table = kind_or_usual(cloth, "cloth", Cloth), kind_or_usual(table, "table", PoolTable)
     sound_strike(strike)
     # Check these even if no ball is hit.
     one_of(friction, "friction", FRICTION_LAWS)
@@ -242,7 +242,7 @@ def shot(
 
 def sound_strike(strike: Strike) -> None:
     """Raise an error if there is more than one strike, or it is a miscue."""
-    if np.ndim(strike.speed):
+    if np.ndim(kind_of(strike, "strike", Strike).speed):
         raise InputError(f"strike is {np.size(strike.speed)} strikes; give one")
     if strike.miscue:
         raise InputError(
