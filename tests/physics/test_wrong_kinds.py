@@ -51,5 +51,5 @@ def test_an_error_names_the_parameter_and_what_to_give() -> None:
         physics.shot(1, 2, 3)  # type: ignore[arg-type]
     with pytest.raises(EvenbreakError, match="ball is 0; give a Ball"):
         physics.collide(0.3, ball=0)  # type: ignore[arg-type]
-    with pytest.raises(EvenbreakError, match="cloth is .*; give a Cloth"):
+    with pytest.raises(EvenbreakError, match=r"cloth is .*; give a Cloth"):
         physics.Slide(physics.Ball(), "cloth", [0, 0], [1, 0], [0, 0, 0])  # type: ignore[arg-type]
