@@ -7,6 +7,7 @@ from .arrays import together as together
 from .arrays import whole_numbers as whole_numbers
 from .kinds import kind_of as kind_of
 from .kinds import kind_or_usual as kind_or_usual
+from .complement import complement as complement
 from .numbers import number as number
 from .numbers import number_probabilities as number_probabilities
 from .numbers import number_probability as number_probability
