@@ -2,6 +2,7 @@ from .absorption import absorption as absorption
 from .absorption import expected_visits as expected_visits
 from .chain import Chain as Chain
 from .conditioned import conditioned as conditioned
+from .exact import ExactPassage as ExactPassage
 from .explore import chain_from_arrays as chain_from_arrays
 from .explore import chain_of as chain_of
 from .fit import FittedChain as FittedChain

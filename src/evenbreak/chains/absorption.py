@@ -12,11 +12,12 @@ Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
 from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.exact import exact_absorption
 from evenbreak.chains.factorisation import Factorisation
 
 if TYPE_CHECKING:
@@ -25,7 +26,17 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 
-def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
+@overload
+def absorption(
+    chain: Chain, start: Any = None, *, exact: Literal[False] = False
+) -> NDArray[np.float64]: ...
+
+
+@overload
+def absorption(chain: Chain, start: Any = None, *, exact: bool) -> NDArray[Any]: ...
+
+
+def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> NDArray[Any]:
     """Return the probability of ending in each class, given the start; shape (classes,).
 
     Classes are numbered as in `chain.structure`; those that are not closed have 0. Each
@@ -34,16 +45,24 @@ def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     error of 1e-6 at least, and if that is all that can be said, `chain.transient.residual`
     is not None but says by how much the equations are missed.
 
+    With `exact` the entries are fractions (see `stochastic_limit`).
+
     Raises
     ------
     AccuracyError
         if an entry cannot be guaranteed.
+    ChainError
+        with `exact`, if the arcs of a state do not sum to exactly 1.
 
     >>> from evenbreak.chains import chain_of
     >>> chain = chain_of([("play", "won", 0.25), ("play", "lost", 0.5), ("play", "play", 0.25)])
     >>> absorption(chain, "play")[chain.structure.label].round(3).tolist()
     [0.0, 0.333, 0.667]
+    >>> absorption(chain, "play", exact=True)[1:].tolist()
+    [Fraction(1, 3), Fraction(2, 3)]
     """
+    if exact:
+        return exact_absorption(chain, start)
     structure = chain.structure
     v = chain.density(start)
     arrivals = _arrivals(chain, v)

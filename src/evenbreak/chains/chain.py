@@ -7,7 +7,7 @@ after one step. Everything else in this package is a function of a `Chain`.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -23,6 +23,8 @@ from evenbreak.checks import whole
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     import pandas as pd
     from numpy.typing import NDArray
 
@@ -50,6 +52,9 @@ class Chain:
         self-loop becomes what the others leave over, or without one all arcs are scaled.
     start
         the state in which the game begins, or None.
+    given
+        the arcs whose chances are known as fractions, by the positions (source, target), for
+        exact answers.
 
     Raises
     ------
@@ -61,6 +66,7 @@ class Chain:
     states: Sequence[Hashable]
     matrix: csc_array
     start: Hashable | None = None
+    given: Mapping[tuple[int, int], Fraction] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         if isinstance(self.states, str):

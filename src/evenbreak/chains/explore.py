@@ -14,6 +14,7 @@ The rules of a chain:
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
+from fractions import Fraction
 from itertools import chain as chained
 from typing import TYPE_CHECKING, Any
 
@@ -69,7 +70,9 @@ def chain_of(
         - a dict that has, for each state, a dict from the next states to their probabilities;
         - (source, target, probability) triples.
 
-        A probability is always that of the target, given the source.
+        A probability is always that of the target, given the source. In dicts, triples and
+        graphs it may be a `Fraction`, or text such as "0.6" or "3/5"; `exact=True` then
+        calculates with just that.
     start
         the state in which to begin. If None: the start of the game, or the graph's node of
         `kind` 'start' if it has one; the others have no start of their own.
@@ -142,7 +145,8 @@ def chain_from_arrays(
     sources, targets
         positions in `states`, one for each arc, in any order.
     probabilities
-        the probability of each arc's target, given its source.
+        the probability of each arc's target, given its source; numbers, fractions, or text
+        such as "0.6" or "3/5".
     start
         the state in which to begin, or None.
 
@@ -157,7 +161,9 @@ def chain_from_arrays(
            [0.75, 1.  ]])
     """
     states = tuple(states) if isinstance(states, str) else states
-    j, i, p = _checked_arrays(states, sources, targets, probabilities)
+    chances, fractions = _fractions(probabilities)
+    j, i, p = _checked_arrays(states, sources, targets, chances)
+    given = {(int(j[k]), int(i[k])): fraction for k, fraction in fractions.items()}
     if start is not None and start not in states:
         raise ChainError(f"start is {start!r}, which is not a state of the chain")
     n = len(states)
@@ -177,7 +183,21 @@ def chain_from_arrays(
     made = p > 0.0
     if not made.all():
         j, i, p = j[made], i[made], p[made]
-    return Chain(states, _column_stochastic(n, j, i, p, absorbing=listed == 0), start)
+    return Chain(states, _column_stochastic(n, j, i, p, absorbing=listed == 0), start, given)
+
+
+def _fractions(probabilities: ArrayLike) -> tuple[NDArray[Any], dict[int, Fraction]]:
+    """Return the probabilities as numbers, and those of them that are fractions or text."""
+    given = np.asarray(probabilities)
+    if given.dtype.kind not in "OU":
+        return given, {}
+    values = [_number(value) for value in given.ravel().tolist()]
+    fractions = {k: value for k, value in enumerate(values) if isinstance(value, Fraction)}
+    numbers = np.array([float(value) for value in values]).reshape(given.shape)
+    for k, fraction in fractions.items():
+        if fraction and not numbers.flat[k]:
+            raise ChainError(f"the probability {fraction} is smaller than any float; leave it out")
+    return numbers, fractions
 
 
 def _listed_twice(states: Sequence[Hashable], key: NDArray[np.int64]) -> ChainError:
@@ -264,10 +284,8 @@ def _arcs_of_graph(graph: Any, weight: str) -> tuple[ArcArrays, Hashable | None]
         map(position.__getitem__, chained.from_iterable(rows)), dtype=np.int64, count=total
     )
     try:
-        chances = np.fromiter(
-            (arc[weight] for row in rows for arc in row.values()), np.float64, count=total
-        )
-    except (KeyError, TypeError, ValueError):
+        chances = np.array([_number(arc[weight]) for row in rows for arc in row.values()])
+    except (KeyError, TypeError, ValueError, ZeroDivisionError):
         raise _without_probability(graph, weight) from None
     starts = [state for state, kind in graph.nodes(data="kind") if kind == "start"]
     if len(starts) > 1:
@@ -279,8 +297,8 @@ def _arcs_of_graph(graph: Any, weight: str) -> tuple[ArcArrays, Hashable | None]
 def _without_probability(graph: Any, weight: str) -> ChainError:
     for source, target, chance in graph.edges(data=weight):
         try:
-            float(chance)
-        except (TypeError, ValueError):
+            _number(chance)
+        except (TypeError, ValueError, ZeroDivisionError):
             return ChainError(
                 f"the arc {source!r} -> {target!r} has {weight} {chance!r}; "
                 "give each arc a number from 0 to 1"
@@ -304,14 +322,14 @@ def _arcs_of_triples(triples: Iterable[Any], states: Iterable[Any] = ()) -> ArcA
     position: dict[Any, int] = {state: k for k, state in enumerate(states)}
     sources: list[int] = []
     targets: list[int] = []
-    chances: list[float] = []
+    chances: list[Any] = []
     for k, triple in enumerate(triples, 1):
         try:
             source, target, chance = triple
-            chances.append(float(chance))
+            chances.append(_number(chance))
             sources.append(position.setdefault(source, len(position)))
             targets.append(position.setdefault(target, len(position)))
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, ZeroDivisionError):
             raise ChainError(
                 f"arc {k} is {triple!r}; give (source, target, probability), "
                 "states that can be hashed and a number"
@@ -322,3 +340,12 @@ def _arcs_of_triples(triples: Iterable[Any], states: Iterable[Any] = ()) -> ArcA
         np.array(targets, dtype=np.int64),
         np.array(chances),
     )
+
+
+def _number(chance: Any) -> float | Fraction:
+    """Return a chance as a float, or as a fraction if it is one or text.
+
+    >>> _number(1), _number("0.6")
+    (1.0, Fraction(3, 5))
+    """
+    return Fraction(chance) if isinstance(chance, (Fraction, str)) else float(chance)

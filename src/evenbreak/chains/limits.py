@@ -23,11 +23,14 @@ import numpy as np
 
 from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
 from evenbreak.chains.chain import labels
+from evenbreak.chains.exact import exact_limit
 from evenbreak.chains.stationary import laws_of
 from evenbreak.checks import one_of
-from evenbreak.errors import AccuracyError, ChainError
+from evenbreak.errors import AccuracyError, ChainError, InputError
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     import pandas as pd
     from numpy.typing import DTypeLike, NDArray
 
@@ -146,7 +149,21 @@ class Limit(Mapping[Hashable, float]):
         return np.array(self.probability, dtype)
 
 
-def stochastic_limit(chain: Chain, start: Any = None, *, via: Way | None = None) -> Limit:
+@overload
+def stochastic_limit(
+    chain: Chain, start: Any = None, *, via: Way | None = None, exact: Literal[False] = False
+) -> Limit: ...
+
+
+@overload
+def stochastic_limit(
+    chain: Chain, start: Any = None, *, via: Way | None = None, exact: Literal[True]
+) -> dict[Hashable, Fraction]: ...
+
+
+def stochastic_limit(
+    chain: Chain, start: Any = None, *, via: Way | None = None, exact: bool = False
+) -> Limit | dict[Hashable, Fraction]:
     """Return the stochastic limit of the chain: where it ends, or its long-run average.
 
     Each probability is conditional on the start alone. The structure of the graph says
@@ -163,6 +180,11 @@ def stochastic_limit(chain: Chain, start: Any = None, *, via: Way | None = None)
         'elimination': elimination of states without subtraction, for any chain. 'eigen': the
         eigenvectors of eigenvalue 1 (see `spectrum`). None: the kernel where there is one,
         otherwise elimination.
+    exact
+        whether to calculate in fractions and return them, by state. A chance that `chain_of`
+        got as a `Fraction` or as text is taken as it is, a float as the decimal that it
+        prints. Time and the length of the fractions grow with the number of states: for
+        some hundreds of states in a line, or some thousands of scores of a race.
 
     Raises
     ------
@@ -171,9 +193,10 @@ def stochastic_limit(chain: Chain, start: Any = None, *, via: Way | None = None)
         large for decimal numbers, or a class is too large and mixes too slowly. By
         eigenvectors, if the sum of the absolute errors may be above 1e-12.
     ChainError
-        if the start is neither a state nor a density, or the chain has no kernel.
+        if the start is neither a state nor a density, or the chain has no kernel; with
+        `exact`, if the arcs of a state do not sum to exactly 1.
     InputError
-        if `via` is not a way.
+        if `via` is not a way, or is given together with `exact`.
 
     Notes
     -----
@@ -191,7 +214,14 @@ def stochastic_limit(chain: Chain, start: Any = None, *, via: Way | None = None)
     >>> limit = stochastic_limit(miss_forever, "S1")
     >>> limit.to_dict(), limit.period, limit.is_cesaro
     ({'S1': 0.5, 'S2': 0.5}, 2, True)
+    >>> third = chain_of([("rack", "won", "1/3"), ("rack", "lost", "2/3")])
+    >>> stochastic_limit(third, "rack", exact=True)["won"]
+    Fraction(1, 3)
     """
+    if exact:
+        if via is not None:
+            raise InputError(f"via is {via!r}, but exact answers have one way; leave via out")
+        return exact_limit(chain, start)
     if via is not None:
         one_of(via, "via", WAYS)
     if via == "eigen":

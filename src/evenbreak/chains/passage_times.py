@@ -18,12 +18,13 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.exact import ExactPassage, exact_passage
 from evenbreak.chains.powers import evened
 from evenbreak.chains.transient import TransientPart
 from evenbreak.checks import number_probability, one_of, whole
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.chain import Chain
+
+Into: TypeAlias = Literal["absorbing", "closed"]
+"""What absorbs: states that are never left, or any closed class."""
 
 TIE = 1e-12
 """A cumulative probability this close below q counts as q: sums of floats miss ties."""
@@ -149,9 +153,21 @@ class PassageTime:
             t, chance, x = t + 1, float((self._leak * x).sum()), self._inside @ x
 
 
+@overload
 def steps_to_absorption(
-    chain: Chain, start: Any = None, *, into: Literal["absorbing", "closed"] = "absorbing"
-) -> PassageTime:
+    chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: Literal[False] = False
+) -> PassageTime: ...
+
+
+@overload
+def steps_to_absorption(
+    chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: Literal[True]
+) -> ExactPassage: ...
+
+
+def steps_to_absorption(
+    chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: bool = False
+) -> PassageTime | ExactPassage:
     """Return the number of steps until the chain is absorbed, given the start.
 
     Parameters
@@ -162,6 +178,9 @@ def steps_to_absorption(
         'absorbing': until a state is reached that is never left (the match is over); a
         closed class of several states is then a way of never being absorbed. 'closed':
         until any closed class is entered, which always happens.
+    exact
+        whether to calculate the chances, mean and variance in fractions (see
+        `stochastic_limit`); there is then no distribution.
 
     Raises
     ------
@@ -182,12 +201,16 @@ def steps_to_absorption(
     >>> racks = steps_to_absorption(two_ahead, 0)
     >>> racks.mean, racks.variance, racks.quantile(0.9), racks.p_never
     (4.0, 8.0, 8, 0.0)
+    >>> steps_to_absorption(two_ahead, 0, exact=True).mean_if_reached
+    Fraction(4, 1)
     """
     one_of(into, "into", ("absorbing", "closed"))
     structure = chain.structure
     ends = structure.recurrent
     if into == "absorbing":
         ends = ends & (np.diff(structure.offsets)[structure.label] == 1)
+    if exact:
+        return exact_passage(chain, start, ends)
     return _passage(chain, chain.density(start), ends)
 
 
