@@ -39,6 +39,8 @@ class Rack(Generic[ChanceT]):
         P(the player of p1, p2 loses that rack), where it is known to more digits than 1 - p
         has; None: 1 - p, which of a p with at most 15 decimals is taken as the decimal (.1 for .9).
 
+    A `Fraction` is kept in `given` for exact answers.
+
     All may be arrays for the vectorised kernels of `evenbreak.matches`; the graph of a game
     takes numbers only.
 
@@ -63,8 +65,10 @@ class Rack(Generic[ChanceT]):
     _: KW_ONLY
     q1: Any = field(default=None, repr=False)
     q2: Any = field(default=None, repr=False)
+    given: tuple[Any, Any] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "given", (self.p1, self.p2))
         self._check("1")
         if self.p2 is not None:
             self._check("2")

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 from functools import reduce
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
@@ -135,7 +135,7 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
         return Outcomes({(winner, breaker): Outcome(1.0, 0.0, 0.0)}, 0.0)
     start = (*match.fold(*score), breaker)
     units = unit_outcomes(match, lengths=lengths)
-    arcs = _score_chain(match, start, units)
+    arcs = score_arcs(match, start, {breaker: unit.by_result for breaker, unit in units.items()})
     chain = ScoreChain(
         {
             state: {target: outcome.chance for target, outcome in row.items()}
@@ -155,21 +155,25 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
 _State = tuple[int, int, int]
 _Result = tuple[int, int]
 _Arcs = dict[_State, dict[_State | _Result, Outcome]]
+_Of = TypeVar("_Of")
 
 
-def _score_chain(match: Match, start: _State, units: dict[int, Outcomes]) -> _Arcs:
+def score_arcs(
+    match: Match, start: _State, units: dict[int, dict[_Result, _Of]]
+) -> dict[_State, dict[_State | _Result, _Of]]:
     """Return the arcs from each (a, b, breaker) to the next one, or to (winner, next breaker).
 
-    All scores with the same result are one final state, which keeps eliminated rows short.
+    An arc carries what `units` has for its unit and result. All scores with the same result are
+    one final state, which keeps eliminated rows short.
     """
-    arcs: _Arcs = {}
+    arcs: dict[_State, dict[_State | _Result, _Of]] = {}
     queue = [start]
     for state in queue:
         if state in arcs:
             continue
         a, b, breaker = state
-        row: dict[_State | _Result, Outcome] = {}
-        for (won, after), outcome in units[breaker].by_result.items():
+        row: dict[_State | _Result, _Of] = {}
+        for (won, after), outcome in units[breaker].items():
             score = match.fold(a + (won == 1), b + (won == 2))
             winner = match.decided(*score)
             if winner is None:

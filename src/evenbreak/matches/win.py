@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, overload
+from fractions import Fraction
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +15,7 @@ from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.matches.exact_win import exact_win
 from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.parameters import at_score, in_shape
 from evenbreak.stats.beta_tail import beta_tail
@@ -21,13 +23,19 @@ from evenbreak.stats.beta_tail import beta_tail
 
 @overload
 def win_probability(
-    match: Match[float], score: Score | None = None, *, player: int = 1
+    match: Match[Any], score: Score | None = None, *, player: int = 1, exact: Literal[True]
+) -> Fraction: ...
+@overload
+def win_probability(
+    match: Match[float], score: Score | None = None, *, player: int = 1, exact: bool = False
 ) -> float: ...
 @overload
 def win_probability(
-    match: Match[Any], score: Score | None = None, *, player: int = 1
+    match: Match[Any], score: Score | None = None, *, player: int = 1, exact: bool = False
 ) -> Floats: ...
-def win_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
+def win_probability(
+    match: Match, score: Score | None = None, *, player: int = 1, exact: bool = False
+) -> Any:
     """Return P(`player` wins the match).
 
     Parameters
@@ -41,16 +49,21 @@ def win_probability(match: Match, score: Score | None = None, *, player: int = 1
     player
         1 or 2. Each player's chance is worked out by itself, never as 1 minus the other's, so
         both are accurate even if tiny. They add up to 1 minus P(the match never ends).
+    exact
+        whether to calculate in fractions. A chance of the rack given as a `Fraction` is taken
+        as it is, a float as the decimal that it prints: 0.6 is 3/5.
 
     Returns
     -------
-    float or numpy.ndarray
-        a float for plain numbers, otherwise an array of the shape of the parameters.
+    float, numpy.ndarray or Fraction
+        a float for plain numbers, otherwise an array of the shape of the parameters; a
+        fraction if `exact`.
 
     Raises
     ------
     InputError
-        if the score cannot be reached, `match` is another game, or `player` is not 1 or 2.
+        if the score cannot be reached, `match` is another game, `player` is not 1 or 2, or an
+        exact answer is asked for arrays.
 
     Notes
     -----
@@ -62,9 +75,13 @@ def win_probability(match: Match, score: Score | None = None, *, player: int = 1
     0.552
     >>> win_probability(Race(2, 1, Rack([0.5, 0.9], 0.5), breaks=winner_breaks)).round(3)
     array([0.25, 0.81])
+    >>> win_probability(Race(3, 2, Rack(0.6)), exact=True)
+    Fraction(297, 625)
     """
     one_of(player, "player", (1, 2))
     match, shape = at_score(match, score)
+    if exact:
+        return exact_win(match, player)
     return in_shape(_win(match, player), shape)
 
 
