@@ -35,6 +35,7 @@ GOLDEN = ROOT / "tests" / "golden"
 ASKED = {
     "odds": "odds 612 521 --scale fargo --race 7:5",
     "odds_sets": "odds --p 0.66 --race 3:1 --set 3:3 --score 1:0",
+    "odds_exact": "odds --p 0.6 --ahead 3:2 --exact",
     "fair": "fair 612 521 --scale fargo --race-to 7 --top 3",
     "live": "live --p 0.6 --race 7:5 --racks abbab",
     "live_table": "live --p 0.6 --set 4:3 --race 3:3 --score 1:1 --set-score 2:2 --table",

@@ -1,5 +1,9 @@
 """The chances of a match, and its length."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Quantities, Quantity
 from evenbreak.answers.two_players import TwoPlayers
@@ -9,9 +13,20 @@ from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack
 from evenbreak.matches.odds import MatchOdds, match_odds
 
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from fractions import Fraction
 
-def odds_answer(players: TwoPlayers, match: Match) -> Answer:
+
+def odds_answer(players: TwoPlayers, match: Match, *, exact: bool = False) -> Answer:
     """Return the chances of a match between two players, and its length.
+
+    Parameters
+    ----------
+    players, match
+        who plays what.
+    exact
+        whether to add the chances of winning as fractions.
 
     >>> from evenbreak.answers.two_players import TwoPlayers
     >>> from evenbreak.games import Race
@@ -21,6 +36,7 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     It lasts 9.3 games on average, and 9 out of 10 such matches end within 11.
     """
     odds = match_odds(match)
+    p_win = _exact_wins(match) if exact else ()
     a, b = players.names
     from_now = " from now on" if any(match.score) else ""
     by_break = players.p_game_a is None
@@ -30,6 +46,7 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
         Quantity("p2", players.rack.p2),
         Quantity("p_win_a", odds.p_win_1, f"{a} wins the match", chance),
         Quantity("p_win_b", odds.p_win_2, f"{b} wins the match", chance),
+        *(Quantity(f"p_win_{who}_exact", str(p)) for who, p in zip("ab", p_win, strict=False)),
         Quantity(
             "p_never_ends",
             odds.p_never_ends,
@@ -56,9 +73,43 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     ]
     return Answer(
         f"{players.description}\n{match_words(match, players.names)}",
-        [_in_words(odds, match, players), Quantities(quantities)],
+        [
+            _in_words(odds, match, players),
+            *([_exact_words(p_win, players.names)] if exact else []),
+            Quantities(quantities),
+        ],
         warnings=players.doubts,
     )
+
+
+def _exact_wins(match: Match) -> tuple[Fraction, Fraction]:
+    from evenbreak.matches.win import win_probability
+
+    p_1, p_2 = (win_probability(match, player=player, exact=True) for player in (1, 2))
+    return p_1, p_2
+
+
+def _exact_words(p_win: Iterable[Fraction], names: tuple[str, str]) -> str:
+    lines = (f"{name} wins: {fraction_words(p)}" for name, p in zip(names, p_win, strict=True))
+    return "\n".join(("The exact chances:", *lines))
+
+
+def fraction_words(p: Fraction) -> str:
+    """Return a fraction and its decimal, which is cut off after 30 digits.
+
+    >>> from fractions import Fraction
+    >>> fraction_words(Fraction(297, 625))
+    '297/625 = 0.4752'
+    >>> fraction_words(Fraction(9, 13))
+    '9/13 = 0.692307692307692307692307692307...'
+    """
+    from decimal import ROUND_DOWN, Context, Decimal, Inexact
+
+    if p.denominator == 1:
+        return str(p)
+    context = Context(prec=30, rounding=ROUND_DOWN)
+    decimal = context.divide(Decimal(p.numerator), Decimal(p.denominator))
+    return f"{p} = {decimal:f}" + ("..." if context.flags[Inexact] else "")
 
 
 def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:

@@ -238,6 +238,8 @@ def test_a_person_at_a_terminal_reads_text():
         ("--p 0.5 --race 7:7 --win-by 0", "win-by"),
         ("--p 0.5 --race 3:3 --win-by 101", "can still come to"),
         ("--p 0.5 --race 30:30 --set 30:30", "can still come to"),
+        ("--p 0.5 --race 101 --exact", "can still come to"),
+        ("612 521 --race 5 --exact", "--exact"),
     ],
 )
 def test_wrong_use(refused, line, named):
@@ -274,6 +276,14 @@ def test_whatever_is_asked_rightly_is_answered_with_the_same_keys(run, who, what
     assert set(answer) >= KEYS
     total = answer["p_win_a"] + answer["p_win_b"] + answer["p_never_ends"]
     assert total == pytest.approx(1, abs=1e-12)
+
+
+def test_exact_chances(run):
+    answer = json.loads(run("odds", *["--p", "0.6", "--ahead", "2:2", "--exact", "--json"]).stdout)
+    assert (answer["p_win_a_exact"], answer["p_win_b_exact"]) == ("9/13", "4/13")
+    assert "p_win_a_exact" not in json.loads(
+        run("odds", "--p", "0.6", "--race", "2", "--json").stdout
+    )
 
 
 def test_no_numpy_on_the_way():

@@ -8,6 +8,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.players import player_options
+from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
 
 EXAMPLES = """\b
@@ -16,14 +17,20 @@ Examples:
   evenbreak odds --p 0.6 --ahead 5:3
   evenbreak odds --p1 0.6 --p2 0.5 --breaks winner --race 9:9 --score 4:6
   evenbreak odds --p 0.66 --race 3:1 --set 3:3
+  evenbreak odds --p 0.6 --race 5:4 --exact
 """
 
 
 @click.command("odds", cls=PlainCommand, epilog=EXAMPLES)
 @player_options
 @match_options
+@click.option(
+    "--exact",
+    is_flag=True,
+    help="Also give the chances of winning as fractions; needs --p, or --p1 and --p2.",
+)
 @faces()
-def command(**asked: Any) -> Answer:
+def command(*, exact: bool, **asked: Any) -> Answer:
     """Give the odds of a match, and how long it lasts.
 
     Describe the players by two ratings A B, by --p, or by --p1, --p2 and --breaks; the match
@@ -32,6 +39,8 @@ def command(**asked: Any) -> Answer:
     from evenbreak.answers.odds import odds_answer
 
     players, match = match_of(**asked)
-    if getattr(match, "win_by", 0) != 1 or match.rack is not players.rack:  # no plain race
-        refuse_giants(match)
-    return odds_answer(players, match)
+    if exact and players.ratings is not None:
+        refuse("--exact needs the chances themselves: give --p, or --p1 and --p2, not ratings")
+    if exact or getattr(match, "win_by", 0) != 1 or match.rack is not players.rack:
+        refuse_giants(match)  # all but plain races in plain numbers
+    return odds_answer(players, match, exact=exact)
