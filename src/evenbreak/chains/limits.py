@@ -238,6 +238,11 @@ def stochastic_limit(
     structure = chain.structure
     if structure.is_acyclic:
         return Limit(chain, ends_of(chain, chain.density(start)))
+    if structure.count == 1:
+        if at is None:
+            chain.density(start)  # refuses what is no start
+        law, residual = laws_of(chain, structure.closed)
+        return Limit(chain, law, int(structure.periods[0]), residual)
     mass = absorption(chain, start)
     law, residual = laws_of(chain, mass > 0.0)
     law *= mass[structure.label]

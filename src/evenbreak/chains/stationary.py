@@ -21,6 +21,7 @@ from scipy.sparse import csc_array
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.birth_death import birth_death_law
 from evenbreak.chains.decimal_elimination import decimal_law
+from evenbreak.chains.dense_law import dense_law, is_small
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.transient import TransientPart
 
@@ -62,6 +63,10 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     are proportional to the law.
     """
     structure = chain.structure
+    if structure.count == 1 and classes[0] and is_small(chain.arcs):
+        whole = dense_law(chain.arcs)
+        if whole is not None:
+            return whole, None
     wanted = classes & structure.closed
     law = np.zeros(len(chain))
     cut = structure.order[structure.offsets[:-1][wanted]]

@@ -160,7 +160,7 @@ class TransientPart:
                 else:
                     x = self._factor.visits(b)
                     gain = 1.0 / self._factor.pivots
-                doubtful = _doubtful(x, gain)
+                doubtful = where_doubtful(x, gain)
         except (np.linalg.LinAlgError, ZeroDivisionError):
             # A pivot, a sum of positive arcs, was smaller than any float.
             x, doubtful = np.full(b.shape, np.nan), np.ones(b.shape, dtype=bool)
@@ -210,7 +210,7 @@ class _InPlainPython:
         return np.array([self._elimination.values(column) for column in r.T.tolist()]).T
 
 
-def _doubtful(x: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray[np.bool_]:
+def where_doubtful(x: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return where underflow may show in x, of shape (m, k); everywhere if x has overflowed.
 
     Underflow loses at most 2^-1074 a term, times the largest entry of x; `gain`, of shape
