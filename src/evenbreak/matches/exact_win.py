@@ -6,6 +6,7 @@ gives the outcomes of a match, which may be a set of a longer one.
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from fractions import Fraction
 
 from evenbreak.chains.exact import exact_chance
@@ -42,8 +43,12 @@ def _outcomes(match: Match, score: Score, breaker: int) -> _Outcomes:
     units = {first: _unit(match, first) for first in ((1, 2) if match.break_matters else (1,))}
     start = (*match.fold(*score), breaker)
     arcs = score_arcs(match, start, units)
-    never = {first: 1 - sum(unit.values()) for first, unit in units.items()}
-    chain = ScoreChain({state: {**row, NEVER: never[state[2]]} for state, row in arcs.items()})
+    never = {first: 1 - sum(unit.values(), Fraction(0)) for first, unit in units.items()}
+    rows: dict[Hashable, dict[Hashable, Fraction]] = {
+        state: dict[Hashable, Fraction](row.items()) | {NEVER: never[state[2]]}
+        for state, row in arcs.items()
+    }
+    chain = ScoreChain(rows)
     results = sorted({target for row in arcs.values() for target in row if len(target) == 2})
     return {result: chain.solve({result: Fraction(1)})[start] for result in results}
 

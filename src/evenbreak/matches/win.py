@@ -27,11 +27,15 @@ def win_probability(
 ) -> Fraction: ...
 @overload
 def win_probability(
-    match: Match[float], score: Score | None = None, *, player: int = 1, exact: bool = False
+    match: Match[float],
+    score: Score | None = None,
+    *,
+    player: int = 1,
+    exact: Literal[False] = False,
 ) -> float: ...
 @overload
 def win_probability(
-    match: Match[Any], score: Score | None = None, *, player: int = 1, exact: bool = False
+    match: Match[Any], score: Score | None = None, *, player: int = 1, exact: Literal[False] = False
 ) -> Floats: ...
 def win_probability(
     match: Match, score: Score | None = None, *, player: int = 1, exact: bool = False
