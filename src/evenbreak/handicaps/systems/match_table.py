@@ -19,10 +19,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import gammaln, xlog1py, xlogy
+from scipy.special import gammaln, xlogy
 
 from evenbreak.arrays import Bools, Floats, Ints, Places
-from evenbreak.checks import probability, whole
+from evenbreak.checks import complement, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.system import PlayedMatch, System
@@ -134,7 +134,7 @@ class MatchTable:
         before, lost = np.maximum(np.where(won, a, b) - 1, 0), np.where(won, b, a)
         orders = gammaln(before + lost + 1) - gammaln(before + 1) - gammaln(lost + 1)
         down = (..., *(None,) * game.ndim)
-        log = orders[down] + xlogy(a[down], game) + xlog1py(b[down], -game)
+        log = orders[down] + xlogy(a[down], game) + xlogy(b[down], complement(game))
         by_race = np.where((a + b > 0)[down], np.exp(log), 0.0)
         return by_race[place]
 
