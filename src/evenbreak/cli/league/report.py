@@ -120,7 +120,8 @@ def command(
     sheet = answers.Sheet.of(file, ratings, offered, chosen, choice)
     files = _files(sheet, html=html, excel=excel, excel_csv=excel_csv)
     write_folder(out, files)
-    return replace(answers.report_answer(sheet), warnings=warnings)
+    answer = answers.report_answer(sheet)
+    return replace(answer, warnings=[*warnings, *answer.warnings])
 
 
 def _read(results: str, aliases: str | None) -> tuple[ResultsFile, Sequence[str]]:
