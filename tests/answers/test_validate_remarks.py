@@ -39,7 +39,7 @@ def test_a_file_that_lists_winners_first_is_recognised(play_season):
     found = validate(winners_first(season), prior_sd=0.5)
     text = said(found, "first column")
     assert "100%" in text
-    assert "lists winners first" in text
+    assert "list winners first" in text
     assert "home" not in text
     plain = validate(season, prior_sd=0.5)
     assert found.scored[0].log_loss.value == pytest.approx(plain.scored[0].log_loss.value)

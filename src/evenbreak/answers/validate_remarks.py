@@ -132,7 +132,7 @@ def _first_column(found: Validation) -> str:
         return ""
     won = f"Players in the first column won {percent(column.won / column.matches)} of the matches"
     if column.winners_first:
-        return f"{won}: the file lists winners first. That does not change the ratings."
+        return f"{won}: the file seems to list winners first. That does not change the ratings."
     way = 0 if found.side is None else clearly_off(found.side, 0.0)
     predicted = f"{percent(column.expected / column.matches)} predicted"
     if way > 0:

@@ -54,13 +54,13 @@ class FirstColumn(NamedTuple):
 
     @property
     def winners_first(self) -> bool:
-        """Whether the file must list winners first: no other advantage is as large.
+        """Whether the file must list winners first: no home advantage is as large.
 
-        Player a won 90% or more of at least ten matches, and a fifth of them more than
-        predicted.
+        Player a won three quarters or more of at least ten matches, and a fifth of them more
+        than predicted.
         """
         share, predicted = self.won / self.matches, self.expected / self.matches
-        return self.matches >= 10 and share >= 0.9 and share - predicted >= 0.2
+        return self.matches >= 10 and share >= 0.75 and share - predicted >= 0.2
 
 
 def first_column(forecasts: Forecasts) -> FirstColumn | None:

@@ -210,9 +210,7 @@ def validate(
     )
 
 
-def _parts(
-    progress: Callable[[int, int], None], many: int
-) -> Iterator[Callable[[int, int], None]]:
+def _parts(progress: Callable[[int, int], None], many: int) -> Iterator[Callable[[int, int], None]]:
     """Yield for each part of the work what shows its progress, as hundredths of a part."""
 
     def show(part: int, done: int, total: int) -> None:
