@@ -16,6 +16,9 @@ from evenbreak.files.text_table import TextTable
 
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 
+LONGEST_NAME = 200
+"""Letters of a name; where a quotation mark is missing, half a file may be in one cell."""
+
 DEFUSED = tuple(f"'{start}" for start in FORMULA_STARTS)
 """The beginnings of names that were kept from being formulas."""
 
@@ -105,7 +108,7 @@ class PlayerNames:
             table,
             name,
             self.places.get,
-            wanted="a name that can be printed",
+            wanted=f"a name of up to {LONGEST_NAME} letters that can be printed",
             remedy="write the player's name",
             dtype=np.int64,
             empty=0,
@@ -189,4 +192,6 @@ def _side(places: NDArray[np.int64], a: Values, b: Values) -> NDArray[np.int8]:
 
 
 def _is_name(name: str) -> bool:
-    return name != "" and not any(unicodedata.category(letter) == "Cc" for letter in name)
+    return 0 < len(name) <= LONGEST_NAME and not any(
+        unicodedata.category(letter) == "Cc" for letter in name
+    )

@@ -11,7 +11,7 @@ import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.files.cells import numbers, read_cells, whole_numbers
-from evenbreak.files.player_names import clean_name, same_name
+from evenbreak.files.player_names import LONGEST_NAME, clean_name, same_name
 from evenbreak.files.problems import quoted
 from evenbreak.files.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.text_table import TextTable, read_table
@@ -177,6 +177,12 @@ def _names(table: TextTable) -> list[str]:
             if "player" in table:
                 table.problems.add(line, "player is empty; write a name")
             continue
+        if len(name) > LONGEST_NAME:
+            table.problems.add(
+                line,
+                f"player {quoted(name)} has {len(name):,} letters; write a name of up to "
+                f"{LONGEST_NAME}, and look for a missing quotation mark",
+            )
         earlier, spelling = first.setdefault(same_name(name), (line, name))
         if earlier != line:
             spelt = "" if spelling == name else f" as {quoted(spelling)}"
