@@ -70,9 +70,9 @@ class Streaks(NamedTuple):
 def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | None:
     """Compare the spread of scores about the predictions with that of simulated seasons.
 
-    None where there is no race to 1,000 games or less after the first date. More spread than by chance
-    points to good and bad days, or to ratings that lag behind; less, to matches that are
-    kept close.
+    None where there is no race to 1,000 games or less after the first date. More spread than
+    by chance points to good and bad days, or to ratings that lag behind; less, to matches that
+    are kept close.
     """
     longest = np.maximum(forecasts.race_a, forecasts.race_b)
     rows = (longest > 0) & (longest <= LONGEST_SIMULATED) & (forecasts.date_of > 0)
