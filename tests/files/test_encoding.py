@@ -5,6 +5,7 @@ import sys
 import pytest
 
 from evenbreak.errors import DataError
+from evenbreak.files import encoding as module
 from evenbreak.files.encoding import content_of, encoding_of
 
 
@@ -92,3 +93,12 @@ def test_a_name_of_a_file_stays_on_one_line(tmp_path):
         content_of(tmp_path / "no\nsuch\x1b[31m\udcff.csv")
     (problem,) = caught.value.problems
     assert problem.endswith("no\\nsuch\\x1b[31m\\udcff.csv: there is no such file; check its name")
+
+
+def test_a_file_without_end_is_refused(monkeypatch):
+    monkeypatch.setattr(module, "MOST_BYTES", 1 << 20)
+    with pytest.raises(DataError, match="longer than 1 MB"):
+        content_of("/dev/zero")
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(bytes((1 << 20) + 1))))
+    with pytest.raises(DataError, match="stdin: is longer"):
+        content_of("-")

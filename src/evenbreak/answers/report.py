@@ -7,6 +7,7 @@ import pandas as pd
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.left_out import left_out
 from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.rate import prior_warnings
 from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.scale_words import decimals_of
 from evenbreak.answers.sheet import NO_RACE, Sheet
@@ -50,6 +51,7 @@ def report_answer(sheet: Sheet) -> Answer:
             *(["\n".join(["Left out:", *(f"- {item}" for item in items)])] if items else []),
         ],
         details=[rating_model(sheet)],
+        warnings=list(prior_warnings(sheet.file, sheet.ratings, sheet.choice)),
         csv=Table("matchups", _columns(sheet.paired), rows_of(sheet.paired)),
         data={
             "ratings": _records(sheet.rated),

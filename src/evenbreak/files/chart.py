@@ -9,7 +9,7 @@ from itertools import product
 from pathlib import Path
 
 from evenbreak.errors import DataError
-from evenbreak.files.cells import whole_numbers
+from evenbreak.files.cells import LARGEST_WHOLE, whole_numbers
 from evenbreak.files.problems import Problems, printable, quoted
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
@@ -34,6 +34,9 @@ LEVELS = {
 
 MAY_BE_EMPTY = ("difference_to", "opponent_needs")
 """The columns whose cells may be empty."""
+
+MOST_GAMES = 1000
+"""Games in the longest race."""
 
 MOST_MISSING = 20
 """The most missing pairs of levels listed one by one."""
@@ -177,6 +180,7 @@ def _whole(table: TextTable, column: str) -> list[int]:
         table,
         column,
         at_least=1 if games else 0,
+        at_most=MOST_GAMES if games else LARGEST_WHOLE,
         remedy=f"write {'a number of games, such as 5' if games else wanted}",
         may_be_empty=column in MAY_BE_EMPTY,
     )

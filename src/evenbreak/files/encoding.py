@@ -18,15 +18,20 @@ MAGIC = {
 }
 
 
+MOST_BYTES = 256 << 20
+"""The longest file that is read: some five million matches."""
+
+
 def content_of(path: str | Path) -> tuple[str, bytes]:
     """Return what to call a file in messages, and its bytes; '-' is standard input."""
     if str(path) == "-":
         if sys.stdin is None:
             raise DataError(["stdin: is closed; name a file, or pipe one into the command"])
-        return "stdin", sys.stdin.buffer.read()
+        return "stdin", _no_longer(sys.stdin.buffer.read(MOST_BYTES + 1), "stdin")
     source = printable(str(path))
     try:
-        return source, Path(path).read_bytes()
+        with Path(path).open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
     except FileNotFoundError:
         raise DataError([f"{source}: there is no such file; check its name"]) from None
     except IsADirectoryError:
@@ -34,6 +39,16 @@ def content_of(path: str | Path) -> tuple[str, bytes]:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise DataError([f"{source}: cannot be read ({reason}); check the file"]) from None
+    return source, _no_longer(content, source)
+
+
+def _no_longer(content: bytes, source: str) -> bytes:
+    """Return a file's bytes, or refuse a file that is longer than any table of a league."""
+    if len(content) > MOST_BYTES:
+        raise DataError(
+            [f"{source}: is longer than {MOST_BYTES >> 20} MB; name a table, or split it in parts"]
+        )
+    return content
 
 
 def encoding_of(content: bytes, source: str) -> tuple[str, list[str]]:

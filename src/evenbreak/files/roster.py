@@ -12,6 +12,7 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.files.cells import numbers, read_cells, whole_numbers
 from evenbreak.files.player_names import (
+    LONGEST_NAME,
     NAME,
     WRITE_IT,
     clean_name,
@@ -185,7 +186,13 @@ def _names(table: TextTable) -> list[str]:
             if "player" in table:
                 table.problems.add(line, "player is empty; write a name")
             continue
-        if not is_name(name):
+        if len(name) > LONGEST_NAME:
+            table.problems.add(
+                line,
+                f"player {quoted(name)} has {len(name):,} letters; write a name of up to "
+                f"{LONGEST_NAME}, and look for a missing quotation mark",
+            )
+        elif not is_name(name):
             table.problems.add(line, f"player {quoted(name)} is not {NAME}; {WRITE_IT}")
         earlier, spelling = first.setdefault(same_name(name), (line, name))
         if earlier != line:

@@ -147,10 +147,18 @@ def _best_prior(
     as_of: str | None,
     break_advantage: float | str | None,
 ) -> PriorChoice:
+    from evenbreak.cli.kit.progress import Progress
     from evenbreak.ratings.decay import day_of, until
     from evenbreak.ratings.prior import best_prior
 
     results = file.results
     if as_of is not None:
         results = results.select(until(results, day_of(as_of)))
-    return best_prior(results, half_life=half_life, break_advantage=break_advantage, scale=scale)
+    with Progress("stretches predicted") as progress:
+        return best_prior(
+            results,
+            half_life=half_life,
+            break_advantage=break_advantage,
+            scale=scale,
+            progress=progress,
+        )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import PurePath
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
 
 TOP, MOST_PAIRED = 10, 1000
 RACE_TO = 7
+
+MANY_PAIRS = 50_000
+"""Pairs from which a sheet takes so long that a person wonders."""
 
 EXAMPLES = """\b
 Examples:
@@ -116,11 +120,14 @@ def command(
         refuse("--players names one player; name two or more")
     more = not players and top is None and len(chosen) < len(ratings.players)
     hint = " (--top N pairs more, --players those you name)" if more else ""
-    say(f"Pairing {len(chosen):,} of them{hint}")
+    pairs = math.comb(len(chosen), 2)
+    long = f": {pairs:,} pairs, which takes minutes" if pairs > MANY_PAIRS else ""
+    say(f"Pairing {len(chosen):,} of them{hint}{long}")
     sheet = answers.Sheet.of(file, ratings, offered, chosen, choice)
     files = _files(sheet, html=html, excel=excel, excel_csv=excel_csv)
     write_folder(out, files)
-    return replace(answers.report_answer(sheet), warnings=warnings)
+    answer = answers.report_answer(sheet)
+    return replace(answer, warnings=[*warnings, *answer.warnings])
 
 
 def _read(results: str, aliases: str | None) -> tuple[ResultsFile, Sequence[str]]:
