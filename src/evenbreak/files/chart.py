@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
@@ -13,6 +12,7 @@ from evenbreak.files.cells import whole_numbers
 from evenbreak.files.problems import Problems, printable, quoted
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
+from evenbreak.handicaps.charts.chart_of import catalogue_name
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow, row_faults
 
@@ -220,7 +220,7 @@ def find_chart(name_or_path: str | Path) -> Chart | LevelChart:
 
 def find_chart_file(name_or_path: str | Path) -> ChartFile:
     """Return the chart of this name that comes with the package, or else the content of a file."""
-    key = re.sub(r"[-\s]+", "_", str(name_or_path).strip().lower())
+    key = catalogue_name(str(name_or_path))
     if key in CHARTS:
         return ChartFile(ChartDraft(key, tuple(chart(key).rows)), (), ())
     if key in LEVEL_CHARTS:

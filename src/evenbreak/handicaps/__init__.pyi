@@ -6,6 +6,8 @@ from .charts.audit import even_doublings as even_doublings
 from .charts.chart import CHARTS as CHARTS
 from .charts.chart import Chart as Chart
 from .charts.chart import chart as chart
+from .charts.chart_of import chart_of as chart_of
+from .charts.chart_of import level_chart_of as level_chart_of
 from .charts.design import design as design
 from .charts.design import nearest_chart as nearest_chart
 from .charts.fair import FairRace as FairRace

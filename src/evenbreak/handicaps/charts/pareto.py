@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from evenbreak.checks import one_of, whole
 from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.charts.cheapest_path import NoChartError
 from evenbreak.handicaps.charts.match_rules import match_rules
 from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
@@ -47,7 +48,7 @@ def pareto(
     rules: Any,
     limits: RaceLimits,
     *,
-    beside: Sequence[Chart] = (),
+    beside: Sequence[Chart | str] = (),
     criterion: str = "mean",
     target: float = 0.5,
     up_to: int | None = None,
@@ -61,8 +62,8 @@ def pareto(
     rules, limits, target
         as for `design`.
     beside
-        printed charts to place among them. Each is joined by the fairest chart within the
-        limits that is no longer, named 'as' with its name.
+        printed charts, or their names in `CHARTS`, to place among them. Each is joined by the
+        fairest chart within the limits that is no longer, named 'as' with its name.
     criterion
         'mean' or 'worst': which unfairness counts.
     up_to
@@ -85,9 +86,7 @@ def pareto(
     InputError
         as `design` does.
 
-    >>> from evenbreak.handicaps import chart
-    >>> npl_8 = chart("npl_8")
-    >>> for one in pareto("npl", RaceLimits((5, 7), weaker_least=2), beside=[npl_8])[:4]:
+    >>> for one in pareto("npl", RaceLimits((5, 7), weaker_least=2), beside=["npl_8"])[:4]:
     ...     found = one.measure
     ...     print(
     ...         one.chart.name,
@@ -101,10 +100,10 @@ def pareto(
     games_p90 6 0.0424 4.54 6 None
     mean_games 4.5 0.0429 4.46 7 None
     """
-    rules = match_rules(rules)
+    rules, charts = match_rules(rules), [chart_of(chart) for chart in beside]
     criterion = one_of(criterion, "criterion", ("mean", "worst"))
-    if up_to is None and beside:
-        up_to = min(last_difference(chart, rules) for chart in beside)
+    if up_to is None and charts:
+        up_to = min(last_difference(chart, rules) for chart in charts)
     elif up_to is not None:
         up_to = whole(up_to, "up_to", at_least=1)
     candidates = Candidates(rules, limits, up_to)
@@ -122,7 +121,7 @@ def pareto(
         return measured(one)
 
     made = [fairest(), *_shorter_and_shorter(fairest)]
-    printed = [measured(chart) for chart in beside]
+    printed = [measured(chart) for chart in charts]
     for one in printed:
         with suppress(NoChartError):  # no chart within the limits is that short
             made.append(
