@@ -19,15 +19,17 @@ def chart_list_answer() -> Answer:
         "Handicap charts that come with evenbreak",
         [
             f"There are {count_of(len(CHARTS), 'chart')} by rating difference and "
-            f"{count_of(len(LEVEL_CHARTS), 'chart')} by skill level.",
+            f"{count_of(len(LEVEL_CHARTS), 'chart')} by skill level. `evenbreak chart show NAME` "
+            "prints one, and --chart NAME uses it for tonight's races.",
             Table(
                 "charts",
                 [
                     Column("chart", "name", left=True),
                     Column("what", "full name", left=True),
                     Column("looked_up_by", "looked up by", left=True),
-                    Column("races", "races"),
+                    Column(("even_race_from", "even_race_to"), "equals\nrace to", _even),
                     Column("longest_games", "games\nat most"),
+                    Column("races"),
                 ],
                 [_row(name, title) for name, title in {**CHARTS, **LEVEL_CHARTS}.items()],
             ),
@@ -42,4 +44,11 @@ def _row(name: str, title: str) -> tuple[Any, ...]:
         table = level_chart(name)
         pairs = [(i, j) for i in table.levels for j in table.levels if i >= j]
         by, races = "skill level", {table.race(*pair) for pair in pairs}
-    return name, title, by, len(races), max(m + n - 1 for m, n in races)
+    even = [m for m, n in races if m == n]
+    longest = max(m + n - 1 for m, n in races)
+    return name, title, by, (min(even), max(even)), longest, len(races)
+
+
+def _even(ends: tuple[int, int]) -> str:
+    first, last = ends
+    return str(first) if first == last else f"{first} to {last}"

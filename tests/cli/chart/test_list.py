@@ -14,8 +14,8 @@ def test_every_chart_is_listed_with_its_races(run):
 
 def test_csv_into_a_pipe(run):
     lines = run("chart", "list").stdout.splitlines()
-    assert lines[0] == "chart,what,looked_up_by,races,longest_games"
-    assert {line.count(",") for line in lines} == {4}
+    assert lines[0] == "chart,what,looked_up_by,even_race_from,even_race_to,longest_games,races"
+    assert {line.count(",") for line in lines} == {6}
 
 
 def test_there_is_nothing_to_name(run):

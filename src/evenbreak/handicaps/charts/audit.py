@@ -120,6 +120,18 @@ class ChartAudit:
         """The most unfair row, the first of equals."""
         return max(self.rows, key=lambda row: row.unfairness)
 
+    @property
+    def p_win(self) -> Floats:
+        """P(the stronger player wins) at each difference from 1 on that a row with an end has."""
+        chances = [np.empty(0)]
+        for row in self.rows:
+            if row.difference_to is not None:
+                points = np.arange(max(row.difference_from, 1), row.difference_to + 1)
+                p = self.scale.win_probability(points)
+                needs = row.stronger_needs, row.weaker_needs
+                chances.append(np.asarray(race_win_probability(p, *needs)))
+        return np.concatenate(chances)
+
 
 def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
     """Return how fair a chart of rating differences is, and the scale and tilt that fit it.

@@ -10,10 +10,10 @@ from itertools import count
 from typing import Any, NamedTuple
 
 from evenbreak.checks import one_of, whole
-from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.charts.cheapest_path import NoChartError
+from evenbreak.handicaps.charts.design import races_to_try
 from evenbreak.handicaps.charts.match_rules import match_rules
 from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
 from evenbreak.handicaps.charts.race_limits import RaceLimits
@@ -53,6 +53,7 @@ def pareto(
     target: float = 0.5,
     up_to: int | None = None,
     rows: int | None = None,
+    spread: int | None = None,
     watch: Callable[[int], object] | None = None,
 ) -> list[ParetoChart]:
     """Return what fairness costs in length: the fairest charts for every length.
@@ -71,6 +72,8 @@ def pareto(
         beside (without any, where the hardest allowed race is even).
     rows
         the most rows of a designed chart; None for any number.
+    spread
+        how much the longest matches of a designed chart may differ, as for `design`.
     watch
         called after each chart designed, with the number of charts so far.
 
@@ -106,7 +109,7 @@ def pareto(
         up_to = min(last_difference(chart, rules) for chart in charts)
     elif up_to is not None:
         up_to = whole(up_to, "up_to", at_least=1)
-    candidates = Candidates(rules, limits, up_to)
+    candidates = races_to_try(rules, limits, spread, up_to)
     last = int(candidates.points[-1])
 
     def measured(chart: Chart) -> _Measured:
