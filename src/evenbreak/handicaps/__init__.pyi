@@ -22,6 +22,8 @@ from .charts.level_audit import audit_levels as audit_levels
 from .charts.level_chart import LEVEL_CHARTS as LEVEL_CHARTS
 from .charts.level_chart import LevelChart as LevelChart
 from .charts.level_chart import level_chart as level_chart
+from .charts.level_scale import LevelScale as LevelScale
+from .charts.level_scale import level_scale as level_scale
 from .charts.match_rules import MatchRules as MatchRules
 from .charts.measure import ChartMeasure as ChartMeasure
 from .charts.measure import last_difference as last_difference
