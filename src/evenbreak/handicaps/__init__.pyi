@@ -73,3 +73,5 @@ from .systems.rating_changes import apply_results as apply_results
 from .systems.step import step_system as step_system
 from .systems.system import PlayedMatch as PlayedMatch
 from .systems.system import System as System
+from .systems.team_handicap import TeamHandicap as TeamHandicap
+from .systems.team_handicap import team_handicap as team_handicap

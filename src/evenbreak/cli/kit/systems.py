@@ -96,7 +96,7 @@ def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Cha
         chart, warnings = file.chart, list(file.warnings)
     if not isinstance(chart, handicaps.Chart):
         refuse(
-            f"--chart {name!r} is a chart of skill levels, which a league reviews from time to time "
+            f"--chart {name!r} is a chart of skill levels, which a league reviews now and then "
             "and no single match moves by points, so there is nothing to follow here; give a chart "
             "of rating differences, such as npl_10"
         )
