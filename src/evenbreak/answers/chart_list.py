@@ -7,20 +7,22 @@ from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import count_of
 from evenbreak.handicaps.charts.chart import CHARTS, chart
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, level_chart
+from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS
 
 
 def chart_list_answer() -> Answer:
     """Return the charts that come with the package, with the races of each.
 
     >>> [row["chart"] for row in chart_list_answer().to_dict()["charts"]][-1]
-    'apa_8ball'
+    'apa_9ball'
     """
     return Answer(
         "Handicap charts that come with evenbreak",
         [
-            f"There are {count_of(len(CHARTS), 'chart')} by rating difference and "
-            f"{count_of(len(LEVEL_CHARTS), 'chart')} by skill level. `evenbreak chart show NAME` "
-            "prints one, and --chart NAME uses it for tonight's races.",
+            f"There are {count_of(len(CHARTS), 'chart')} by rating difference, "
+            f"{count_of(len(LEVEL_CHARTS), 'chart')} by skill level and "
+            f"{count_of(len(POINTS_CHARTS), 'chart')} of points by skill level. `evenbreak chart "
+            "show NAME` prints one; --chart NAME uses one of games for tonight's races.",
             Table(
                 "charts",
                 [
@@ -31,13 +33,18 @@ def chart_list_answer() -> Answer:
                     Column("longest_games", "games\nat most"),
                     Column("races"),
                 ],
-                [_row(name, title) for name, title in {**CHARTS, **LEVEL_CHARTS}.items()],
+                [
+                    _row(name, title)
+                    for name, title in {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}.items()
+                ],
             ),
         ],
     )
 
 
 def _row(name: str, title: str) -> tuple[Any, ...]:
+    if name in POINTS_CHARTS:
+        return name, title, "skill level", None, None, None
     if name in CHARTS:
         by, races = "difference", {row[2:] for row in chart(name).rows}
     else:
@@ -49,6 +56,8 @@ def _row(name: str, title: str) -> tuple[Any, ...]:
     return name, title, by, (min(even), max(even)), longest, len(races)
 
 
-def _even(ends: tuple[int, int]) -> str:
+def _even(ends: tuple[int, int] | None) -> str:
+    if ends is None:
+        return "points"
     first, last = ends
     return str(first) if first == last else f"{first} to {last}"

@@ -58,7 +58,7 @@ def _how(found: TeamHandicap, match_ups: int) -> str:
     gap = abs(found.scored_1 - found.scored_2)
     each = f"{found.scored_1:.2f} and {found.scored_2:.2f} points"
     pairs = count_of(match_ups, "match-up")
-    text = f"Over one game in each of {pairs}, the teams are expected to score {each}, {gap:.2f} apart."
+    text = f"Over one game in each of {pairs}, the teams should score {each}, {gap:.2f} apart."
     if not found.given_away:
         return text
     return (

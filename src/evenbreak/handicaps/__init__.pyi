@@ -8,6 +8,7 @@ from .charts.chart import Chart as Chart
 from .charts.chart import chart as chart
 from .charts.chart_of import chart_of as chart_of
 from .charts.chart_of import level_chart_of as level_chart_of
+from .charts.chart_of import points_chart_of as points_chart_of
 from .charts.design import design as design
 from .charts.design import nearest_chart as nearest_chart
 from .charts.fair import FairRace as FairRace
@@ -30,6 +31,11 @@ from .charts.measure import last_difference as last_difference
 from .charts.measure import measure_chart as measure_chart
 from .charts.pareto import ParetoChart as ParetoChart
 from .charts.pareto import pareto as pareto
+from .charts.points_audit import PointsAudit as PointsAudit
+from .charts.points_audit import audit_points as audit_points
+from .charts.points_chart import POINTS_CHARTS as POINTS_CHARTS
+from .charts.points_chart import PointsChart as PointsChart
+from .charts.points_chart import points_chart as points_chart
 from .charts.race_limits import RaceLimits as RaceLimits
 from .charts.rows import ChartDraft as ChartDraft
 from .charts.rows import ChartRow as ChartRow

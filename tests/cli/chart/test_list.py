@@ -1,12 +1,12 @@
 import json
 
-from evenbreak.handicaps import CHARTS, LEVEL_CHARTS
+from evenbreak.handicaps import CHARTS, LEVEL_CHARTS, POINTS_CHARTS
 
 
 def test_every_chart_is_listed_with_its_races(run):
     charts = json.loads(run("chart", "list", "--json").stdout)["charts"]
     by_name = {one["chart"]: one for one in charts}
-    assert set(by_name) == {*CHARTS, *LEVEL_CHARTS}
+    assert set(by_name) == {*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS}
     assert by_name["npl_20"]["longest_games"] == 19
     assert by_name["fargo_r6_hot"]["races"] == 7
     assert by_name["apa_8ball"]["looked_up_by"] == "skill level"

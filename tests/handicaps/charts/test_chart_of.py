@@ -16,6 +16,7 @@ from evenbreak.handicaps import (
     match_table,
     measure_chart,
     pareto,
+    points_chart,
     system_of,
 )
 from evenbreak.handicaps.ladders.closed_league import ClosedPair
@@ -59,7 +60,9 @@ def test_every_function_that_takes_a_chart_takes_its_name(call):
 
 
 @pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
-@pytest.mark.parametrize("wrong", ["nobody", "apa_8ball", 12, level_chart("apa_8ball")])
+@pytest.mark.parametrize(
+    "wrong", ["nobody", "apa_8ball", "apa_9ball", 12, level_chart("apa_8ball")]
+)
 def test_what_is_no_chart_by_difference_is_refused_with_those_that_are(call, wrong):
     with pytest.raises(InputError, match=r"chart is .*npl_10"):
         call(wrong)
@@ -69,7 +72,9 @@ def test_levels_are_audited_by_name():
     assert audit_levels("apa_8ball") == audit_levels(level_chart("apa_8ball"))
 
 
-@pytest.mark.parametrize("wrong", ["nobody", "npl_8", None, chart("npl_8")])
+@pytest.mark.parametrize(
+    "wrong", ["nobody", "npl_8", None, chart("npl_8"), points_chart("apa_9ball")]
+)
 def test_what_is_no_chart_by_level_is_refused(wrong):
     with pytest.raises(InputError, match=r"chart is .*apa_8ball"):
         audit_levels(wrong)

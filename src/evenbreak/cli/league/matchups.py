@@ -157,6 +157,11 @@ def _chart(name: str) -> tuple[AnyChart, list[str]]:
     from evenbreak.files.chart import find_chart_file
 
     file = find_chart_file(name)
+    if isinstance(file.chart, handicaps.PointsChart):
+        refuse(
+            f"{name} is a chart of points, not of games, so it gives no races here; `evenbreak "
+            f"chart show {name}` has the points of each level"
+        )
     return file.chart, list(file.warnings)
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
+from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS, PointsChart, points_chart
 
 
 def catalogue_name(text: str) -> str:
@@ -43,7 +44,7 @@ def chart_of(chart_or_name: Any) -> Chart:
     raise _refused(
         chart_or_name,
         f"a chart by rating difference: {', '.join(CHARTS)}, or a Chart of your own",
-        "a chart by skill level" if _by_level(chart_or_name) else "",
+        _kind(chart_or_name),
     )
 
 
@@ -63,11 +64,33 @@ def level_chart_of(chart_or_name: Any) -> LevelChart:
     name = _name(chart_or_name)
     if name in LEVEL_CHARTS:
         return level_chart(name)
-    by_difference = isinstance(chart_or_name, Chart) or name in CHARTS
     raise _refused(
         chart_or_name,
         f"a chart by skill level: {', '.join(LEVEL_CHARTS)}, or a LevelChart of your own",
-        "a chart by rating difference" if by_difference else "",
+        _kind(chart_or_name),
+    )
+
+
+def points_chart_of(chart_or_name: Any) -> PointsChart:
+    """Return a chart of points: a `PointsChart` as it is, or one of `POINTS_CHARTS` by name.
+
+    Raises
+    ------
+    InputError
+        if it is neither.
+
+    >>> points_chart_of("APA 9ball").race(5, 3)
+    (38, 25)
+    """
+    if isinstance(chart_or_name, PointsChart):
+        return chart_or_name
+    name = _name(chart_or_name)
+    if name in POINTS_CHARTS:
+        return points_chart(name)
+    raise _refused(
+        chart_or_name,
+        f"a chart of points: {', '.join(POINTS_CHARTS)}, or a PointsChart of your own",
+        _kind(chart_or_name),
     )
 
 
@@ -75,10 +98,16 @@ def _name(given: Any) -> str:
     return catalogue_name(given) if isinstance(given, str) else ""
 
 
-def _by_level(given: Any) -> bool:
-    return isinstance(given, LevelChart) or _name(given) in LEVEL_CHARTS
+def _kind(given: Any) -> str:
+    """Return which other kind of chart it is, if it is one."""
+    name = _name(given)
+    if isinstance(given, Chart) or name in CHARTS:
+        return "a chart by rating difference"
+    if isinstance(given, LevelChart) or name in LEVEL_CHARTS:
+        return "a chart by skill level"
+    return "a chart of points" if isinstance(given, PointsChart) or name in POINTS_CHARTS else ""
 
 
 def _refused(given: Any, wanted: str, kind: str) -> InputError:
-    shown = getattr(given, "name", given) if isinstance(given, Chart | LevelChart) else given
+    shown = given.name if isinstance(given, Chart | LevelChart | PointsChart) else given
     return InputError(f"chart is {shown!r}{', ' if kind else ''}{kind}; give {wanted}")
