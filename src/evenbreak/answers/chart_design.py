@@ -89,7 +89,8 @@ class DesignTask:
         if self.rows is not None:
             words.append(f"at most {count_of(self.rows, 'row')}")
         if self.spread is not None and high - low > self.spread:
-            words.append(f"longest matches at most {count_of(self.spread, 'game')} apart")
+            apart = f"at most {count_of(self.spread, 'game')} apart" if self.spread else "the same"
+            words.append(f"longest matches {apart}")
         if self.mean_games is not None:
             words.append(f"at most {self.mean_games:g} games on average")
         goal = GOALS[self.rule]
