@@ -11,6 +11,7 @@ from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.round import AT_A_TIME, Round
 from evenbreak.answers.round_words import (
+    about_levels,
     about_method,
     about_pairs,
     about_players,
@@ -19,9 +20,9 @@ from evenbreak.answers.round_words import (
     game_model,
     least_even,
     races_of,
+    ratings_words,
     which_races,
 )
-from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.wording import chance, decimals, race
 from evenbreak.files.csv_writer import rows_of
 
@@ -58,14 +59,19 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
     parts.append(table)
     if doubtful(tonight):
         parts.append("'A wins' is averaged over how far the ratings may be off.")
+    parts += [" ".join(about_levels(tonight))] if tonight.levels is not None else []
     remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
     parts += ["\n".join(f"- {remark}" for remark in remarks)] if remarks else []
     return Answer(
-        f"Races for {file_name(tonight.file)}\nRatings {scale_words(tonight.scale)}",
+        f"Races for {file_name(tonight.file)}\n{ratings_words(tonight)}",
         parts,
         details=["\n".join([*map(str, about_method(tonight)), game_model(tonight)])],
         warnings=[*tonight.file.warnings, *warnings],
-        data={"evening": tonight.evening},
+        data={
+            "evening": tonight.evening,
+            "levels": tonight.levels
+            and dict(zip(tonight.levels.levels, tonight.levels.strengths, strict=True)),
+        },
         csv=table,
     )
 

@@ -23,6 +23,7 @@ from evenbreak.handicaps.charts.given_ratings import (
     win_given_ratings,
 )
 from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.level_scale import LevelScale
 from evenbreak.matches.evening import Length
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
@@ -148,6 +149,7 @@ def roster_matchups(
     *,
     scale: Scale,
     chart: Chart | LevelChart | None = None,
+    levels: LevelScale | None = None,
     offered: OfferedRaces | None = None,
     minutes_per_game: float | None = None,
 ) -> RosterMatchups:
@@ -164,6 +166,8 @@ def roster_matchups(
         what the points mean.
     chart
         the league's chart; ratings are rounded to whole points to look it up.
+    levels
+        how strong the levels are, where ratings are skill levels; None: ratings are strengths.
     offered
         the races among which the fairest is sought.
     minutes_per_game
@@ -194,7 +198,8 @@ def roster_matchups(
     a, b = pairs[:, 0], pairs[:, 1]
     linked = _linked(roster, a, b)
     a, b = a[linked], b[linked]
-    gap = roster.rating[a] - roster.rating[b]
+    strength = roster.rating if levels is None else levels.strength(roster.rating)
+    gap = strength[a] - strength[b]
     known = np.nan_to_num(roster.standard_error)
     error = np.hypot(known[a], known[b])
     stated = ~np.isnan(roster.standard_error)

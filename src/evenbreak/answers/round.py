@@ -13,6 +13,7 @@ from evenbreak.answers.roster_matchups import RosterMatchups, roster_matchups
 from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.level_scale import LevelScale
 from evenbreak.matches.evening import evening
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
@@ -52,7 +53,7 @@ class Round:
         its players, the new ones filled in.
     pairs
         places in the roster, shape (k, 2).
-    scale, chart, offered, minutes_per_game
+    scale, chart, levels, offered, minutes_per_game
         as for `roster_matchups`.
     tables
         on how many tables the round is played, if its end is asked for.
@@ -67,6 +68,7 @@ class Round:
     pairs: NDArray[Any]
     scale: Scale
     chart: AnyChart | None = None
+    levels: LevelScale | None = None
     offered: OfferedRaces | None = None
     minutes_per_game: float | None = None
     tables: int | None = None
@@ -97,6 +99,7 @@ class Round:
             pairs,
             scale=self.scale,
             chart=self.chart,
+            levels=self.levels,
             offered=self.offered,
             minutes_per_game=self.minutes_per_game,
         )

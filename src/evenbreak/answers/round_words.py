@@ -12,7 +12,7 @@ from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.remarks import Remark
 from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR
 from evenbreak.answers.round import EveningEnd, Round
-from evenbreak.answers.scale_words import game_chance
+from evenbreak.answers.scale_words import game_chance, scale_words
 from evenbreak.answers.wording import clock, count_of, percent, race
 
 FEW_GAMES = 20
@@ -154,7 +154,41 @@ def doubtful(tonight: Round) -> bool:
     return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
 
 
+def ratings_words(tonight: Round) -> str:
+    """Return what the ratings are, in a few words."""
+    if tonight.levels is not None:
+        return f"Ratings are skill levels of {tonight.levels.chart}"
+    return f"Ratings {scale_words(tonight.scale)}"
+
+
+def about_levels(tonight: Round) -> Iterator[str]:
+    """Yield how strong skill levels are taken to be, and what that means for the chances."""
+    if tonight.levels is None:
+        return
+    name, times = tonight.levels.chart, tonight.levels.odds_of_a_level
+    yield (
+        f"How strong a level is comes from the chart itself (`evenbreak chart audit {name}`): with "
+        f"the strengths that make its races as even as possible, one level more multiplies the "
+        f"odds of winning a game by {times:.2f} on average. All players are taken to be average "
+        "for their level."
+    )
+    yield (
+        "So the chances show which races favour a player by the chart's own measure, not whether "
+        "your players have the right levels."
+    )
+
+
 def game_model(tonight: Round) -> str:
     """Return how a game's chance follows from two ratings, in a sentence."""
+    if tonight.levels is not None:
+        placed = ", ".join(
+            f"{level} at {strength:.2f}"
+            for level, strength in zip(tonight.levels.levels, tonight.levels.strengths, strict=True)
+        )
+        return (
+            f"Levels lie at these strengths: {placed}; a player d stronger wins a game with "
+            f"probability 1/(1 + 2^(\N{MINUS SIGN}d/{tonight.scale.points_per_doubling:.3g})), "
+            "independently of every other game, whoever breaks."
+        )
     text = game_chance(tonight.scale)
     return f"{text[:1].upper()}{text[1:]}, independently of every other game, whoever breaks."

@@ -6,6 +6,9 @@ from .charts.audit import even_doublings as even_doublings
 from .charts.chart import CHARTS as CHARTS
 from .charts.chart import Chart as Chart
 from .charts.chart import chart as chart
+from .charts.chart_of import chart_of as chart_of
+from .charts.chart_of import level_chart_of as level_chart_of
+from .charts.chart_of import points_chart_of as points_chart_of
 from .charts.design import design as design
 from .charts.design import nearest_chart as nearest_chart
 from .charts.fair import FairRace as FairRace
@@ -20,12 +23,19 @@ from .charts.level_audit import audit_levels as audit_levels
 from .charts.level_chart import LEVEL_CHARTS as LEVEL_CHARTS
 from .charts.level_chart import LevelChart as LevelChart
 from .charts.level_chart import level_chart as level_chart
+from .charts.level_scale import LevelScale as LevelScale
+from .charts.level_scale import level_scale as level_scale
 from .charts.match_rules import MatchRules as MatchRules
 from .charts.measure import ChartMeasure as ChartMeasure
 from .charts.measure import last_difference as last_difference
 from .charts.measure import measure_chart as measure_chart
 from .charts.pareto import ParetoChart as ParetoChart
 from .charts.pareto import pareto as pareto
+from .charts.points_audit import PointsAudit as PointsAudit
+from .charts.points_audit import audit_points as audit_points
+from .charts.points_chart import POINTS_CHARTS as POINTS_CHARTS
+from .charts.points_chart import PointsChart as PointsChart
+from .charts.points_chart import points_chart as points_chart
 from .charts.race_limits import RaceLimits as RaceLimits
 from .charts.rows import ChartDraft as ChartDraft
 from .charts.rows import ChartRow as ChartRow
@@ -69,3 +79,5 @@ from .systems.rating_changes import apply_results as apply_results
 from .systems.step import step_system as step_system
 from .systems.system import PlayedMatch as PlayedMatch
 from .systems.system import System as System
+from .systems.team_handicap import TeamHandicap as TeamHandicap
+from .systems.team_handicap import team_handicap as team_handicap

@@ -19,6 +19,7 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
 from evenbreak.matches.win import race_win_probability
@@ -83,7 +84,7 @@ class _Course(NamedTuple):
 
 def reestimate(
     skill: ArrayLike,
-    chart: Chart,
+    chart: Chart | str,
     *,
     scale: Any = "fargo",
     weeks: int = 52,
@@ -140,14 +141,12 @@ def reestimate(
     skills = np.asarray(skill, dtype=float)
     if skills.ndim != 1 or len(skills) < 2 or not np.isfinite(skills).all():
         raise InputError("skill is not a list of two finite numbers or more; give one per player")
-    if not isinstance(chart, Chart):
-        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('fargo_r6_hot')")
     if half_life is not None and not half_life > 0.0:
         raise InputError(f"half_life is {half_life!r}; give weeks above 0, or None")
     plan = _Plan(
         skill=np.append(skills, skills.mean() + by.points_per_doubling * np.array(_NEWCOMERS)),
         begun_with=len(skills),
-        chart=chart,
+        chart=chart_of(chart),
         scale=by,
         weeks=(
             whole(weeks, "weeks", at_least=2),

@@ -11,15 +11,16 @@ from evenbreak.answers.remarks import warnings_of
 from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.round import Round
 from evenbreak.answers.round_words import (
+    about_levels,
     about_method,
     about_pairs,
     about_players,
     evening_words,
     game_model,
     races_of,
+    ratings_words,
     which_races,
 )
-from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.sheet import NO_RACE, races_by_name
 from evenbreak.answers.sheet_words import how_even, how_to_read
 from evenbreak.answers.wording import race
@@ -86,7 +87,7 @@ def round_html(tonight: Round) -> bytes:
         minutes=tonight.minutes_per_game is not None,
         about_pairs=list(about_pairs(tonight.matchups.frame)),
         kinds=kinds,
-        about_ratings=[f"Ratings {scale_words(tonight.scale)}."],
+        about_ratings=[f"{ratings_words(tonight)}.", *about_levels(tonight)],
         lines=lines,
         ticks=bars.ticks(),
         assumed=[

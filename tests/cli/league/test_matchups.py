@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
+from evenbreak.handicaps import audit_levels
 from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from places import DATA
 
@@ -110,11 +111,28 @@ def test_a_middle_far_from_all_ratings_is_no_starter(run, roster, words, doubted
     assert ("--starter" in run("matchups", path, *SURE, *words).stderr) == doubted
 
 
-def test_levels_need_a_scale(run, roster):
+def test_levels_are_as_strong_as_the_chart_makes_them(run, roster):
+    path = roster("player,skill level\nAnn,7\nBo,4\nCy,2\n")
+    result = run("matchups", path, "--chart", "apa_8ball", "--json")
+    assert (result.exit_code, result.stderr) == (0, "")
+    found = json.loads(result.stdout)
+    audited = {(cell.level, cell.opponent_level): cell for cell in audit_levels("apa_8ball").cells}
+    for row, levels in zip(found["pairs"], [(7, 4), (7, 2), (4, 2)], strict=True):
+        cell = audited[levels]
+        assert (row["chart_race_a"], row["chart_race_b"]) == (cell.needs, cell.opponent_needs)
+        assert row["chart_p_win_a"] == pytest.approx(cell.p_win_middle, rel=1e-9)
+    assert found["levels"]["2"] == 2.0
+    assert "chart audit apa_8ball" in run("matchups", path, "--chart", "apa_8ball").stderr
+
+
+def test_a_page_says_how_strong_levels_are(run, roster, tmp_path):
+    path, page = roster("player,skill level\nAnn,5\nBo,3\n"), tmp_path / "tonight.html"
+    assert run("matchups", path, "--chart", "apa_8ball", "--html", str(page)).exit_code == 0
+    assert "by 1.36 on average" in page.read_text(encoding="utf-8")
+
+
+def test_levels_on_a_scale(run, roster):
     path = roster("player,skill level\nAnn,5\nBo,3\n")
-    result = run("matchups", path, "--chart", "apa_8ball")
-    assert result.exit_code == 2
-    assert "--scale" in result.stderr
     (row,) = answer(run, path, "--chart", "apa_8ball", "--scale", "2")["pairs"]
     assert (row["chart_race_a"], row["chart_race_b"]) == (4, 2)
     result = run("matchups", roster(), "--chart", "apa_8ball", "--scale", "2")

@@ -96,8 +96,9 @@ def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Cha
         chart, warnings = file.chart, list(file.warnings)
     if not isinstance(chart, handicaps.Chart):
         refuse(
-            f"--chart {name!r} is a chart of skill levels, which do not change match by match; "
-            "give a chart of rating differences"
+            f"--chart {name!r} is a chart of skill levels, which a league reviews now and then "
+            "and no single match moves by points, so there is nothing to follow here; give a chart "
+            "of rating differences, such as npl_10"
         )
     best, own = (
         handicaps.audit(chart, scale=system.scale).best_fit,

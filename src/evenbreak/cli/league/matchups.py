@@ -54,7 +54,11 @@ Examples:
 @chart_option("The league's chart, by name or in a file.")
 @race_limit_options
 @click.option("--pairs", metavar="PAIRS.csv", help="Who meets whom.  [default: all pairs]")
-@scale_option("the one that the file states, else the chart's, else npl", fixed=False)
+@scale_option(
+    "the one that the file states, else the chart's, else npl; for skill levels, where the "
+    "chart's own races put them",
+    fixed=False,
+)
 @click.option(
     "--starter",
     metavar="RATING",
@@ -117,7 +121,10 @@ def command(
     file = files.read_roster(roster)
     if scale is not None:
         refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
-    points = scale or file.scale or _scale(chart, of_league)
+    levels = None
+    if isinstance(of_league, handicaps.LevelChart) and scale is None and file.scale is None:
+        levels = handicaps.level_scale(of_league)
+    points = scale or file.scale or (levels.scale if levels else _scale(of_league))
     players = _with_starters(file.roster, points, starter, starter_sd)
     check_roster(file, players, of_league, points)
     if scale is None and file.scale is not None:
@@ -134,6 +141,7 @@ def command(
         pairs=meet,
         scale=points,
         chart=of_league,
+        levels=levels,
         offered=None if games is None and race_to is None else answers.OfferedRaces(games, race_to),
         minutes_per_game=minutes_per_game,
         tables=tables,
@@ -149,16 +157,16 @@ def _chart(name: str) -> tuple[AnyChart, list[str]]:
     from evenbreak.files.chart import find_chart_file
 
     file = find_chart_file(name)
+    if isinstance(file.chart, handicaps.PointsChart):
+        refuse(
+            f"{name} is a chart of points, not of games, so it gives no races here; `evenbreak "
+            f"chart show {name}` has the points of each level"
+        )
     return file.chart, list(file.warnings)
 
 
-def _scale(name: str | None, chart: AnyChart | None) -> Scale:
+def _scale(chart: AnyChart | None) -> Scale:
     """Return the scale of the chart, else the NPL's."""
-    if isinstance(chart, handicaps.LevelChart):
-        refuse(
-            f"{name} is a chart of skill levels, which have no scale of their own; say how many "
-            "levels double the odds of winning a game, such as --scale 2"
-        )
     of_chart = "" if chart is None else chart.name.partition("_")[0]
     return SCALES.get(of_chart, SCALES["npl"])
 

@@ -80,7 +80,7 @@ class RatingChanges:
 
 
 def apply_results(
-    system: System, roster: Roster, results: Results, *, chart: Chart | None = None
+    system: System, roster: Roster, results: Results, *, chart: Chart | str | None = None
 ) -> RatingChanges:
     """Return how a night's results change the ratings of a list.
 
@@ -111,10 +111,10 @@ def apply_results(
     -----
     Source: the National Pool League's ladder, between Table 5.6 and P5.27.
 
-    >>> from evenbreak.handicaps import chart, system_of
+    >>> from evenbreak.handicaps import system_of
     >>> club = Roster(["Ann", "Bo", "Cy"], [92, 80, 71])
     >>> night = Results.from_names(["Ann", "Ann"], ["Bo", "Cy"], [4, 6], [4, 2])
-    >>> changes = apply_results(system_of("npl"), club, night, chart=chart("npl_10"))
+    >>> changes = apply_results(system_of("npl"), club, night, chart="npl_10")
     >>> changes.after.rating
     array([92., 81., 70.])
     >>> match = changes.matches[0]
