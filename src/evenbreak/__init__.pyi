@@ -57,6 +57,7 @@ from .handicaps.ladders.ladder import Ladder as Ladder
 from .matches.crossings import crossings as crossings
 from .matches.crossings import even_probability as even_probability
 from .matches.formats import match_format as match_format
+from .matches.game_odds import game_odds as game_odds
 from .matches.length import match_length as match_length
 from .matches.live import live_odds as live_odds
 from .matches.odds import match_odds as match_odds

@@ -6,7 +6,6 @@ from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match
-from evenbreak.games.rack import Rack
 from evenbreak.matches.odds import MatchOdds, match_odds
 
 
@@ -96,7 +95,7 @@ def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
         text = f"Race {match.m}:{match.n}"
     if (win_by := getattr(match, "win_by", 1)) > 1:
         text += f", win by {win_by}"
-    if not isinstance(match.rack, Rack):
+    if isinstance(match.rack, Match):
         text += f" in sets of {match.rack.m}:{match.rack.n}"
     if any(match.score):
         text += f", score {match.score[0]}:{match.score[1]}"

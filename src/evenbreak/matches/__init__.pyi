@@ -8,8 +8,10 @@ from .evening import LengthLike as LengthLike
 from .evening import evening as evening
 from .formats import MatchFormat as MatchFormat
 from .formats import match_format as match_format
-from .length import MatchLength as MatchLength
+from .game_odds import GameOdds as GameOdds
+from .game_odds import game_odds as game_odds
 from .length import match_length as match_length
+from .length_law import MatchLength as MatchLength
 from .live import LiveOdds as LiveOdds
 from .live import Standing as Standing
 from .live import live_odds as live_odds
