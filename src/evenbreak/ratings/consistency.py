@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.arrays import Bools, Ints
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Results, check_results
 
 _Finding = tuple[Bools, str, str]
 """The rows that fail a check, the column to blame, and a message for `_words` to fill in."""
@@ -40,6 +40,7 @@ def find_problems(results: Results) -> list[Problem]:
     0 winner winner is a, but b reached the race (4-5 in a race 7:5); write b, or correct the
     scores or the race
     """
+    check_results(results)
     found = [
         Problem(row, column, message.format(**_words(results, row)))
         for check in (_cells, _races, _winners, _racks)

@@ -19,7 +19,7 @@ from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.mixed_posterior import find_mixed_mode
 from evenbreak.ratings.pairs import PairCounts, count_pairs
 from evenbreak.ratings.posterior import find_mode
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Results, check_results
 from evenbreak.ratings.scale import Scale, scale_of
 
 PRIOR_SD = math.log(2.0)
@@ -104,6 +104,7 @@ def fit(
     >>> fit(season, scale="fargo", anchor={"Ann": 600}).rating.round(1)
     array([600. , 539.7, 503.5])
     """
+    check_results(results)
     prior_sd = checked_prior(prior_sd)
     scale = scale_of(scale)
     centre, named = _anchors(anchor, scale, results.players)

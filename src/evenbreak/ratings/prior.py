@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from evenbreak.errors import InputError
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.likelihood_terms import likelihood_terms
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Results, check_results
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
@@ -85,6 +85,7 @@ def best_prior(
     >>> choice.prior_sd, choice.predicted
     (0.5, 33)
     """
+    check_results(results)
     if not len(widths):
         raise InputError("widths is empty; give at least one standard deviation")
     played, date = _played(results)

@@ -40,6 +40,21 @@ _TYPES: dict[str, Any] = {
 _CODES = {"winner": 3, "first_break": 3, "break_format": len(FORMATS)}
 
 
+def check_results(results: object) -> None:
+    """Refuse what is not `Results`, at the door of every function that takes them.
+
+    >>> check_results("season.csv")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: this is str 'season.csv', not Results; give ...
+    """
+    if not isinstance(results, Results):
+        raise InputError(
+            f"this is {type(results).__name__} {results!r:.60}, not Results; give "
+            "Results.from_frame(frame), or read_results(path).results for a file"
+        )
+
+
 class Played(NamedTuple):
     """The matches that were played, and how many rows were left out: forfeits and 0-0."""
 

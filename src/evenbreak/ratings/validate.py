@@ -12,7 +12,7 @@ from evenbreak.ratings.advantages import FirstBreaks, break_advantage, first_bre
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Results, check_results
 from evenbreak.ratings.scored import (
     PRIORS,
     How,
@@ -128,6 +128,7 @@ def validate(
     >>> [(row.of, row.how, round(row.log_loss.value, 3)) for row in found.scored[:2]]
     [('game', 'plug-in', 0.654), ('game', 'integrated', 0.655)]
     """
+    check_results(results)
     tried = PRIORS if prior_sd is None else (prior_sd,)
     steps = len(tried) + 5
     walks = []

@@ -20,7 +20,7 @@ from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.daily_refit import DailyRefit
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Results, check_results
 
 NODES = 31
 """Nodes of the Gauss-Hermite rule that integrates a prediction over a rating difference."""
@@ -130,6 +130,7 @@ def walk_forward(
     >>> forecasts.p_game.round(3), forecasts.p_game_integrated.round(3)
     (array([0.5  , 0.687]), array([0.5  , 0.675]))
     """
+    check_results(results)
     precision = checked_prior(prior_sd) ** -2
     if half_life is not None:
         wanted = "a number from 0.01 to 1,000,000, in days"
