@@ -58,5 +58,5 @@ def test_what_is_not_a_chain_or_results_is_named(name: str) -> None:
     ],
 )
 def test_the_error_says_what_to_give(mistake: Callable[[], Any]) -> None:
-    with pytest.raises(EvenbreakError, match="chain_of|from_frame"):
+    with pytest.raises(EvenbreakError, match=r"chain_of|from_frame"):
         mistake()

@@ -143,10 +143,11 @@ def test_a_limit_as_numbers_and_as_a_series() -> None:
     assert limit[0, 0] == pytest.approx(0.4)
 
 
+THREE = [[0, 1, 0], [0, 0, 1], [0.5, 0.5, 0]]
+
+
 @pytest.mark.parametrize("kind", [list, tuple])
-@pytest.mark.parametrize(
-    "P", [[[1.0]], [[0, 1], [0.5, 0.5]], [[0, 1, 0], [0, 0, 1], [0.5, 0.5, 0]]]
-)
+@pytest.mark.parametrize("P", [[[1.0]], [[0, 1], [0.5, 0.5]], THREE])
 def test_square_lists_are_a_matrix(P, kind):
     found = chain_of(kind(kind(row) for row in P))
     np.testing.assert_array_equal(found.matrix.toarray(), np.array(P).T)

@@ -14,12 +14,13 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of, match_weights, until
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.mixed_posterior import find_mixed_mode
 from evenbreak.ratings.pairs import PairCounts, count_pairs
 from evenbreak.ratings.posterior import find_mode
-from evenbreak.ratings.results import Results, check_results
+from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
 
 PRIOR_SD = math.log(2.0)

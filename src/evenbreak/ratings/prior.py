@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.likelihood_terms import likelihood_terms
-from evenbreak.ratings.results import Results, check_results
+from evenbreak.ratings.results import Results
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""

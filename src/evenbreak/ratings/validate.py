@@ -10,9 +10,10 @@ import numpy as np
 
 from evenbreak.ratings.advantages import FirstBreaks, break_advantage, first_breaks, side_advantage
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
-from evenbreak.ratings.results import Results, check_results
+from evenbreak.ratings.results import Results
 from evenbreak.ratings.scored import (
     PRIORS,
     How,

@@ -19,8 +19,9 @@ from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.daily_refit import DailyRefit
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
-from evenbreak.ratings.results import Results, check_results
+from evenbreak.ratings.results import Results
 
 NODES = 31
 """Nodes of the Gauss-Hermite rule that integrates a prediction over a rating difference."""
