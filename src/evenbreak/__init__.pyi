@@ -53,6 +53,7 @@ from .handicaps.charts.chart import Chart as Chart
 from .handicaps.charts.chart import chart as chart
 from .handicaps.charts.design import design as design
 from .handicaps.charts.fair import fair_races as fair_races
+from .handicaps.charts.win_matrix import win_matrix as win_matrix
 from .handicaps.ladders.ladder import Ladder as Ladder
 from .matches.crossings import crossings as crossings
 from .matches.crossings import even_probability as even_probability
