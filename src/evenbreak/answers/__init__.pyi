@@ -7,7 +7,6 @@ from .offered_races import OfferedRaces as OfferedRaces
 from .rate import rate_answer as rate_answer
 from .rating_changes import rating_changes_answer as rating_changes_answer
 from .report import report_answer as report_answer
-from .report_frames import ratings_frame as ratings_frame
 from .report_frames import summary_frame as summary_frame
 from .round import Round as Round
 from .sheet import Sheet as Sheet

@@ -13,7 +13,7 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     """Return the chances of a match between two players, and its length.
 
     >>> from evenbreak.answers.two_players import TwoPlayers
-    >>> from evenbreak.games import Race
+    >>> from evenbreak.games import Race, Rack
     >>> answer = odds_answer(TwoPlayers(Rack(0.6)), Race(7, 5, Rack(0.6)))
     >>> print(answer.sentences[0])
     A wins the match 53% of the time.
@@ -83,7 +83,7 @@ def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
 def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
     """Return what is played.
 
-    >>> from evenbreak.games import Race
+    >>> from evenbreak.games import Race, Rack
     >>> match_words(Race(3, 1, Race(3, 3, Rack(0.6)), score=(1, 0)))
     'Race 3:1 in sets of 3:3, score 1:0'
     """

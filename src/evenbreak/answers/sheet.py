@@ -12,7 +12,7 @@ import pandas as pd
 from evenbreak.answers.chart_bands import Band, chart_bands
 from evenbreak.answers.fair_pairs import matchups_frame
 from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.answers.report_frames import ratings_frame, summary_frame
+from evenbreak.answers.report_frames import summary_frame
 from evenbreak.answers.sure_pairs import SurePair, sure_pairs
 from evenbreak.answers.wording import race
 from evenbreak.files.results import ResultsFile
@@ -34,7 +34,7 @@ class Sheet:
     offered
         the races to choose from.
     rated, paired
-        the tables of `ratings_frame` and `matchups_frame`.
+        the tables of `Ratings.to_frame` and `matchups_frame`.
     choice
         how the prior was chosen, if it was.
 
@@ -64,7 +64,7 @@ class Sheet:
     ) -> Sheet:
         """Return the sheet that pairs these players (positions in `ratings.players`)."""
         paired = matchups_frame(ratings, players, offered)
-        return cls(file, ratings, offered, ratings_frame(ratings), paired, choice)
+        return cls(file, ratings, offered, ratings.to_frame(), paired, choice)
 
     def strongest(self, most: int) -> Sheet:
         """Return the sheet with the races of the strongest players only."""
