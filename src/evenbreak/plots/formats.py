@@ -1,27 +1,46 @@
 """Match formats in one picture: the chance of winning against p, and where the curves cross."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
 
 from evenbreak.games.rack import Rack
 from evenbreak.matches.crossings import Crossings, rack_along
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.win import win_probability
+from evenbreak.plots.picture import Picture
 from evenbreak.plots.style import LINES, new_axes, unit_axis
 
 _POINTS = 401
 
 
+@overload
 def plot_formats(
     formats: Sequence[MatchFormat],
     line: Mapping[str, Any],
     pairs: Iterable[Crossings],
     *,
     p1: float,
-) -> Figure:
+    ax: Axes,
+) -> Axes: ...
+@overload
+def plot_formats(
+    formats: Sequence[MatchFormat],
+    line: Mapping[str, Any],
+    pairs: Iterable[Crossings],
+    *,
+    p1: float,
+) -> Picture: ...
+def plot_formats(
+    formats: Sequence[MatchFormat],
+    line: Mapping[str, Any],
+    pairs: Iterable[Crossings],
+    *,
+    p1: float,
+    ax: Axes | None = None,
+) -> Picture | Axes:
     """Return a figure of P(A wins the match) against A's chance in a game, a curve per format.
 
     Parameters
@@ -34,6 +53,8 @@ def plot_formats(
         the crossings, each marked by a dot.
     p1
         A's chance for the two players in question, a vertical line.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.matches import crossings, match_format
     >>> two = [match_format("2:1"), match_format("4:2")]
@@ -44,7 +65,7 @@ def plot_formats(
     fixed = {name: line.get(name) for name in ("p2", "break_odds")}
     matters = any(value is not None for value in fixed.values())
     x = "p1 = P(A wins a game | A breaks)" if matters else "p = P(A wins a game)"
-    figure, axes = new_axes(x, "P(A wins the match)", size=(6.4, 5.2))
+    figure, axes = new_axes(x, "P(A wins the match)", size=(6.4, 5.2), ax=ax)
     chances = np.linspace(0.0, 1.0, _POINTS)[1:-1]
     rack: Rack = rack_along(chances, **fixed)
     axes.axhline(0.5, color="0.7", linewidth=0.8)
@@ -74,4 +95,4 @@ def plot_formats(
         )
     unit_axis(axes, "x", "y")
     axes.legend(frameon=False, loc="best")
-    return figure
+    return figure if ax is None else ax

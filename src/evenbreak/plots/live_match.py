@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from evenbreak.matches.live import LiveOdds
+from evenbreak.plots.picture import Picture
 from evenbreak.plots.style import LINES
 
 _MOST_SCORES = 24
@@ -16,7 +16,7 @@ _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
 """Shares of the picture: the width and height of a label, and its distance from the line."""
 
 
-def plot_course(odds: LiveOdds) -> Figure:
+def plot_course(odds: LiveOdds) -> Picture:
     """Return a figure of a match so far; player 1 is A and player 2 is B.
 
     The upper panel is P(A wins the match) after each rack: a filled dot is a rack that A won, an
@@ -34,7 +34,7 @@ def plot_course(odds: LiveOdds) -> Figure:
     >>> [label.get_text() for label in figure.axes[1].get_xticklabels()]
     ['0:0', '1:0', '1:1', '2:1']
     """
-    figure = Figure(figsize=(7.2, 5.4), layout="constrained")
+    figure = Picture(figsize=(7.2, 5.4), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     wins = [moment.p_win_1 for moment in odds.course]
     racks = range(len(wins))
