@@ -15,6 +15,7 @@ from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.report_frames import summary_frame
 from evenbreak.answers.sure_pairs import SurePair, sure_pairs
 from evenbreak.answers.wording import race
+from evenbreak.arrays import short_repr
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
@@ -23,6 +24,7 @@ NO_RACE = "-"
 """Stands for the race of two players who cannot be compared."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Sheet:
     """A league's ratings, and the fairest race of each pair of the players chosen.

@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
+from evenbreak.arrays import short_repr
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.limits import largest, stochastic_limit
@@ -52,6 +53,7 @@ class _Slopes:
         return np.asarray(self.forward[j] * backward)
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Sensitivity:
     """The derivatives of a weighted sum of a stochastic limit.

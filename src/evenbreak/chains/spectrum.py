@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from evenbreak.arrays import short_repr
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.eigenpairs import DENSE, TOLERANCE, UnitPairs, leading_pairs, no_basis
 from evenbreak.chains.mixing import mixing_time, spectral_gap
@@ -43,6 +44,7 @@ LEADING = 6
 """Beyond `DENSE` states, this many eigenvalues are found, or as many as are 1."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Spectrum:
     """Eigenvalues of a chain with their right and left vectors.

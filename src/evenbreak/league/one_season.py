@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints, short_repr
 from evenbreak.checks import whole
 from evenbreak.handicaps.systems.system import PlayedMatch, UpdateRule
 from evenbreak.league.schedule import RandomPairing, Round
@@ -39,6 +39,7 @@ class _Match(NamedTuple):
     points: tuple[int, int]
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class PlayedSeason:
     """A season that was played, with the true skills that are unknown in a real one.

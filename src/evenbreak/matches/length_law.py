@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Generic, overload
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Floats, Ints, short_repr
 from evenbreak.checks import number_probability
 from evenbreak.errors import AccuracyError
 from evenbreak.games.rack import ChanceT
@@ -23,6 +23,7 @@ else:
     MeanT = TypeVar("MeanT", covariant=True)
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class MatchLength(Generic[ChanceT, MeanT]):
     """The distribution of the length of a match in racks, from its start score on.
