@@ -67,6 +67,7 @@ from .matches.straight_pool import StraightPool as StraightPool
 from .matches.straight_pool import straight_pool_odds as straight_pool_odds
 from .matches.win import race_win_probability as race_win_probability
 from .matches.win import win_probability as win_probability
+from .matches.win_formula import win_formula as win_formula
 from .practice.breaks import compare_break_formats as compare_break_formats
 from .practice.drills import drill_statistics as drill_statistics
 from .practice.log_analysis import analyse_log as analyse_log

@@ -32,3 +32,4 @@ from .straight_pool_spot import even_points as even_points
 from .straight_pool_spot import even_spot as even_spot
 from .win import race_win_probability as race_win_probability
 from .win import win_probability as win_probability
+from .win_formula import win_formula as win_formula
