@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.arrays import Floats, Ints, short_repr
-from evenbreak.checks import whole
+from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow
@@ -91,7 +91,7 @@ def reestimate(
     newcomer_weeks: int = 30,
     half_life: float | None = None,
     leagues: int = 4,
-    seed: int = 0,
+    seed: int | np.random.Generator = 0,
 ) -> Reestimated:
     """Return how far off ratings stay that are refitted to all results, with old ones fading.
 
@@ -118,7 +118,8 @@ def reestimate(
     leagues
         how many leagues are simulated, 2 or more.
     seed
-        of the random numbers: the same seed gives the same answer.
+        of the random numbers: a whole number, which always gives the same answer, or a
+        generator.
 
     Raises
     ------
@@ -156,7 +157,7 @@ def reestimate(
         ),
         half_life=None if half_life is None else 7.0 * half_life,
     )
-    seeds = np.random.SeedSequence(seed).spawn(whole(leagues, "leagues", at_least=2))
+    seeds = np.random.SeedSequence(seed_of(seed)).spawn(whole(leagues, "leagues", at_least=2))
     return _summed_up(plan, [_league(plan, np.random.default_rng(child)) for child in seeds])
 
 

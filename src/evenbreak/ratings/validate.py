@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from evenbreak.checks import seed_of
 from evenbreak.ratings.advantages import FirstBreaks, break_advantage, first_breaks, side_advantage
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.doors import check_results
@@ -94,7 +95,7 @@ def validate(
     *,
     prior_sd: float | None = None,
     half_life: float | None = None,
-    seed: int = 1,
+    seed: int | np.random.Generator = 1,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Validation:
     """Predict a season date by date, and return how good the predictions were.
@@ -109,7 +110,7 @@ def validate(
     half_life
         days after which a game counts half; None: games never age.
     seed
-        of the bootstrap and of the simulated seasons.
+        of the bootstrap and of the simulated seasons: a whole number, or a generator.
     progress
         called with how many steps are done, and of how many.
 
@@ -130,6 +131,7 @@ def validate(
     [('game', 'plug-in', 0.654), ('game', 'integrated', 0.655)]
     """
     check_results(results)
+    seed = seed_of(seed)
     tried = PRIORS if prior_sd is None else (prior_sd,)
     steps = len(tried) + 5
     walks = []
