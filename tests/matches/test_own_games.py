@@ -52,6 +52,11 @@ def test_a_rack_has_two_players_one_of_whom_wins(chances, named):
         rack_of_game(Ends(chances))
 
 
+def test_a_small_chance_keeps_its_digits():
+    rack = rack_of_game(Ends({1: 1.0 - 1e-14, 2: 1e-14}))
+    assert rack.chance(2) == pytest.approx(1e-14, rel=1e-12)
+
+
 def test_every_kernel_takes_a_match_of_own_games():
     game = OneBall(0.5, 0.25)  # player 1 wins it with 0.8
     for own, same in (

@@ -79,7 +79,7 @@ def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) ->
 
 
 def rack_of_game(game: Game) -> Rack[float]:
-    """Return the rack that player 1 wins with the same chance as the game.
+    """Return the rack that each player wins with the same chance as the game.
 
     Raises
     ------
@@ -102,7 +102,7 @@ def rack_of_game(game: Game) -> Rack[float]:
             f"the rack has no winner with probability {1.0 - p - q:.6g}; give a game that player 1 "
             "or player 2 wins in the end"
         )
-    return Rack(p if p <= q else 1.0 - q)
+    return Rack(p / (p + q), q1=q / (p + q))
 
 
 def _absorbing(chain: Chain) -> list[Hashable]:
