@@ -12,15 +12,13 @@ from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.plots.layout import Positions, positions_of
 from evenbreak.plots.picture import Picture
-from evenbreak.plots.strokes import FONT, Pen, is_words, longest_line
+from evenbreak.plots.strokes import FONT, INCHES, Pen, is_words, longest_line
 
 if TYPE_CHECKING:
     import networkx as nx
 
 
 _MOST_STATES = 150
-_INCHES = 1.25
-"""The length of a unit, with labels of up to eight characters."""
 _MARGIN = 0.12
 _KNOWN_FILLS = 3
 """Of a terminal node: nobody has won, player 1, player 2; a legend names any more."""
@@ -109,7 +107,9 @@ def draw(
     written = hook if callable(hook) else partial(_state_label, graph)
     labels = {state: str(written(state)) for state in graph}
     inside = [longest_line(text) for state, text in labels.items() if not is_words(graph, state)]
-    inches = _INCHES * max(1.0, max(inside, default=0) / 8)
+    inches = INCHES * max(1.0, max(inside, default=0) / 8)
+    if ax is not None:
+        inches = min(inches, _inches_in(ax, places))
     figure = Picture()
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0)) if ax is None else ax
     pen = Pen(axes, graph, places, inches)
@@ -131,6 +131,14 @@ def draw(
     if title:
         axes.set_title(title, fontsize=FONT + 2, pad=4)
     return figure if ax is None else ax
+
+
+def _inches_in(ax: Axes, places: Positions) -> float:
+    """Return about how long a unit can be for all places to fit into the axes given."""
+    box = ax.get_window_extent()
+    spans = (max(ends) - min(ends) + 1.5 for ends in zip(*places.values(), strict=True))
+    sides = zip((box.width, box.height), spans, strict=True)
+    return float(min(side / ax.figure.dpi / span for side, span in sides))
 
 
 def _start_of(graph: nx.DiGraph[Any]) -> Any:
