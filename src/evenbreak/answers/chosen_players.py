@@ -1,8 +1,6 @@
 """Choosing the players of a sheet: by name, or those who play most."""
 
-from collections.abc import Iterable, Sequence
-
-import numpy as np
+from collections.abc import Sequence
 
 from evenbreak.errors import InputError
 from evenbreak.files.known_names import KnownNames
@@ -21,13 +19,6 @@ def most_active(ratings: Ratings, top: int) -> list[int]:
     races = ratings.races_won + ratings.races_lost
     order = sorted(range(len(ratings.players)), key=lambda k: (-ratings.games[k], -races[k], k))
     return order[:top]
-
-
-def by_strength(ratings: Ratings, players: Iterable[int]) -> list[int]:
-    """Return players (positions in `ratings.players`), the strongest first, equals by name."""
-    # Rounded in log-odds, so that neither the scale nor the last bits decide.
-    strength = np.round(ratings.scale.log_odds(ratings.rating - ratings.anchor), 9)
-    return sorted(players, key=lambda k: (-strength[k], k))
 
 
 def find_players(

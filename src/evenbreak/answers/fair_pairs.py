@@ -5,7 +5,6 @@ from itertools import combinations
 
 import pandas as pd
 
-from evenbreak.answers.chosen_players import by_strength
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.ratings.fitted import Ratings
 
@@ -33,7 +32,9 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
         note. Where no chain of opponents links the two, their ratings cannot be
         compared: there are no numbers then, and the note says so.
     """
-    rows = [_row(ratings, a, b, offered) for a, b in combinations(by_strength(ratings, players), 2)]
+    rows = [
+        _row(ratings, a, b, offered) for a, b in combinations(ratings.strongest_first(players), 2)
+    ]
     columns = {
         "player_a": "object",
         "player_b": "object",

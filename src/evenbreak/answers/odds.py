@@ -6,7 +6,6 @@ from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match
-from evenbreak.games.rack import Rack
 from evenbreak.matches.odds import MatchOdds, match_odds
 
 
@@ -14,7 +13,7 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     """Return the chances of a match between two players, and its length.
 
     >>> from evenbreak.answers.two_players import TwoPlayers
-    >>> from evenbreak.games import Race
+    >>> from evenbreak.games import Race, Rack
     >>> answer = odds_answer(TwoPlayers(Rack(0.6)), Race(7, 5, Rack(0.6)))
     >>> print(answer.sentences[0])
     A wins the match 53% of the time.
@@ -84,7 +83,7 @@ def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
 def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
     """Return what is played.
 
-    >>> from evenbreak.games import Race
+    >>> from evenbreak.games import Race, Rack
     >>> match_words(Race(3, 1, Race(3, 3, Rack(0.6)), score=(1, 0)))
     'Race 3:1 in sets of 3:3, score 1:0'
     """
@@ -96,7 +95,7 @@ def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
         text = f"Race {match.m}:{match.n}"
     if (win_by := getattr(match, "win_by", 1)) > 1:
         text += f", win by {win_by}"
-    if not isinstance(match.rack, Rack):
+    if isinstance(match.rack, Match):
         text += f" in sets of {match.rack.m}:{match.rack.n}"
     if any(match.score):
         text += f", score {match.score[0]}:{match.score[1]}"

@@ -12,9 +12,10 @@ import pandas as pd
 from evenbreak.answers.chart_bands import Band, chart_bands
 from evenbreak.answers.fair_pairs import matchups_frame
 from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.answers.report_frames import ratings_frame, summary_frame
+from evenbreak.answers.report_frames import summary_frame
 from evenbreak.answers.sure_pairs import SurePair, sure_pairs
 from evenbreak.answers.wording import race
+from evenbreak.arrays import short_repr
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
@@ -23,6 +24,7 @@ NO_RACE = "-"
 """Stands for the race of two players who cannot be compared."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Sheet:
     """A league's ratings, and the fairest race of each pair of the players chosen.
@@ -34,7 +36,7 @@ class Sheet:
     offered
         the races to choose from.
     rated, paired
-        the tables of `ratings_frame` and `matchups_frame`.
+        the tables of `Ratings.to_frame` and `matchups_frame`.
     choice
         how the prior was chosen, if it was.
 
@@ -64,7 +66,7 @@ class Sheet:
     ) -> Sheet:
         """Return the sheet that pairs these players (positions in `ratings.players`)."""
         paired = matchups_frame(ratings, players, offered)
-        return cls(file, ratings, offered, ratings_frame(ratings), paired, choice)
+        return cls(file, ratings, offered, ratings.to_frame(), paired, choice)
 
     def strongest(self, most: int) -> Sheet:
         """Return the sheet with the races of the strongest players only."""

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evenbreak.arrays import short_repr
 from evenbreak.files.aliases import AliasesFile, read_aliases
 from evenbreak.files.doubtful_dates import date_warnings
 from evenbreak.files.player_names import PlayerNames, hidden_letter_warnings
@@ -29,6 +30,7 @@ MOST_RENAMED = 20
 """How many names are listed that aliases changed; the rest are counted."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class ResultsFile:
     """The contents of a results file.

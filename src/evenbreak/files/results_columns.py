@@ -8,7 +8,7 @@ from functools import partial
 from evenbreak.files.cells import Values, dates, texts, whole_numbers, words
 from evenbreak.files.player_names import PlayerNames
 from evenbreak.files.text_table import TextTable
-from evenbreak.ratings.results import FORMATS
+from evenbreak.ratings.results_frame import FORMATS
 
 NAMES = ("player_a", "player_b")
 

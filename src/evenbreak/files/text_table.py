@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import short_repr
 from evenbreak.files.csv_rows import Rows, csv_rows, possible_headers
 from evenbreak.files.encoding import content_of, encoding_of
 from evenbreak.files.header import Header, quoted_list
@@ -35,6 +36,7 @@ class Texts(NamedTuple):
     codes: NDArray[np.int64]
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class TextTable:
     """The rows of a file that have the shape of its header.

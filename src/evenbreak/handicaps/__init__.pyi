@@ -39,6 +39,7 @@ from .charts.points_chart import points_chart as points_chart
 from .charts.race_limits import RaceLimits as RaceLimits
 from .charts.rows import ChartDraft as ChartDraft
 from .charts.rows import ChartRow as ChartRow
+from .charts.win_matrix import win_matrix as win_matrix
 from .ladders.closed_league import ClosedPair as ClosedPair
 from .ladders.closed_league import in_step_law as in_step_law
 from .ladders.comparison import SystemRow as SystemRow

@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import whole
+from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import chart_of
@@ -34,6 +34,7 @@ _NEWCOMERS = (1, -1, 1, -1)
 """How many doublings of the odds each newcomer is better than the mean of the league."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Reestimated:
     """How far off refitted ratings are, by simulation, with Monte Carlo standard errors.
@@ -91,7 +92,7 @@ def reestimate(
     newcomer_weeks: int = 30,
     half_life: float | None = None,
     leagues: int = 4,
-    seed: int = 0,
+    seed: int | np.random.Generator = 0,
 ) -> Reestimated:
     """Return how far off ratings stay that are refitted to all results, with old ones fading.
 
@@ -118,7 +119,8 @@ def reestimate(
     leagues
         how many leagues are simulated, 2 or more.
     seed
-        of the random numbers: the same seed gives the same answer.
+        of the random numbers: a whole number, which always gives the same answer, or a
+        generator.
 
     Raises
     ------
@@ -154,7 +156,7 @@ def reestimate(
         ),
         half_life=None if half_life is None else 7.0 * half_life,
     )
-    seeds = np.random.SeedSequence(seed).spawn(whole(leagues, "leagues", at_least=2))
+    seeds = np.random.SeedSequence(seed_of(seed)).spawn(whole(leagues, "leagues", at_least=2))
     return _summed_up(plan, [_league(plan, np.random.default_rng(child)) for child in seeds])
 
 

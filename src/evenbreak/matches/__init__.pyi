@@ -8,8 +8,10 @@ from .evening import LengthLike as LengthLike
 from .evening import evening as evening
 from .formats import MatchFormat as MatchFormat
 from .formats import match_format as match_format
-from .length import MatchLength as MatchLength
+from .game_odds import GameOdds as GameOdds
+from .game_odds import game_odds as game_odds
 from .length import match_length as match_length
+from .length_law import MatchLength as MatchLength
 from .live import LiveOdds as LiveOdds
 from .live import Standing as Standing
 from .live import live_odds as live_odds
@@ -30,3 +32,4 @@ from .straight_pool_spot import even_points as even_points
 from .straight_pool_spot import even_spot as even_spot
 from .win import race_win_probability as race_win_probability
 from .win import win_probability as win_probability
+from .win_formula import win_formula as win_formula

@@ -86,7 +86,7 @@ def evening(
     *,
     tables: int = 1,
     players: Sequence[tuple[Hashable, Hashable]] | None = None,
-    rng: np.random.Generator | None = None,
+    rng: np.random.Generator | int | None = None,
     runs: int | None = None,
 ) -> Evening:
     """Return when an evening of matches ends.
@@ -102,7 +102,7 @@ def evening(
         the two players of each match, so that nobody plays two matches at once; None: no
         player is on the list twice.
     rng
-        the source of random numbers, if any are needed; None: a generator with seed 0.
+        the source of random numbers, if any are needed: a generator or a seed; None: seed 0.
     runs
         how often to simulate the evening; None: find the exact answer if that is quick, else
         simulate 50,000 evenings, fewer for more than about sixty matches.
@@ -131,7 +131,7 @@ def evening(
             end = _all_at_once(found) if tables == len(found) else _several_tables(found, tables)
         if end is not None:
             return _exact(end)
-    return _simulated(found, tables, pairs, rng or np.random.default_rng(0), runs)
+    return _simulated(found, tables, pairs, np.random.default_rng(0 if rng is None else rng), runs)
 
 
 def _chances(length: LengthLike, name: str) -> Floats:

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from evenbreak.matches.live import LiveOdds
-from evenbreak.plots.style import LINES, our_look, write_title
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, write_title
 
 _MOST_SCORES = 24
 """The most scores that fit below the picture; of more, only every second, third, ... is written."""
@@ -16,8 +16,8 @@ _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
 """Shares of the picture: the width and height of a label, and its distance from the line."""
 
 
-@our_look()
-def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A", "B")) -> Figure:
+@in_our_look
+def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A", "B")) -> Picture:
     """Return a figure of a match so far.
 
     The upper panel is player 1's chance of winning the match after each rack: a filled dot is a
@@ -40,7 +40,7 @@ def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A
     >>> [label.get_text() for label in figure.axes[1].get_xticklabels()]
     ['0:0', '1:0', '1:1', '2:1']
     """
-    figure = Figure(figsize=(7.2, 5.4), layout="constrained")
+    figure = Picture(figsize=(7.2, 5.4), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     wins = [moment.p_win_1 for moment in odds.course]
     racks = range(len(wins))

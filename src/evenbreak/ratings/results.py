@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,9 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 from evenbreak.arrays import Bools, Ints
 from evenbreak.checks import column, names
 from evenbreak.errors import InputError
+from evenbreak.ratings.consistency import find_problems
+from evenbreak.ratings.results_frame import FORMATS, FrameReader, columns_of
 
-FORMATS = ("", "winner", "loser", "alternate", "a", "b")
-"""Break formats in the order of their codes in `Results.break_format`; 0 is not stated."""
+if TYPE_CHECKING:
+    import pandas as pd
 
 _TYPES: dict[str, Any] = {
     "player_a": np.int64,
@@ -159,6 +161,48 @@ class Results:
             score_b,  # type: ignore[arg-type]
             **columns,
         )
+
+    @classmethod
+    def from_frame(cls, frame: pd.DataFrame) -> Results:
+        """Return the results in a DataFrame, a match a row.
+
+        Parameters
+        ----------
+        frame
+            with the columns of a results file: `player_a`, `player_b`, `score_a` and
+            `score_b`, and those of `date`, `race_a`, `race_b`, `winner`, `first_break`,
+            `break_format`, `racks`, `event` and `forfeit` that are known. `winner` and
+            `first_break` are a, b or a name. A forfeit may leave its scores empty, and so may a
+            match of which the races and the winner are known. Other columns are not used, which
+            a warning says.
+
+        Raises
+        ------
+        DataError
+            with every cell that has no meaning and every contradiction, a line each, which
+            names the row by its label in the index; and with names that differ in case or
+            spaces alone.
+
+        >>> import pandas as pd
+        >>> frame = pd.DataFrame({"player_a": ["Ann", "Bo"], "player_b": ["Bo", "Cy"],
+        ...                       "score_a": [7, 4], "score_b": [5, 7], "race_a": 7, "race_b": 7})
+        >>> Results.from_frame(frame)
+        <Results of 2 matches between 3 players>
+        >>> Results.from_frame(frame.assign(score_b=[5, 6.5]))
+        Traceback (most recent call last):
+        ...
+        evenbreak.errors.DataError: row 1: score_b is 6.5; give a whole number, 0 or more
+        """
+        if not all(hasattr(frame, name) for name in ("columns", "index", "iloc")):
+            raise InputError(f"frame is {type(frame).__name__} {frame!r:.60}; give a DataFrame")
+        reader = FrameReader(frame)
+        columns = columns_of(reader)
+        reader.raise_any()
+        results = cls.from_names(**columns)
+        for problem in find_problems(results):
+            reader.add(problem.row, problem.message)
+        reader.raise_any()
+        return results
 
     def __len__(self) -> int:
         return len(self.player_a)

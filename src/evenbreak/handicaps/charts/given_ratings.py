@@ -24,7 +24,8 @@ from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import floats, plain, probability, together, whole
 from evenbreak.games.race import Race
 from evenbreak.handicaps.charts.fair import longest_matches
-from evenbreak.matches.length import MatchLength, match_length
+from evenbreak.matches.length import match_length
+from evenbreak.matches.length_law import MatchLength
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale, scale_of
 

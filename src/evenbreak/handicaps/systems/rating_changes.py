@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Ints
+from evenbreak.arrays import Ints, short_repr
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.night_problems import night_problems
@@ -50,6 +50,7 @@ class MatchChange(NamedTuple):
     points: tuple[int, int]
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class RatingChanges:
     """How a night changed the ratings of a list.
