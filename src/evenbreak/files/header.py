@@ -3,15 +3,40 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import NamedTuple
 
 from evenbreak.files.problems import Problems, quoted
 
 MOST_LISTED = 12
 """How many names a message lists."""
 
+MOST_ABOVE = 30
+"""The header is looked for in this many rows."""
+
 _NUMBER = re.compile(r"[+-]?[0-9]+([.,][0-9]+)?", re.ASCII)
 """What stands in a row of values, but hardly in a header."""
+
+
+class Fit(NamedTuple):
+    """How well a row fits as the header; the greatest fits best.
+
+    Parameters
+    ----------
+    complete
+        whether it has every required column, or what takes its place.
+    known
+        how many of its titles are known.
+    above
+        how many rows stand above it, as a negative number: the first of equals is taken.
+    titles
+        how many titles it has.
+    """
+
+    complete: bool
+    known: int
+    above: int
+    titles: int
 
 
 class Header:
@@ -23,6 +48,10 @@ class Header:
         for each column its other names.
     instead
         for a required column the sets of columns that can take its place.
+    called
+        for some columns the title that they have in this file, whatever other titles mean.
+    hint
+        from the titles to what to do where required columns are missing.
     """
 
     def __init__(
@@ -30,24 +59,45 @@ class Header:
         required: Mapping[str, Sequence[str]],
         optional: Mapping[str, Sequence[str]],
         instead: Mapping[str, Sequence[Collection[str]]],
+        called: Mapping[str, str] | None = None,
+        hint: Callable[[Sequence[str]], str] | None = None,
     ) -> None:
         self.required = required
         self.columns = (*required, *optional)
         self._instead = instead
+        self._called = called or {}
+        self._hint = hint
         self._column = {
             _key(other): name
             for name, others in {**required, **optional}.items()
             for other in (*others, name)
         }
 
-    def separator(self, possible: Mapping[str, Sequence[str]]) -> str:
-        """Return the separator that makes the most known titles, given the titles of each."""
+    def best(self, rows: Sequence[Sequence[str]]) -> Fit:
+        """Return how well the row fits that is most likely the header, and where it stands."""
+        fits = [self._fit(titles, -above) for above, titles in enumerate(rows[:MOST_ABOVE])]
+        complete = [fit for fit in fits if fit.complete]
+        if complete:  # a table below another one is not what is read
+            return next((fit for fit in complete if fit.known > 1), complete[0])
+        # A single known word below the first row is more likely a cell than a title.
+        likely = [fit for fit in fits if not fit.above or fit.known > 1]
+        return max(likely, default=Fit(complete=False, known=0, above=0, titles=0))
 
-        def fit(separator: str) -> tuple[int, int]:
-            titles = possible[separator]
-            return sum(_key(title) in self._column for title in titles), len(titles)
+    def _fit(self, titles: Sequence[str], above: int) -> Fit:
+        names = {name for name in map(self._name, titles) if name is not None}
+        complete = bool(names) and all(
+            name in names or self._replaced(name, names) for name in self.required
+        )
+        values = any(_NUMBER.fullmatch(title.strip()) for title in titles)
+        return Fit(complete, 0 if values and not complete else len(names), above, len(titles))
 
-        return max(possible, key=fit)
+    def _name(self, title: str) -> str | None:
+        """Return the column that a title means."""
+        for name, called in self._called.items():
+            if _key(title) == _key(called) and title.strip():
+                return name
+        name = self._column.get(_key(title))
+        return None if name in self._called else name
 
     def places(
         self, titles: Sequence[str], line: int, problems: Problems
@@ -59,7 +109,7 @@ class Header:
         places: dict[str, int] = {}
         unused = []
         for place, title in enumerate(titles):
-            name = self._column.get(_key(title))
+            name = self._name(title)
             if name is None:
                 unused += [title] if title.strip() else []
             elif name in places:
@@ -77,18 +127,41 @@ class Header:
                 f"such as {','.join(self.required)}",
             )
             return places, unused
-        for name in self.required:
-            if name not in places and not self._replaced(name, places):
-                others = " or ".join(map(quoted, self.required[name][:3]))
-                problems.add(
-                    line,
-                    f"there is no column {name!r} among {quoted_list(titles)}; add it"
-                    + (f" (it may also be called {others})" if others else ""),
-                )
+        self._add_missing(places, titles, line, problems)
         return places, unused
 
-    def _replaced(self, name: str, places: Mapping[str, int]) -> bool:
-        return any(places.keys() >= set(group) for group in self._instead.get(name, ()))
+    def _add_missing(
+        self, places: Mapping[str, int], titles: Sequence[str], line: int, problems: Problems
+    ) -> None:
+        among = f"among {quoted_list(titles)}"
+        for name, called in self._called.items():
+            if name not in places:
+                problems.add(
+                    line, f"there is no column {quoted(called)} {among}; correct --columns"
+                )
+        missing = [
+            name
+            for name in self.required
+            if name not in self._called
+            and name not in places
+            and not self._replaced(name, places.keys())
+        ]
+        if missing and self._hint is not None:
+            names = ", ".join(map(repr, missing[:-1])) + " and " * (len(missing) > 1)
+            names += repr(missing[-1])
+            many = "are no columns" if len(missing) > 1 else "is no column"
+            problems.add(line, f"there {many} {names} {among}; {self._hint(titles)}")
+            return
+        for name in missing:
+            others = " or ".join(map(quoted, self.required[name][:3]))
+            problems.add(
+                line,
+                f"there is no column {name!r} {among}; add it"
+                + (f" (it may also be called {others})" if others else ""),
+            )
+
+    def _replaced(self, name: str, found: Collection[str]) -> bool:
+        return any(set(found) >= set(group) for group in self._instead.get(name, ()))
 
 
 def _key(name: str) -> str:
