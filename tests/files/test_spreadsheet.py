@@ -1,6 +1,6 @@
 """Workbooks as spreadsheets save them; .xlsx made by XlsxWriter, .ods by hand."""
 
-import datetime
+import datetime as dt
 import io
 import random
 import zipfile
@@ -27,9 +27,9 @@ def xlsx(sheets, hidden=()):
                 sheet.hide()
             for i, row in enumerate(rows):
                 for j, cell in enumerate(row):
-                    if isinstance(cell, datetime.time):
+                    if isinstance(cell, dt.time):
                         sheet.write_datetime(i, j, cell, clock)
-                    elif isinstance(cell, datetime.date):
+                    elif isinstance(cell, dt.date):
                         sheet.write_datetime(i, j, cell, day)
                     elif cell is not None:
                         sheet.write(i, j, cell)
@@ -38,12 +38,12 @@ def xlsx(sheets, hidden=()):
 
 def ods(rows):
     def cell(value):
-        if isinstance(value, datetime.date):
+        if isinstance(value, dt.date):
             return (
                 '<table:table-cell office:value-type="date" '
                 f'office:date-value="{value}"><text:p>{value:%m/%d/%y}</text:p></table:table-cell>'
             )
-        if isinstance(value, datetime.time):
+        if isinstance(value, dt.time):
             return (
                 '<table:table-cell office:value-type="time" office:time-value='
                 f'"PT{value.hour:02}H{value.minute:02}M00S"><text:p>x</text:p></table:table-cell>'
@@ -85,9 +85,9 @@ def ods(rows):
 
 ROWS = [
     ["Name", "Rating", "Date", "Score"],
-    ["Zoë", 1500.0, datetime.date(2024, 9, 3), "7-5"],
+    ["Zoë", 1500.0, dt.date(2024, 9, 3), "7-5"],
     [None, None, None, None],
-    ["Bo", 92.5, datetime.date(2024, 9, 13), datetime.time(7, 5)],
+    ["Bo", 92.5, dt.date(2024, 9, 13), dt.time(7, 5)],
 ]
 
 
@@ -181,6 +181,7 @@ def test_what_is_no_workbook_is_one_problem(content, told):
 @pytest.mark.parametrize("content", [xlsx({"Club": ROWS}), ods(ROWS)])
 def test_a_damaged_workbook_is_read_or_refused(content):
     rng = random.Random(1)
+    told = set()
     for _ in range(200):
         damaged = bytearray(content)
         for _ in range(rng.randrange(1, 30)):
@@ -188,4 +189,5 @@ def test_a_damaged_workbook_is_read_or_refused(content):
         try:
             sheets_of(bytes(damaged[: rng.randrange(50, len(damaged) + 1)]), "t.xlsx")
         except DataError as error:
-            assert len(error.problems) == 1
+            told.add(len(error.problems))
+    assert told == {1}

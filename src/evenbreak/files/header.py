@@ -147,10 +147,10 @@ class Header:
             and not self._replaced(name, places.keys())
         ]
         if missing and self._hint is not None:
-            names = ", ".join(map(repr, missing[:-1])) + " and " * (len(missing) > 1)
-            names += repr(missing[-1])
+            listed = ", ".join(map(repr, missing[:-1])) + " and " * (len(missing) > 1)
+            listed += repr(missing[-1])
             many = "are no columns" if len(missing) > 1 else "is no column"
-            problems.add(line, f"there {many} {names} {among}; {self._hint(titles)}")
+            problems.add(line, f"there {many} {listed} {among}; {self._hint(titles)}")
             return
         for name in missing:
             others = " or ".join(map(quoted, self.required[name][:3]))

@@ -17,6 +17,7 @@ from evenbreak.files.doubtful_dates import date_warnings
 from evenbreak.files.player_names import PlayerNames
 from evenbreak.files.problems import quoted
 from evenbreak.files.results_columns import INSTEAD, NAMES, OPTIONAL, REQUIRED, results_columns
+from evenbreak.files.results_layout import one_layout
 from evenbreak.files.results_rows import results_rows
 from evenbreak.files.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.text_table import TextTable, read_table
@@ -91,7 +92,7 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
     (('Ann', 'Bo'), array([7]))
     """
     by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
-    table = read_table(path, REQUIRED, OPTIONAL, INSTEAD, rows="matches")
+    table = one_layout(read_table(path, REQUIRED, OPTIONAL, INSTEAD, rows="matches"))
     names = PlayerNames(table, NAMES, by_alias.means)
     results = results_rows(table, names, results_columns(table, names))
     table.problems.raise_any()
@@ -101,6 +102,7 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
         *table.warnings,
         *_repeated_rows(table),
         *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),
+        *_tied(results, table),
         *_merged(names.merged(), table.source),
         *_renamed(names.renamed(), table.source, by_alias.source),
         *similar_name_warnings(groups, table.source, "if so, use the same name throughout"),
@@ -143,6 +145,23 @@ def _repeated_rows(table: TextTable) -> list[str]:
     return [
         f"{table.source}:{first}: {rows} the same as an earlier one, date included; "
         "all are counted, so delete what was entered twice"
+    ]
+
+
+def _tied(results: Results, table: TextTable) -> list[str]:
+    """Return a warning if matches have no winner."""
+    played = (results.score_a > 0) & (results.score_a == results.score_b) & ~results.given_away
+    race_a, race_b = results.races
+    tied = np.flatnonzero(played & (race_a == 0) & (race_b == 0))
+    if not len(tied):
+        return []
+    first, many = int(table.lines[tied[0]]), len(tied)
+    row = tied[0]
+    score = f"{results.score_a[row]}-{results.score_b[row]}"
+    matches = "this match is" if many == 1 else f"this and {many - 1:,} more are"
+    return [
+        f"{table.source}:{first}: the score is tied ({score}), and no race is given; {matches} "
+        "counted game by game, without a winner"
     ]
 
 

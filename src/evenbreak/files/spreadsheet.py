@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import datetime
+import datetime as dt
 import io
 import re
 import zipfile
@@ -106,7 +106,7 @@ def _area(sheet: bytes) -> int:
     if not cells:
         return 0
     columns, rows = zip(*cells, strict=True)
-    return (max(columns) - min(columns) + 1) * (max(rows) - min(rows) + 1)
+    return int((max(columns) - min(columns) + 1) * (max(rows) - min(rows) + 1))
 
 
 @cache
@@ -132,7 +132,7 @@ def _sheet(sheet: Any) -> Sheet:
 def _text(cell: Any) -> str:
     """Return what a cell would be in a CSV file.
 
-    >>> _text(1500.0), _text(1.234), _text(datetime.time(7, 5)), _text(True)
+    >>> _text(1500.0), _text(1.234), _text(dt.time(7, 5)), _text(True)
     ('1500', '1.2340', '7:05', 'yes')
     """
     match cell:
@@ -144,12 +144,12 @@ def _text(cell: Any) -> str:
             text = repr(cell)
             # Of three decimals it could not be said whether they group thousands.
             return f"{text}0" if len(text.rpartition(".")[2]) == 3 else text
-        case datetime.timedelta():
+        case dt.timedelta():
             minutes = int(cell.total_seconds()) // 60
             return f"{minutes // 60}:{minutes % 60:02}"
-        case datetime.time():
+        case dt.time():
             return f"{cell.hour}:{cell.minute:02}"
-        case datetime.datetime():
+        case dt.datetime():
             return cell.date().isoformat()
         case _:
             return str(cell).strip()
