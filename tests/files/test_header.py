@@ -58,6 +58,8 @@ COMPLETE = ["name", "points"]
         ([["wer", "was"], ["player", "7"], ["day", "8"]], 0),
         ([["wer", "was"], ["player", "x"]], 0),
         ([["title"], ["day", "player", "punkte"]], 1),
+        ([["title"], ["wann", "wer", "was"], ["1", "2", "3"]], 1),
+        ([["score"], ["wann", "wer", "was"], ["1", "2", "3"]], 1),
     ],
 )
 def test_the_header_is_the_row_with_the_most_known_titles(rows, above):
@@ -78,7 +80,7 @@ def test_a_title_can_be_given_a_meaning_whatever_it_meant():
 
 
 def test_a_hint_makes_one_problem_of_all_missing_columns():
-    header = Header(REQUIRED, {}, {}, {}, lambda titles: f"call {titles[0]} so")
+    header = Header(REQUIRED, {}, {}, {}, lambda *given: f"call {given[1][0]} so")
     _, _, problems = look(["wer", "was"], header)
     (told,) = problems.listed()
     assert "'player' and 'score'" in told

@@ -27,12 +27,14 @@ def matches(file):
     """Return who beat whom by how much, whatever the order of the players."""
     results = file.results
     rows = zip(
-        results.player_a, results.player_b, results.score_a, results.score_b, *results.races,
+        results.player_a,
+        results.player_b,
+        results.score_a,
+        results.score_b,
+        *results.races,
         strict=True,
     )
-    return [
-        (results.players[a], results.players[b], *map(int, counts)) for a, b, *counts in rows
-    ]
+    return [(results.players[a], results.players[b], *map(int, counts)) for a, b, *counts in rows]
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,8 @@ MOST_ABOVE = 30
 _NUMBER = re.compile(r"[+-]?[0-9]+([.,][0-9]+)?", re.ASCII)
 """What stands in a row of values, but hardly in a header."""
 
+Hint = Callable[[Collection[str], Sequence[str], Sequence[Sequence[str]]], str]
+
 
 class Fit(NamedTuple):
     """How well a row fits as the header; the greatest fits best.
@@ -27,16 +29,16 @@ class Fit(NamedTuple):
         whether it has every required column, or what takes its place.
     known
         how many of its titles are known.
+    titles
+        how many titles it has, blank ones aside.
     above
         how many rows stand above it, as a negative number: the first of equals is taken.
-    titles
-        how many titles it has.
     """
 
     complete: bool
     known: int
-    above: int
     titles: int
+    above: int
 
 
 class Header:
@@ -51,7 +53,8 @@ class Header:
     called
         for some columns the title that they have in this file, whatever other titles mean.
     hint
-        from the titles to what to do where required columns are missing.
+        what to do about missing columns, given those that are known, the other titles and some
+        rows below the header.
     """
 
     def __init__(
@@ -60,7 +63,7 @@ class Header:
         optional: Mapping[str, Sequence[str]],
         instead: Mapping[str, Sequence[Collection[str]]],
         called: Mapping[str, str] | None = None,
-        hint: Callable[[Sequence[str]], str] | None = None,
+        hint: Hint | None = None,
     ) -> None:
         self.required = required
         self.columns = (*required, *optional)
@@ -79,32 +82,38 @@ class Header:
         complete = [fit for fit in fits if fit.complete]
         if complete:  # a table below another one is not what is read
             return next((fit for fit in complete if fit.known > 1), complete[0])
-        # A single known word below the first row is more likely a cell than a title.
-        likely = [fit for fit in fits if not fit.above or fit.known > 1]
-        return max(likely, default=Fit(complete=False, known=0, above=0, titles=0))
+        nothing = Fit(complete=False, known=0, titles=0, above=0)
+        best = max(fits, key=lambda fit: (fit.known, fit.above), default=nothing)
+        if best.known > 1:
+            return best
+        # A single known word is as likely a cell: the header is then the first row of full width.
+        return max(fits, key=lambda fit: (fit.titles, fit.above), default=nothing)
 
     def _fit(self, titles: Sequence[str], above: int) -> Fit:
         names = {name for name in map(self._name, titles) if name is not None}
-        complete = bool(names) and all(
-            name in names or self._replaced(name, names) for name in self.required
-        )
+        complete = bool(names) and not self._missing(names)
         values = any(_NUMBER.fullmatch(title.strip()) for title in titles)
-        return Fit(complete, 0 if values and not complete else len(names), above, len(titles))
+        known = 0 if values and not complete else len(names)
+        return Fit(complete, known, sum(bool(title.strip()) for title in titles), above)
 
     def _name(self, title: str) -> str | None:
         """Return the column that a title means."""
         for name, called in self._called.items():
             if _key(title) == _key(called) and title.strip():
                 return name
-        name = self._column.get(_key(title))
-        return None if name in self._called else name
+        known = self._column.get(_key(title))
+        return None if known in self._called else known
 
     def places(
-        self, titles: Sequence[str], line: int, problems: Problems
+        self,
+        titles: Sequence[str],
+        line: int,
+        problems: Problems,
+        sample: Sequence[Sequence[str]] = (),
     ) -> tuple[dict[str, int], list[str]]:
         """Return the place of each column, and the titles that are not used.
 
-        Missing and repeated columns are added to the problems.
+        Missing and repeated columns are added to the problems; `sample` has some rows below.
         """
         places: dict[str, int] = {}
         unused = []
@@ -127,38 +136,35 @@ class Header:
                 f"such as {','.join(self.required)}",
             )
             return places, unused
-        self._add_missing(places, titles, line, problems)
-        return places, unused
-
-    def _add_missing(
-        self, places: Mapping[str, int], titles: Sequence[str], line: int, problems: Problems
-    ) -> None:
         among = f"among {quoted_list(titles)}"
         for name, called in self._called.items():
             if name not in places:
                 problems.add(
                     line, f"there is no column {quoted(called)} {among}; correct --columns"
                 )
-        missing = [
-            name
-            for name in self.required
-            if name not in self._called
-            and name not in places
-            and not self._replaced(name, places.keys())
-        ]
+        missing = self._missing({*places, *self._called})
         if missing and self._hint is not None:
             listed = ", ".join(map(repr, missing[:-1])) + " and " * (len(missing) > 1)
-            listed += repr(missing[-1])
             many = "are no columns" if len(missing) > 1 else "is no column"
-            problems.add(line, f"there {many} {listed} {among}; {self._hint(titles)}")
-            return
+            rows = [[row[k] for k in range(len(row)) if k not in places.values()] for row in sample]
+            others = [title for k, title in enumerate(titles) if k not in places.values()]
+            remedy = self._hint(places.keys(), others, rows)
+            problems.add(line, f"there {many} {listed}{missing[-1]!r} {among}; {remedy}")
+            return places, unused
         for name in missing:
-            others = " or ".join(map(quoted, self.required[name][:3]))
+            also = " or ".join(map(quoted, self.required[name][:3]))
             problems.add(
                 line,
                 f"there is no column {name!r} {among}; add it"
-                + (f" (it may also be called {others})" if others else ""),
+                + (f" (it may also be called {also})" if also else ""),
             )
+        return places, unused
+
+    def _missing(self, found: Collection[str]) -> list[str]:
+        """Return the required columns that are not found, and not replaced."""
+        return [
+            name for name in self.required if name not in found and not self._replaced(name, found)
+        ]
 
     def _replaced(self, name: str, found: Collection[str]) -> bool:
         return any(set(found) >= set(group) for group in self._instead.get(name, ()))

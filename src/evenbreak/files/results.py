@@ -6,14 +6,19 @@ Each step is taken once: bytes, encoding, rows, a table of texts, cells, columns
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evenbreak.checks import one_of
 from evenbreak.files.aliases import AliasesFile, read_aliases
+from evenbreak.files.columns_hint import columns_hint
+from evenbreak.files.date_cells import DateOrder
 from evenbreak.files.doubtful_dates import date_warnings
+from evenbreak.files.exports import export_of
 from evenbreak.files.player_names import PlayerNames
 from evenbreak.files.problems import quoted
 from evenbreak.files.results_columns import INSTEAD, NAMES, OPTIONAL, REQUIRED, results_columns
@@ -60,10 +65,16 @@ class ResultsFile:
     )
 
 
-def read_results(path: str | Path, *, aliases: str | Path | None = None) -> ResultsFile:
-    r"""Read match results from a CSV file; '-' is standard input.
+def read_results(
+    path: str | Path,
+    *,
+    aliases: str | Path | None = None,
+    columns: Mapping[str, str] | None = None,
+    dates: DateOrder | None = None,
+) -> ResultsFile:
+    r"""Read match results from a CSV file or workbook; '-' is standard input.
 
-    Encoding, separator and header are read as in `evenbreak.files.text_table`; the columns
+    Format, separator and header are read as in `evenbreak.files.text_table`; the columns
     are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double blanks inside,
     and are put into Unicode's form NFC; those that differ in case or blanks alone are one
     player's. `winner` and `first_break` are a, b or the name of one of the two players. A
@@ -76,6 +87,10 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
         the file.
     aliases
         a file that says which names mean the same player (see `evenbreak.files.aliases`).
+    columns
+        for columns such as player_a the titles that they have in the file, if not known ones.
+    dates
+        'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
 
     Raises
     ------
@@ -92,9 +107,20 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
     (('Ann', 'Bo'), array([7]))
     """
     by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
-    table = one_layout(read_table(path, REQUIRED, OPTIONAL, INSTEAD, rows="matches"))
+    table = one_layout(
+        read_table(
+            path,
+            REQUIRED,
+            OPTIONAL,
+            INSTEAD,
+            rows="matches",
+            called=_checked(columns or {}),
+            hint=columns_hint,
+            exported=export_of,
+        )
+    )
     names = PlayerNames(table, NAMES, by_alias.means)
-    results = results_rows(table, names, results_columns(table, names))
+    results = results_rows(table, names, results_columns(table, names, dates))
     table.problems.raise_any()
     groups = tuple(similar_names(results.players, _met(results)))
     warnings = [
@@ -109,6 +135,13 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
     ]
     sha256 = hashlib.sha256(table.content).hexdigest()
     return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines)
+
+
+def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
+    """Return which titles mean which columns, or refuse columns that there are none of."""
+    for name in columns:
+        one_of(name, "columns", (*REQUIRED, *OPTIONAL))
+    return columns
 
 
 def _merged(names: dict[str, str], source: str) -> list[str]:
@@ -137,7 +170,8 @@ def _repeated_rows(table: TextTable) -> list[str]:
     """Return a warning if whole rows appear again: they may have been pasted twice."""
     if "date" not in table:
         return []  # the same two players often play to the same score on another day
-    again = np.flatnonzero(table.repeated())
+    # The sets of a match in another program's file stand in one line.
+    again = np.flatnonzero(table.repeated() & (np.diff(table.lines, prepend=-1) > 0))
     if not len(again):
         return []
     first, count = int(table.lines[again[0]]), len(again)

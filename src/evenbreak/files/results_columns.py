@@ -5,7 +5,8 @@ from __future__ import annotations
 import unicodedata
 from functools import partial
 
-from evenbreak.files.cells import Values, dates, texts, whole_numbers, words
+from evenbreak.files.cells import Values, texts, whole_numbers, words
+from evenbreak.files.date_cells import DateOrder, dates
 from evenbreak.files.player_names import PlayerNames
 from evenbreak.files.results_layout import BY_WINNER
 from evenbreak.files.text_table import TextTable
@@ -60,17 +61,19 @@ _FORMATS = {
 }
 
 
-def results_columns(table: TextTable, names: PlayerNames) -> dict[str, Values]:
+def results_columns(
+    table: TextTable, names: PlayerNames, order: DateOrder | None = None
+) -> dict[str, Values]:
     """Return what the cells of a results file mean, column by column.
 
     Cells without a meaning are added to the table's problems. A column that the file lacks
-    is empty throughout.
+    is empty throughout. `order` is that of day and month in dates such as 9/3/2024.
     """
     a, b = (names.read(table, name) for name in NAMES)
     columns = {
         "player_a": a,
         "player_b": b,
-        "date": dates(table, "date"),
+        "date": dates(table, "date", order),
         "forfeit": words(table, "forfeit", _FORFEIT, choices="yes or no", empty=False),
     }
     for name in ("score_a", "score_b"):

@@ -11,7 +11,8 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from evenbreak.files.cells import letters, read_date
+from evenbreak.files.cells import letters
+from evenbreak.files.date_cells import read_date
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import Texts, TextTable
 from evenbreak.matches.formats import BETWEEN

@@ -15,6 +15,9 @@ from evenbreak.files.header import Header, quoted_list
 from evenbreak.files.problems import quoted
 from evenbreak.files.spreadsheet import Sheet, is_spreadsheet, sheets_of
 
+SAMPLE = 50
+"""How many rows are looked at to guess what the columns are."""
+
 
 class Export(NamedTuple):
     """The matches in a file that another program saved.
@@ -44,6 +47,8 @@ class TableRows(NamedTuple):
         the lines that cannot be split into cells; complete once `body` has been used up.
     warnings
         what to know about how the file was read, a line each.
+    sample
+        the first rows below the header.
     """
 
     titles: list[str]
@@ -51,6 +56,7 @@ class TableRows(NamedTuple):
     body: Iterator[Rows]
     unreadable: list[int]
     warnings: list[str]
+    sample: list[list[str]]
 
 
 def table_rows(
@@ -93,13 +99,15 @@ def _of_text(content: bytes, source: str, header: Header) -> TableRows:
     parts = csv_rows(body, encoding, separator, unreadable)
     lines, rows = next(parts)
     if not rows:
-        return TableRows([], 0, parts, unreadable, warnings)
+        return TableRows([], 0, parts, unreadable, warnings, [])
     at = -fits[separator].above
     # What cannot be split is no problem above the header.
     unreadable[:] = [line for line in unreadable if line > lines[at]]
     below = chain([(lines[at + 1 :], rows[at + 1 :])], parts)
     warnings += _skipped(lines[: at + 1], rows[:at], source)
-    return TableRows(rows[at], lines[at], below, unreadable, warnings)
+    return TableRows(
+        rows[at], lines[at], below, unreadable, warnings, rows[at + 1 : at + 1 + SAMPLE]
+    )
 
 
 def _of_workbook(sheets: list[Sheet], source: str, header: Header) -> TableRows:
@@ -125,7 +133,7 @@ def _of_sheet(sheet: Sheet, source: str, header: Header) -> TableRows:
     lines, rows = sheet.lines, sheet.rows
     below: Rows = lines[at + 1 :], rows[at + 1 :]
     warnings = _skipped(lines[: at + 1], rows[:at], source)
-    return TableRows(rows[at], lines[at], iter([below]), [], warnings)
+    return TableRows(rows[at], lines[at], iter([below]), [], warnings, below[1][:SAMPLE])
 
 
 def _skipped(lines: list[int], rows: list[list[str]], source: str) -> list[str]:

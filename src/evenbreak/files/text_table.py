@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.csv_rows import Rows
 from evenbreak.files.encoding import content_of
-from evenbreak.files.header import Header, quoted_list
+from evenbreak.files.header import Header, Hint, quoted_list
 from evenbreak.files.problems import Problems
 from evenbreak.files.table_rows import Export, table_rows
 
@@ -105,7 +105,7 @@ def read_table(
     *,
     rows: str = "",
     called: Mapping[str, str] | None = None,
-    hint: Callable[[Sequence[str]], str] | None = None,
+    hint: Hint | None = None,
     exported: Callable[[bytes, str], Export | None] | None = None,
 ) -> TextTable:
     r"""Read a CSV file, or a sheet of a workbook, as columns of text.
@@ -131,7 +131,7 @@ def read_table(
     called
         for some columns the title that they have in this file.
     hint
-        from the titles of a file to what to do where required columns are missing.
+        what to do where required columns are missing (see `Header`).
     exported
         reads the exports of other programs, if they may be given too.
 
@@ -157,12 +157,12 @@ def read_table(
     source, content = content_of(path)
     problems = Problems(source)
     header = Header(required, optional or {}, instead or {}, called, hint)
-    titles, line, body, unreadable, warnings = table_rows(content, source, header, exported)
+    titles, line, body, unreadable, warnings, sample = table_rows(content, source, header, exported)
     if not titles:
         _add_unreadable(unreadable, problems)
         problems.add(None, "has no rows; write a header line, then one line for each row")
         problems.raise_any()
-    places, unused = header.places(titles, line, problems)
+    places, unused = header.places(titles, line, problems, sample)
     if unused:
         warnings.append(f"{source}: columns not used: {quoted_list(unused)}")
     row_lines, columns = _columns(body, len(titles), places, problems)

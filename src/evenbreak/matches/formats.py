@@ -140,8 +140,8 @@ def match_format(text: str) -> MatchFormat:
     text
         `9:5` (player 1, called A, needs 9 games, player 2, called B, needs 5), `7:7 win by 2`,
         `ahead 5:3`, or one of them `of` another, which is then the set: `3:1 of 3:3`.
-        `best of 9` means `5:5`; `9-5` and `9/5` mean `9:5`. The break format may follow: `winner breaks`, or loser,
-        alternate, A or B. Each number is from 1 to 1000.
+        `best of 9` means `5:5`; `9-5` and `9/5` mean `9:5`. The break format may follow:
+        `winner breaks`, or loser, alternate, A or B. Each number is from 1 to 1000.
 
     Raises
     ------

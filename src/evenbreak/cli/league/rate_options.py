@@ -30,20 +30,27 @@ class PointsOr(Number):
         return super().convert(value, param, ctx)
 
 
-def read_day(text: str) -> str:
+def read_day(ctx: click.Context, param: click.Parameter, text: str | None) -> str | None:
     """Return a day, written in any way that a cell of a results file may have, as 2026-01-31.
 
-    It may lie up to a year ahead, for a tournament to come; a later one was mistyped.
+    In 9/3/2024 --dates says which is the month. The day may lie up to a year ahead, for a
+    tournament to come; a later one was mistyped.
     """
+    if text is None:
+        return None
     import numpy as np
 
-    from evenbreak.files.cells import read_date
+    from evenbreak.files.date_cells import is_two_dates, read_date
 
-    day = read_date(text.strip())
+    day = read_date(text.strip(), ctx.params.get("dates"))
     if day is None:
-        raise click.BadParameter(f"{text!r}; give a day, such as 2026-01-31 or 31.1.2026")
+        wrong = "give a day, such as 2026-01-31, 31.1.2026 or 1/31/2026"
+        if is_two_dates(text.strip()):
+            wrong = "say with --dates mdy or --dates dmy whether month or day comes first"
+        raise click.BadParameter(f"{text!r}; {wrong}", ctx=ctx, param=param)
     if day > np.datetime64("today", "D") + _DAYS_AHEAD:
-        raise click.BadParameter(f"{text!r} is more than a year from today; give an earlier day")
+        wrong = "is more than a year from today; give an earlier day"
+        raise click.BadParameter(f"{text!r} {wrong}", ctx=ctx, param=param)
     return str(day)
 
 
@@ -78,7 +85,7 @@ def how_to_rate(command: Command) -> Command:
         click.option(
             "--as-of",
             metavar="DATE",
-            type=read_day,
+            callback=read_day,
             help="Rate as of this day, without later matches.  [default: the last date]",
         ),
         half_life_option,
