@@ -124,8 +124,8 @@ def _columns(
     """Return the title of each column that --columns names."""
     columns: dict[str, str] = {}
     for text in given:
-        # A title may have a comma in it, but hardly a word and an equals sign after it.
-        for part in re.split(r",(?=\s*\w+\s*=)", text):
+        # A title may have a comma in it, but hardly words and an equals sign after it.
+        for part in re.split(r",(?=[\w ]+=)", text):
             name, sign, title = (piece.strip() for piece in part.partition("="))
             name = name.lower().replace(" ", "_")
             if not (name and sign and title):
