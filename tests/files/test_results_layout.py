@@ -138,12 +138,28 @@ def test_a_cell_that_is_no_score_is_one_problem_in_its_line(read, cell, told):
         ("winner,loser,score\nAnn,Ann,7-5\n", "'Ann' is on both sides"),
         ("winner,loser,score\nAnn,,7-5\n", "player_b is empty"),
         ("player_a,player_b,winner,score\nAnn,Bo,Bo,7-5\n", "winner is b, but a won more"),
-        ("winner,loser,score,score_a,score_b\nAnn,Bo,7-5,7,5\n", "has the score in one column"),
     ],
 )
 def test_contradictions_are_one_problem(read, content, told):
     (problem,) = problems(read, content)
     assert told in problem
+
+
+@pytest.mark.parametrize(
+    ("content", "unused"),
+    [
+        ("player_a,player_b,score_a,score_b,result\nAnn,Bo,7,5,won\n", "'score'"),
+        ("player_a,player_b,winner,loser,score\nAnn,Bo,Ann,Bo,7-5\n", "'loser'"),
+        ("winner,loser,score_a,score_b,race,race_a,race_b\nAnn,Bo,7,5,7,7,7\n", "'race'"),
+        ("player_a,player_b,score,winner_score\nAnn,Bo,7-5,7\n", "'winner_score'"),
+    ],
+)
+def test_columns_that_others_replace_are_not_used_and_named(read, content, unused):
+    file = read(content)
+    assert matches(file)[0][:4] == ("Ann", "Bo", 7, 5)
+    (warning,) = file.warnings
+    assert "not used" in warning
+    assert unused in warning
 
 
 def test_ties_are_named(read):

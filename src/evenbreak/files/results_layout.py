@@ -35,8 +35,7 @@ _SCORE = re.compile(rf"(\d{{1,7}})\s*{BETWEEN}\s*(\d{{1,7}})", re.ASCII)
 _RACE = re.compile(rf"(?:race to )?(\d{{1,7}})(?:\s*{BETWEEN}\s*(\d{{1,7}}))?", re.ASCII)
 _MONTH = re.compile(r"\d{1,4}[-./ ][a-zäéû]{3,4}\.?|[a-zäéû]{3,4}\.?[-./ ]\d{1,4}")
 _LEADING_ZERO = re.compile(r"0\d[-/]\d{1,2}|\d{1,2}[-/]0\d", re.ASCII)
-_SIGNS = {"score": ("score_a", "score_b"), "race": ("race_a", "race_b")}
-_RENAMED = {
+_OF_WINNER = {
     "winner": "player_a",
     "loser": "player_b",
     "winner_score": "score_a",
@@ -54,35 +53,39 @@ def one_layout(table: TextTable) -> TextTable:
     Where winner and loser are columns, the winner is player a, and the first number of a score
     or race is the winner's. Cells without a meaning are added to the table's problems.
     """
-    by_winner = "winner" in table and "loser" in table
-    by_winner = by_winner and not ("player_a" in table and "player_b" in table)
+    by_winner = {"winner", "loser"} <= table.found and not {"player_a", "player_b"} <= table.found
     columns = dict(table.columns)
-    found = set(table.found)
+    read = {name for name in table.found if name not in BY_WINNER}
     if by_winner:
-        for name, side in _RENAMED.items():
-            if name in table and (side not in table or name in ("winner", "loser")):
+        for name, side in _OF_WINNER.items():
+            if name in table and (name in ("winner", "loser") or side not in table):
                 columns[side] = table.columns[name]
-                found.add(side)
-    for name, read in (("score", _score), ("race", _race)):
-        sides = _SIGNS[name]
-        if name not in table:
-            continue
-        if found.isdisjoint(sides):
-            pairs = _pairs(table, name, read)
-            columns.update(zip(sides, _split(pairs), strict=True))
-            found.update(sides)
-        else:
-            table.problems.add(
-                None, f"has the {name} in one column and in two; keep one or the other"
-            )
-    if "score" in table:
+                read |= {name, side}
+    for name, (sides, meaning) in _IN_ONE_CELL.items():
+        if name in table and read.isdisjoint(sides):
+            columns.update(zip(sides, _split(_pairs(table, name, meaning)), strict=True))
+            read |= {name, *sides}
+    if "score" in read:
         walkovers = [letters(text) in WALKOVERS for text in table.cells("score")]
         if any(walkovers):
             marked = zip(walkovers, table.cells("forfeit"), strict=True)
             columns["forfeit"] = Texts.of(["yes" if one else text for one, text in marked])
-            found.add("forfeit")
-    made = replace(table, columns=columns, found=frozenset(found))
+            read.add("forfeit")
+    made = replace(
+        table,
+        columns=columns,
+        found=frozenset(read),
+        warnings=(*table.warnings, *_not_used(sorted(table.found - read), table.source)),
+    )
     return _with_winners(made) if by_winner else made
+
+
+def _not_used(names: list[str], source: str) -> list[str]:
+    """Return a warning if columns say what others say too."""
+    if not names:
+        return []
+    listed = ", ".join(map(quoted, names))
+    return [f"{source}: columns not used, since others say the same: {listed}"]
 
 
 def _pairs(table: TextTable, name: str, read: Callable[[str], Pair | str]) -> list[Pair]:
@@ -144,6 +147,12 @@ def _race(text: str) -> Pair | str:
 def _is_date(text: str) -> bool:
     known = read_date(text) is not None or _LEADING_ZERO.fullmatch(text)
     return bool(known or _MONTH.fullmatch(text.lower()))
+
+
+_IN_ONE_CELL: dict[str, tuple[Pair, Callable[[str], Pair | str]]] = {
+    "score": (("score_a", "score_b"), _score),
+    "race": (("race_a", "race_b"), _race),
+}
 
 
 def _with_winners(table: TextTable) -> TextTable:

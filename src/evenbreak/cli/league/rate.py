@@ -97,8 +97,10 @@ def command(
     """Rate players from their results, and show how certain each rating is.
 
     RESULTS.csv has one match a row, with the columns player_a, player_b, score_a and
-    score_b. Where the score is not known, race_a, race_b and winner will do; racks (who
-    won each rack, such as abba) can replace the score. - reads standard input.
+    score_b; or winner, loser and score, such as 7-5. Where the score is not known, race and
+    winner will do; racks (who won each rack, such as abba) can replace the score. It may
+    also be a workbook (.xlsx, .ods) or a tournament saved from CueScore, Challonge or
+    brackets-manager. - reads standard input.
     """
     if system is not None:
         given = [FIT_ONLY[name] for name, value in options.items() if value not in (None, ())]

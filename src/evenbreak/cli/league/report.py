@@ -88,7 +88,8 @@ def command(
 
     RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a,
     score_b and, if known, date, race_a, race_b, winner, first_break, break_format,
-    racks, event and forfeit; - reads standard input. The sheet gives the rating
+    racks, event and forfeit; `evenbreak rate --help` names other ways. - reads standard
+    input. The sheet gives the rating
     of each player and the race nearest to even for each pair, a race to 7 unless --games
     or --race-to says otherwise. The sheet is printed here, and sheet.pdf is for the wall;
     --html adds a page to hand out, --excel a workbook.
