@@ -163,7 +163,7 @@ def test_columns_that_others_replace_are_not_used_and_named(read, content, unuse
 
 
 def test_ties_are_named(read):
-    (warning,) = read("player_a,player_b,score\nAnn,Bo,7-5\nAnn,Bo,6-6\nCy,Bo,3-3\n").warnings
+    (warning,) = read("player_a,player_b,score\nAnn,Bo,7-5\nAnn,Bo,6-6\nCy,Bo,3-3\n").ties
     assert ":3: the score is tied (6-6)" in warning
     assert "1 more" in warning
-    assert read("player_a,player_b,score,race\nAnn,Bo,5-5,5-7\n").warnings == ()
+    assert read("player_a,player_b,score,race\nAnn,Bo,5-5,5-7\n").ties == ()

@@ -53,6 +53,8 @@ class ResultsFile:
         fingerprint of the bytes that were read.
     lines
         the line in which each match begins; empty where the matches did not come from a file.
+    ties
+        a warning if matches have neither a winner nor a race; a chart may still say who won.
     """
 
     results: Results
@@ -63,6 +65,7 @@ class ResultsFile:
     lines: NDArray[np.int64] = field(
         default_factory=lambda: np.zeros(0, dtype=np.int64), repr=False
     )
+    ties: tuple[str, ...] = ()
 
 
 def read_results(
@@ -128,13 +131,13 @@ def read_results(
         *table.warnings,
         *_repeated_rows(table),
         *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),
-        *_tied(results, table),
         *_merged(names.merged(), table.source),
         *_renamed(names.renamed(), table.source, by_alias.source),
         *similar_name_warnings(groups, table.source, "if so, use the same name throughout"),
     ]
     sha256 = hashlib.sha256(table.content).hexdigest()
-    return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines)
+    ties = _tied(results, table)
+    return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines, ties)
 
 
 def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
@@ -182,21 +185,21 @@ def _repeated_rows(table: TextTable) -> list[str]:
     ]
 
 
-def _tied(results: Results, table: TextTable) -> list[str]:
+def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
     """Return a warning if matches have no winner."""
     played = (results.score_a > 0) & (results.score_a == results.score_b) & ~results.given_away
     race_a, race_b = results.races
     tied = np.flatnonzero(played & (race_a == 0) & (race_b == 0))
     if not len(tied):
-        return []
+        return ()
     first, many = int(table.lines[tied[0]]), len(tied)
     row = tied[0]
     score = f"{results.score_a[row]}-{results.score_b[row]}"
     matches = "this match is" if many == 1 else f"this and {many - 1:,} more are"
-    return [
+    return (
         f"{table.source}:{first}: the score is tied ({score}), and no race is given; {matches} "
-        "counted game by game, without a winner"
-    ]
+        "counted game by game, without a winner",
+    )
 
 
 def _met(results: Results) -> list[tuple[str, str]]:

@@ -129,6 +129,7 @@ def _read(results: str, reading: dict[str, Any]) -> tuple[ResultsFile, Sequence[
     from evenbreak.files.results import read_results
 
     file = read_results(results, **reading)
+    file = replace(file, warnings=(*file.warnings, *file.ties))
     aliases = reading["aliases"]
     if aliases is None:
         return file, file.warnings
