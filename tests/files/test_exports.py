@@ -358,7 +358,7 @@ def test_a_file_that_was_cut_off_is_one_problem(read, data):
 
 @pytest.mark.parametrize("data", ["{}", "[]", '{"a": 1}', "[{}]", '[{"a": 1}]', '{"matches": 3}'])
 def test_other_json_is_refused_by_name(read, data):
-    assert "is JSON, but no tournament saved from CueScore" in refused(read, data)
+    assert "is JSON, but not a tournament saved from CueScore" in refused(read, data)
 
 
 def test_a_csv_file_may_begin_with_a_bracket(read):

@@ -136,7 +136,7 @@ def test_a_cell_that_is_no_score_is_one_problem_in_its_line(read, cell, told):
         ("winner,loser,score,race\nAnn,Bo,5-6,7\n", "neither player reached their race"),
         ("winner,loser,score,race\nAnn,Bo,7-5,soon\n", "'soon' is not a race"),
         ("winner,loser,score\nAnn,Ann,7-5\n", "'Ann' is on both sides"),
-        ("winner,loser,score\nAnn,,7-5\n", "player_b is empty"),
+        ("winner,loser,score\nAnn,,7-5\n", "loser is empty"),
         ("player_a,player_b,winner,score\nAnn,Bo,Bo,7-5\n", "winner is b, but a won more"),
     ],
 )

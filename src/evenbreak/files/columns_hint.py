@@ -33,7 +33,7 @@ def columns_hint(
         the cells below them, row by row.
 
     >>> print(columns_hint((), ["Heim", "Gast", "S"], [["Ann", "Bo", "7-5"]]))
-    if it has them by other names, add the option --columns "player_a=Heim,player_b=Gast,score=S"
+    if it has them by other names, add --columns "player_a=Heim,player_b=Gast,score=S"
     """
     columns = [
         (title, [text for row in rows if (text := "".join(row[place : place + 1]).strip())])
@@ -52,7 +52,7 @@ def columns_hint(
         return "add them; one column score, with 7-5 in a cell, takes the place of two"
     listed = ",".join(f"{name}={title.strip()}" for name, title in found.items())
     quote = "'" if re.search(r'["$`\\!]', listed) else '"'
-    return f"if it has them by other names, add the option --columns {quote}{listed}{quote}"
+    return f"if it has them by other names, add --columns {quote}{listed}{quote}"
 
 
 def _of_kind(columns: Sequence[Column], fits: Callable[[str], object]) -> list[Column]:

@@ -20,7 +20,6 @@ _TIME = r"(?:[T ]+\d{1,2}:\d{2}\S*(?: ?[AaPp]\.?[Mm]\.?)?)?"
 _YEAR_FIRST = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})" + _TIME, re.ASCII)
 _DAY_FIRST = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})" + _TIME, re.ASCII)
 _EITHER = re.compile(r"(\d{1,2})([-/])(\d{1,2})\2(\d{4})" + _TIME, re.ASCII)
-_CHOICES = "say which with --dates mdy or --dates dmy"
 
 
 def dates(table: TextTable, name: str, order: DateOrder | None = None) -> Values:
@@ -71,7 +70,7 @@ def is_two_dates(text: str) -> bool:
     (True, False, False)
     """
     found = _either(text)
-    return found is not None and None not in found.values() and found["mdy"] != found["dmy"]
+    return found is not None and None not in found.values() and len({*found.values()}) == 2
 
 
 def _either(text: str) -> dict[DateOrder, np.datetime64 | None] | None:
@@ -116,8 +115,9 @@ def _order_in(table: TextTable, name: str) -> tuple[DateOrder | None, bool]:
         row = int(np.isin(codes, open_).argmax())
         table.problems.add(
             int(table.lines[row]),
-            f"{name} {quoted(distinct[codes[row]])} may have the month first or the day, as may "
-            f"all dates of the file; {_CHOICES}",
+            f"{name} {quoted(distinct[codes[row]])} may have the month first or the day, and no "
+            "date of the file shows which; add --dates mdy (month first) or --dates dmy (day "
+            "first)",
         )
     return None, bool(open_)
 

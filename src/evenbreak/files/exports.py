@@ -68,7 +68,7 @@ def _found(data: Any, source: str) -> list[tuple[int, Found]]:
     readers = (export_cuescore, export_challonge, export_brackets_manager)
     read = next((one.matches for one in readers if one.is_one(data)), None)
     if read is None:
-        raise DataError([f"{source}: is JSON, but no tournament saved from {PROGRAMS}"])
+        raise DataError([f"{source}: is JSON, but not a tournament saved from {PROGRAMS}"])
     problems: list[str] = []
     found: list[tuple[int, Found]] = []
     try:

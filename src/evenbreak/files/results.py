@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.checks import one_of
+from evenbreak.errors import InputError
 from evenbreak.files.aliases import AliasesFile, read_aliases
 from evenbreak.files.columns_hint import columns_hint
 from evenbreak.files.date_cells import DateOrder
@@ -143,7 +143,11 @@ def read_results(
 def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
     """Return which titles mean which columns, or refuse columns that there are none of."""
     for name in columns:
-        one_of(name, "columns", (*REQUIRED, *OPTIONAL))
+        if name not in {**REQUIRED, **OPTIONAL}:
+            known = ", ".join((*REQUIRED, *OPTIONAL))
+            raise InputError(
+                f"columns has {name!r}, which is not a column of results; give {known}"
+            )
     return columns
 
 

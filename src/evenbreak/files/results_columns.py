@@ -69,7 +69,8 @@ def results_columns(
     Cells without a meaning are added to the table's problems. A column that the file lacks
     is empty throughout. `order` is that of day and month in dates such as 9/3/2024.
     """
-    a, b = (names.read(table, name) for name in NAMES)
+    sides = ("player_a", "loser") if "loser" in table else NAMES
+    a, b = (names.read(table, name) for name in sides)
     columns = {
         "player_a": a,
         "player_b": b,

@@ -120,10 +120,10 @@ def _of_workbook(sheets: list[Sheet], source: str, header: Header) -> TableRows:
     if len(complete) < 2:
         return rows
     others = quoted_list([other.name for other in complete[1:]])
-    also = f"{others} also {'has' if len(complete) == 2 else 'have'} such a table"
+    also, it = ("has", "it") if len(complete) == 2 else ("have", "them")
     warning = (
-        f"{source}: only the sheet {quoted(sheet.name)} is read; {also}, so save what else you "
-        "want to read as a file of its own"
+        f"{source}: only the sheet {quoted(sheet.name)} is read, although {others} {also} such a "
+        f"table too; to read {it}, save each sheet as a file of its own"
     )
     return rows._replace(warnings=[warning, *rows.warnings])
 
