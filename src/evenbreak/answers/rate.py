@@ -60,7 +60,12 @@ def rate_answer(
         f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
         [first, *_fit_in_words(ratings, choice), *unlinked_words(ratings), table],
         details=[prior_words(ratings), *([] if pairs else [_ERRORS_IN_WORDS])],
-        warnings=[*file.warnings, *prior_warnings(file, ratings, choice), *warnings],
+        warnings=[
+            *file.warnings,
+            *file.ties,
+            *prior_warnings(file, ratings, choice),
+            *warnings,
+        ],
         data=_how(ratings, choice),
     )
 

@@ -1,7 +1,9 @@
 """Options shared by several commands, each declared once, and commands that take ratings."""
 
 import math
+import re
 from collections.abc import Callable, Sequence
+from functools import update_wrapper
 from typing import Any, TypeVar
 
 import click
@@ -114,12 +116,66 @@ def out_option(what: str) -> Decorator[Any]:
     )
 
 
-aliases_option = click.option(
-    "--aliases",
-    metavar="ALIASES.csv",
-    help="Names that mean the same player: a file with the columns name and means.",
+def _columns(
+    ctx: click.Context,  # noqa: ARG001
+    param: click.Parameter,  # noqa: ARG001
+    given: tuple[str, ...],
+) -> dict[str, str]:
+    """Return the title of each column that --columns names."""
+    columns: dict[str, str] = {}
+    for text in given:
+        # A title may have a comma in it, but hardly words and an equals sign after it.
+        for part in re.split(r",(?=[\w ]+=)", text):
+            name, sign, title = (piece.strip() for piece in part.partition("="))
+            name = name.lower().replace(" ", "_")
+            if not (name and sign and title):
+                refuse(
+                    f"--columns has {part.strip()!r}; give the column and the title that it has in "
+                    "the file, such as player_a=Home,player_b=Away"
+                )
+            if name in columns or title.casefold() in map(str.casefold, columns.values()):
+                refuse(f"--columns has {part.strip()!r}, but one of them was given before")
+            columns[name] = title
+    return columns
+
+
+dates_option = click.option(
+    "--dates",
+    type=click.Choice(["mdy", "dmy"]),
+    is_eager=True,
+    help="The order in dates such as 9/3/2024: month first or day first.  [default: as other dates "
+    "of the file show]",
 )
-"""The option --aliases of every command that reads results."""
+"""The option --dates; it is read first, so that options with a date can go by it."""
+
+
+def results_options(command: Command) -> Command:
+    """Add the options of every command that reads results, which gets them as `reading`.
+
+    They are --aliases, --columns and --dates, by the names that `files.read_results` has.
+    """
+
+    def run(*, aliases: str | None, columns: dict[str, str], dates: str | None, **rest: Any) -> Any:
+        return command(reading={"aliases": aliases, "columns": columns, "dates": dates}, **rest)
+
+    wrapped: Any = update_wrapper(run, command)
+    return with_options(  # type: ignore[no-any-return]
+        wrapped,
+        dates_option,
+        click.option(
+            "--columns",
+            multiple=True,
+            metavar="NAME=TITLE,...",
+            callback=_columns,
+            help="What the file calls its columns, such as player_a=Home,player_b=Away; can be "
+            "repeated.",
+        ),
+        click.option(
+            "--aliases",
+            metavar="ALIASES.csv",
+            help="Names that mean the same player: a file with the columns name and means.",
+        ),
+    )
 
 
 safety_option = click.option(

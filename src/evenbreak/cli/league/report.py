@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import PurePath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -14,10 +14,10 @@ from evenbreak import answers, sheets
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import (
-    aliases_option,
     out_option,
     race_limit_options,
     refuse_both,
+    results_options,
     scale_option,
 )
 from evenbreak.cli.kit.terminal import say, write_folder
@@ -65,7 +65,7 @@ Examples:
     metavar="N",
     help=f"Pair the N players with the most games.  [default: {TOP}, without --players]",
 )
-@aliases_option
+@results_options
 @click.option(
     "--html", is_flag=True, help="Also write sheet.html, one file for phones, screens and printers."
 )
@@ -83,7 +83,7 @@ def command(
     race_to: int | None,
     players: tuple[str, ...],
     top: int | None,
-    aliases: str | None,
+    reading: dict[str, Any],
     html: bool,
     excel: bool,
     excel_csv: bool,
@@ -92,7 +92,8 @@ def command(
 
     RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a,
     score_b and, if known, date, race_a, race_b, winner, first_break, break_format,
-    racks, event and forfeit; - reads standard input. The sheet gives the rating
+    racks, event and forfeit; `evenbreak rate --help` names other ways. - reads standard
+    input. The sheet gives the rating
     of each player and the race nearest to even for each pair, a race to 7 unless --games
     or --race-to says otherwise. The sheet is printed here, and sheet.pdf is for the wall;
     --html adds a page to hand out, --excel a workbook.
@@ -109,7 +110,7 @@ def command(
     check_folder(out)
     offered = answers.OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
     say(f"Reading {'standard input' if results == '-' else results}")
-    file, warnings = _read(results, aliases)
+    file, warnings = _read(results, reading)
     say(f"Rating {len(file.results.players):,} players")
     ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of)
     if players:
@@ -130,11 +131,13 @@ def command(
     return replace(answer, warnings=[*warnings, *answer.warnings])
 
 
-def _read(results: str, aliases: str | None) -> tuple[ResultsFile, Sequence[str]]:
+def _read(results: str, reading: dict[str, Any]) -> tuple[ResultsFile, Sequence[str]]:
     """Return the results and the warnings about them; the file's own name no private folder."""
     from evenbreak.files.results import read_results
 
-    file = read_results(results, aliases=aliases)
+    file = read_results(results, **reading)
+    file = replace(file, warnings=(*file.warnings, *file.ties))
+    aliases = reading["aliases"]
     if aliases is None:
         return file, file.warnings
     # The sheet is handed out, and folders are private.
