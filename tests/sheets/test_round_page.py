@@ -9,6 +9,7 @@ from evenbreak import __version__
 from evenbreak.answers.matchups import matchups_answer
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
+from evenbreak.matches.pace import own_pace
 from evenbreak.ratings.roster import Roster
 from evenbreak.sheets.html_page import shown_name
 from evenbreak.sheets.round_page import MOST_ACROSS, MOST_MATCHES, round_html
@@ -65,7 +66,7 @@ class Tables(HTMLParser):
 
 
 def test_a_list_has_each_match_in_its_order():
-    text, frame = page_of(pairs=LIST, minutes_per_game=8.0)
+    text, frame = page_of(pairs=LIST, pace=own_pace(8.0))
     head, *rows = Tables(text, "matches").rows
     assert len(head) == 9
     for number, (cells, row) in enumerate(zip(rows, frame.itertuples(), strict=True), 1):
@@ -80,7 +81,7 @@ def test_a_list_has_each_match_in_its_order():
 
 
 def test_the_page_says_what_the_terminal_says():
-    offered, asked = OfferedRaces((7, 13)), {"minutes_per_game": 8.0, "tables": 2}
+    offered, asked = OfferedRaces((7, 13)), {"pace": own_pace(8.0), "tables": 2}
     text, _ = page_of(pairs=LIST, offered=offered, **asked)
     answer = matchups_answer(round_of(pairs=LIST, offered=offered, **asked))
     for sentence in (*answer.sentences[2].split("\n"), offered.in_words):
@@ -148,7 +149,7 @@ def test_pairs_that_cannot_be_compared_have_no_race(pairs):
 
 
 def test_the_evening_stands_above_the_matches():
-    text, _ = page_of(pairs=LIST, minutes_per_game=8.0, tables=2)
+    text, _ = page_of(pairs=LIST, pace=own_pace(8.0), tables=2)
     evening = re.search(r'class="evening">(.*?)</p>', text)
     assert evening
     assert "2 matches on 2 tables" in evening[1]

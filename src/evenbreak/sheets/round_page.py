@@ -14,6 +14,7 @@ from evenbreak.answers.round_words import (
     about_method,
     about_pairs,
     about_players,
+    about_time,
     evening_words,
     game_model,
     races_of,
@@ -79,11 +80,11 @@ def round_html(tonight: Round) -> bytes:
         title=f"Races of the round from {file_name(tonight.file)}",
         source=file_name(tonight.file),
         links=[*links, ("assumed", "What was assumed")],
-        evening=list(map(evening_words, tonight.evening)),
+        evening=[*map(evening_words, tonight.evening), about_time(tonight)],
         which_races=[which_races(tonight, prefix) for prefix in tonight.kinds],
         matches=_matches(tonight, lines) if tonight.listed else [],
         both=len(tonight.kinds) > 1,
-        minutes=tonight.minutes_per_game is not None,
+        minutes=tonight.pace is not None,
         about_pairs=list(about_pairs(tonight.matchups.frame)),
         kinds=kinds,
         about_ratings=[f"Ratings {scale_words(tonight.scale)}."],
@@ -162,7 +163,7 @@ def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[dict[str, Any]
         match |= {"chance": f"{chance:.2f}", "chance_b": f"{1.0 - chance:.2f}"}
         match["games"] = f"{row[f'{main}mean_games']:.1f}"
         match["games_p90"] = str(row[f"{main}games_p90"])
-        if tonight.minutes_per_game is not None:
+        if tonight.pace is not None:
             match["minutes"] = f"{row[f'{main}mean_minutes']:.0f}"
             match["minutes_p90"] = f"{row[f'{main}minutes_p90']:.0f}"
         if others:
