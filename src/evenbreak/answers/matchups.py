@@ -8,6 +8,7 @@ import pandas as pd
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.remarks import Remarks
 from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.round import AT_A_TIME, Round
 from evenbreak.answers.round_words import (
@@ -62,11 +63,12 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
     if doubtful(tonight):
         parts.append("'A wins' is averaged over how far the ratings may be off.")
     remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
-    parts += ["\n".join(f"- {remark}" for remark in remarks)] if remarks else []
+    parts += [Remarks(remarks)] if remarks else []
+    method = list(about_method(tonight))
     return Answer(
         f"Races for {file_name(tonight.file)}\nRatings {scale_words(tonight.scale)}",
         parts,
-        details=["\n".join([*map(str, about_method(tonight)), game_model(tonight)])],
+        details=[*([Remarks(method)] if method else []), game_model(tonight)],
         warnings=[*tonight.file.warnings, *warnings],
         data={"evening": tonight.evening, "pace": _pace(tonight)},
         csv=table,

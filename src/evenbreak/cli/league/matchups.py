@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -168,8 +170,17 @@ def command(
         listed=pairs is not None,
     )
     if html is not None:
-        write_file(html, sheets.round_html(tonight))
+        public = _without_folders([*warnings, *more], chart, pairs)
+        write_file(html, sheets.round_html(tonight, warnings=public))
     return answers.matchups_answer(tonight, warnings=[*warnings, *more])
+
+
+def _without_folders(warnings: Sequence[str], *paths: str | None) -> list[str]:
+    """Return warnings for a page that is handed out: folders are private."""
+    public = list(warnings)
+    for path in filter(None, paths):
+        public = [text.replace(path, PurePath(path).name) for text in public]
+    return public
 
 
 def _pace(discipline: str | None, minutes_per_game: float | None) -> Pace | None:
