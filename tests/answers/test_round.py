@@ -11,6 +11,11 @@ from leagues import round_of
 OFFERED = OfferedRaces((7, 13))
 
 
+def test_it_prints_in_a_line():
+    assert repr(round_of()) == "<Round of 6 pairs of 4 players>"
+    assert repr(round_of().matchups) == "<RosterMatchups of 6 pairs>"
+
+
 def test_the_races_to_play_come_first():
     assert list(round_of().kinds) == ["chart_"]
     assert list(round_of(offered=OFFERED).kinds) == ["chart_", ""]

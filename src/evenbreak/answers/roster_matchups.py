@@ -152,6 +152,9 @@ class RosterMatchups:
     best_lengths: Sequence[Length] | None
     linked: NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        return f"<RosterMatchups of {len(self.frame):,} pairs>"
+
 
 def roster_matchups(
     roster: Roster,

@@ -78,6 +78,9 @@ class Round:
     seed: int = 0
     listed: bool = False
 
+    def __repr__(self) -> str:
+        return f"<Round of {len(self.pairs):,} pairs of {len(self.roster):,} players>"
+
     @property
     def kinds(self) -> dict[str, AnyChart | OfferedRaces]:
         """What the races come from, by what their columns begin with: first those to play."""

@@ -38,6 +38,10 @@ class MatchMinutes:
     means: Floats
     log_sd: float
 
+    def __repr__(self) -> str:
+        law = f"mean {self.mean:.1f}" if np.ndim(self.mean) == 0 else f"{len(self.mean):,} matches"
+        return f"<MatchMinutes: {law}>"
+
     @property
     def mean(self) -> Any:
         """The mean in minutes."""
