@@ -88,8 +88,9 @@ def test_a_season_is_named_and_explained():
 def test_the_paper_says_what_the_terminal_says():
     (page,), sheet = pages_of(league(5))
     words = " ".join(texts(page))
-    first, how_to_read, about_ratings = report_answer(sheet).sentences
-    assert how_to_read in words
+    answer = report_answer(sheet)
+    first, about_ratings = answer.sentences
+    assert answer.parts[1].title in words
     assert about_ratings in words
     assert first.removeprefix(sheet.offered.in_words).strip() in words
 
@@ -123,6 +124,20 @@ def test_players_who_cannot_be_compared_have_a_dash():
     assert found["Player 1", "Player 3"] == found["Player 3", "Player 1"] == "-"
     assert found.items() >= sheet.races.items()
     assert len(sheet.races) == 4
+
+
+def test_players_who_never_met_have_their_group_beside_them():
+    (page,), sheet = pages_of(two_groups())
+    words = texts(page)
+    assert "group" in words
+    for player, group in zip(sheet.rated["player"], sheet.rated["component"], strict=True):
+        (y,) = (text.get_position()[1] for text in page.axes[0].texts if text.get_text() == player)
+        on_line = [t for t in page.axes[0].texts if t.get_position()[1] == pytest.approx(y)]
+        rightmost = max(on_line, key=lambda text: text.get_position()[0])
+        assert rightmost.get_text() == str(group)
+        assert rightmost.get_position()[0] <= WIDTH - MARGIN + 1e-9
+    (one_group,), _ = pages_of(league(3))
+    assert "group" not in texts(one_group)
 
 
 def test_a_sheet_without_any_race_can_be_printed():

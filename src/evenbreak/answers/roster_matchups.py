@@ -25,6 +25,8 @@ from evenbreak.handicaps.charts.given_ratings import (
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.charts.level_scale import LevelScale
 from evenbreak.matches.evening import Length
+from evenbreak.matches.minutes import match_minutes
+from evenbreak.matches.pace import Pace
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 
@@ -89,7 +91,8 @@ class Races:
 
     `p_win` is P(A wins | the ratings and their errors), `plug_in` P(A wins | the ratings are
     right); `mean` and `p90` are the mean length and the games within which 90% of such races
-    end; `lengths` has the distribution of each race's length.
+    end; `minutes` has the same two in minutes, if there is a pace, and `lengths` the distribution
+    of each race's length.
     """
 
     m: Ints
@@ -99,16 +102,23 @@ class Races:
     mean: Floats
     p90: Ints
     lengths: Sequence[Length]
+    minutes: tuple[Floats, Floats] | None
 
     @classmethod
-    def of(cls, gap: Floats, error: Floats, m: Ints, n: Ints, scale: Scale) -> Races:
+    def of(
+        cls, gap: Floats, error: Floats, m: Ints, n: Ints, scale: Scale, pace: Pace | None = None
+    ) -> Races:
         """Return the races m:n of pairs with these differences and standard errors."""
         mean, p90 = np.zeros(len(gap)), np.zeros(len(gap), dtype=np.int64)
+        minutes = np.zeros((2, len(gap)))
         lengths: list[Length] = [Length([], [])] * len(gap)
         for race in np.unique(np.column_stack([m, n]), axis=0).tolist():
             of_race = np.flatnonzero((m == race[0]) & (n == race[1]))
             length = length_given_ratings(gap[of_race], error[of_race], *race, scale=scale)
             mean[of_race], p90[of_race] = length.mean, length.quantile(0.9)
+            if pace is not None:
+                timed = match_minutes(length.games, length.probability, pace)
+                minutes[:, of_race] = timed.mean, timed.quantile(0.9)
             for place, chances in zip(of_race.tolist(), length.probability, strict=True):
                 lengths[place] = Length(length.games, chances)
         return cls(
@@ -119,6 +129,7 @@ class Races:
             mean,
             p90,
             lengths,
+            None if pace is None else (minutes[0], minutes[1]),
         )
 
 
@@ -142,6 +153,9 @@ class RosterMatchups:
     best_lengths: Sequence[Length] | None
     linked: NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        return f"<RosterMatchups of {len(self.frame):,} pairs>"
+
 
 def roster_matchups(
     roster: Roster,
@@ -151,7 +165,7 @@ def roster_matchups(
     chart: Chart | LevelChart | None = None,
     levels: LevelScale | None = None,
     offered: OfferedRaces | None = None,
-    minutes_per_game: float | None = None,
+    pace: Pace | None = None,
 ) -> RosterMatchups:
     """Return the races of pairs of players, their chances and their lengths.
 
@@ -170,8 +184,8 @@ def roster_matchups(
         how strong the levels are, where ratings are skill levels; None: ratings are strengths.
     offered
         the races among which the fairest is sought.
-    minutes_per_game
-        how long a game takes; None: no minutes.
+    pace
+        how fast matches are played; None: no minutes.
 
     Returns
     -------
@@ -211,14 +225,14 @@ def roster_matchups(
     }
     by_chart = best = None
     if chart is not None:
-        by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
-        columns |= _columns("chart_", by_chart, minutes_per_game)
+        by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale, pace)
+        columns |= _columns("chart_", by_chart)
     if offered is not None:
         found = fair_races_given_ratings(
             gap, error, games=offered.games, race_to=offered.race_to, scale=scale
         )
-        best = Races.of(gap, error, *found, scale)
-        columns |= _columns("", best, minutes_per_game)
+        best = Races.of(gap, error, *found, scale, pace)
+        columns |= _columns("", best)
     everyone = {
         "player_a": [roster.players[k] for k in pairs[:, 0].tolist()],
         "player_b": [roster.players[k] for k in pairs[:, 1].tolist()],
@@ -254,7 +268,7 @@ def _whole(rating: Floats) -> Floats:
     return rounded
 
 
-def _columns(prefix: str, races: Races, minutes: float | None) -> dict[str, Any]:
+def _columns(prefix: str, races: Races) -> dict[str, Any]:
     columns: dict[str, Any] = {
         "race_a": races.m,
         "race_b": races.n,
@@ -264,8 +278,8 @@ def _columns(prefix: str, races: Races, minutes: float | None) -> dict[str, Any]
     if prefix:
         columns["unfairness"] = np.abs(races.p_win - 0.5)
     columns |= {"mean_games": races.mean, "games_p90": races.p90}
-    if minutes is not None:
-        columns |= {"mean_minutes": races.mean * minutes, "minutes_p90": races.p90 * minutes}
+    if races.minutes is not None:
+        columns |= dict(zip(("mean_minutes", "minutes_p90"), races.minutes, strict=True))
     return {prefix + name: values for name, values in columns.items()}
 
 

@@ -68,6 +68,9 @@ class Sheet:
         paired = matchups_frame(ratings, players, offered)
         return cls(file, ratings, offered, ratings.to_frame(), paired, choice)
 
+    def __repr__(self) -> str:
+        return f"<Sheet of {len(self.paired):,} pairs of {len(self.listed):,} players>"
+
     def strongest(self, most: int) -> Sheet:
         """Return the sheet with the races of the strongest players only."""
         names = set(self.listed["player"].head(most))

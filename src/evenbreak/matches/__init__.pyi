@@ -15,8 +15,15 @@ from .length_law import MatchLength as MatchLength
 from .live import LiveOdds as LiveOdds
 from .live import Standing as Standing
 from .live import live_odds as live_odds
+from .minutes import MatchMinutes as MatchMinutes
+from .minutes import match_minutes as match_minutes
 from .odds import MatchOdds as MatchOdds
 from .odds import match_odds as match_odds
+from .pace import PACES as PACES
+from .pace import Pace as Pace
+from .pace import Turnover as Turnover
+from .pace import own_pace as own_pace
+from .pace import pace_of as pace_of
 from .races import RaceOdds as RaceOdds
 from .races import race_odds as race_odds
 from .scores import FinalScores as FinalScores

@@ -11,8 +11,8 @@ from typing import Any
 
 import pandas as pd
 
+from evenbreak.answers.file_warnings import warnings_of
 from evenbreak.answers.left_out import left_out
-from evenbreak.answers.remarks import warnings_of
 from evenbreak.answers.sheet import NO_RACE, Sheet
 from evenbreak.errors import InputError
 

@@ -154,6 +154,26 @@ def test_the_evening_is_in_every_face(run, roster):
     assert answer(run, *words)["evening"] == []
 
 
+def test_minutes_go_by_the_discipline_and_the_turnover(run, roster):
+    words = (roster(), "--chart", "npl_10", "--tables", "1")
+    nine, eight, quick = (
+        answer(run, *words, *more)
+        for more in (
+            ("--discipline", "9-ball"),
+            ("--discipline", "8-ball"),
+            ("--discipline", "9-ball", "--turnover", "0"),
+        )
+    )
+    for row in nine["pairs"]:
+        assert row["chart_mean_minutes"] == pytest.approx(3.8 + 5.58 * row["chart_mean_games"])
+    assert nine["pace"]["discipline"] == "9-ball"
+    assert nine["pace"]["turnover"] == 10.8
+    ends = [found["evening"][0]["mean_minutes"] for found in (eight, nine, quick)]
+    assert ends == sorted(ends, reverse=True)
+    assert ends[1] - ends[2] == pytest.approx(10.8 * (len(nine["pairs"]) - 1))
+    assert answer(run, roster(), "--chart", "npl_10")["pace"] is None
+
+
 def test_the_seed_decides_an_evening_that_is_simulated(run, roster):
     words = (roster(), *SURE, "--minutes-per-game", "8", "--tables", "2")
     first, again, other = (
@@ -219,6 +239,9 @@ def test_stdin(run):
         (("--race-to", "7", "--tables", "2"), "--minutes-per-game"),
         (("--race-to", "7", "--tables", "0", "--minutes-per-game", "8"), "from 1 to 1000"),
         (("--race-to", "7", "--minutes-per-game", "0"), "'0'"),
+        (("--race-to", "7", "--discipline", "snooker"), "snooker"),
+        (("--race-to", "7", "--discipline", "8-ball", "--minutes-per-game", "8"), "--discipline"),
+        (("--race-to", "7", "--discipline", "8-ball", "--turnover", "5"), "--tables"),
         (("--race-to", "7", "--minutes-per-game", "nan"), "'nan'"),
         (("--race-to", "7", "--starter", "x"), "'x'"),
         (("--race-to", "7", "--starter-sd", "-1"), "'-1'"),
@@ -254,7 +277,8 @@ def test_examples_of_the_help_name_options_that_exist():
 
 DEMO = str(DATA / "demo_roster.csv")
 LINE = (
-    "--games --race-to --chart --tables --minutes-per-game --scale --starter --json 7..9 3 npl_8 2"
+    "--games --race-to --chart --tables --minutes-per-game --discipline --turnover --scale "
+    "--starter --json 7..9 3 npl_8 2 8-ball"
 )
 words = st.sampled_from(LINE.split()) | st.text(max_size=4)
 

@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+from html import unescape
 
 import pytest
 from hypothesis import given, settings
@@ -201,7 +202,7 @@ def test_aliases_mend_names_and_the_page_keeps_their_folder_to_itself(run, tmp_p
     assert f"{aliases}: 'Annie' as 'Ann'" in result.stderr
     assert {row["player"] for row in rows(out, "ratings.csv")} == {"Ann", "Bo", "Cy"}
     page = content(out)["sheet.html"].decode()
-    assert "aliases.csv: &#39;Annie&#39; as &#39;Ann&#39;" in page
+    assert "aliases.csv: 'Annie' as 'Ann'" in unescape(page)
     assert "private" not in page
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak import answers, files, handicaps, ratings, sheets
+from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.answers.round import AnyChart
+    from evenbreak.matches.pace import Pace
 
 
 MOST_PAIRS = 1_000_000
@@ -40,12 +43,15 @@ MOST_MATCHES = 1_000
 POINTS = Number(-1e6, 1e6, " is not a number of rating points; give one such as 80")
 SPREAD = Number(0.0, 1e6, " is not a spread; give 0 or more points, such as 30")
 MINUTES = Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5")
+TURNOVER = Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0")
+
+DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 
 EXAMPLES = """\b
 Examples:
   evenbreak matchups roster.csv --chart npl_10
   evenbreak matchups roster.csv --games 7..13 --pairs tonight.csv --html tonight.html
-  evenbreak matchups roster.csv --race-to 7 --minutes-per-game 8 --tables 4
+  evenbreak matchups roster.csv --race-to 7 --discipline 9-ball --tables 4
 """
 
 
@@ -72,10 +78,24 @@ Examples:
     help="How far off that may be (standard deviation).  [default: what doubles the odds]",
 )
 @click.option(
-    "--minutes-per-game", metavar="MINUTES", type=MINUTES, help="Give the lengths in minutes."
+    "--discipline",
+    type=click.Choice(DISCIPLINES),
+    help="Give the lengths in minutes, at the usual pace of this game.",
+)
+@click.option(
+    "--minutes-per-game",
+    metavar="MINUTES",
+    type=MINUTES,
+    help="Give the lengths in minutes, at this pace on average.",
 )
 @click.option(
     "--tables", type=Whole(1, 1000), metavar="T", help="Say when the round ends on T tables."
+)
+@click.option(
+    "--turnover",
+    metavar="MINUTES",
+    type=TURNOVER,
+    help="The time between two matches on a table, on average.  [default: 10.8]",
 )
 @seed_option("The seed of the evenings that have to be simulated.", default=0)
 @click.option(
@@ -95,8 +115,10 @@ def command(
     scale: Scale | None,
     starter: float | None,
     starter_sd: float | None,
+    discipline: str | None,
     minutes_per_game: float | None,
     tables: int | None,
+    turnover: float | None,
     seed: int,
     html: str | None,
 ) -> Answer:
@@ -113,8 +135,14 @@ def command(
     refuse_both(games, race_to)
     if chart is None and games is None and race_to is None:
         refuse("say which races; give --chart NAME, --games LO..HI or --race-to N")
-    if tables is not None and minutes_per_game is None:
-        refuse("--tables needs to know how long a game takes; add --minutes-per-game, such as 8")
+    pace = _pace(discipline, minutes_per_game)
+    if tables is not None and pace is None:
+        refuse(
+            "--tables needs to know how long games take; add --discipline, such as 9-ball, or "
+            "--minutes-per-game, such as 8"
+        )
+    if turnover is not None and tables is None:
+        refuse("--turnover is the time between two matches on a table; say how many --tables")
     if [roster, pairs, chart].count("-") > 1:
         refuse("only one list can come from standard input; name a file for the other")
     of_league, warnings = (None, []) if chart is None else _chart(chart)
@@ -143,14 +171,32 @@ def command(
         chart=of_league,
         levels=levels,
         offered=None if games is None and race_to is None else answers.OfferedRaces(games, race_to),
-        minutes_per_game=minutes_per_game,
+        pace=pace,
         tables=tables,
+        turnover=matches.Turnover() if turnover is None else matches.Turnover(turnover),
         seed=seed,
         listed=pairs is not None,
     )
     if html is not None:
-        write_file(html, sheets.round_html(tonight))
+        public = _without_folders([*warnings, *more], chart, pairs)
+        write_file(html, sheets.round_html(tonight, warnings=public))
     return answers.matchups_answer(tonight, warnings=[*warnings, *more])
+
+
+def _without_folders(warnings: Sequence[str], *paths: str | None) -> list[str]:
+    """Return warnings for a page that is handed out: folders are private."""
+    public = list(warnings)
+    for path in filter(None, paths):
+        public = [text.replace(path, PurePath(path).name) for text in public]
+    return public
+
+
+def _pace(discipline: str | None, minutes_per_game: float | None) -> Pace | None:
+    if discipline is not None and minutes_per_game is not None:
+        refuse("--discipline and --minutes-per-game cannot be combined; leave one out")
+    if minutes_per_game is not None:
+        return matches.own_pace(minutes_per_game)
+    return None if discipline is None else matches.pace_of(discipline)
 
 
 def _chart(name: str) -> tuple[AnyChart, list[str]]:
