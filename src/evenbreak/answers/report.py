@@ -6,10 +6,10 @@ import pandas as pd
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.left_out import left_out
-from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.scale_words import decimals_of
-from evenbreak.answers.sheet import NO_RACE, Sheet
+from evenbreak.answers.sheet import MOST_ON_SHEET, NO_RACE, Sheet
 from evenbreak.answers.sheet_words import (
     about_ratings,
     how_even,
@@ -21,8 +21,8 @@ from evenbreak.answers.sheet_words import (
 )
 from evenbreak.files.csv_writer import rows_of
 
-MOST_SHOWN = 30
-"""Players whose races are shown; JSON and files hold all."""
+MOST_ACROSS = 30
+"""Players whose races are a table on a terminal; of more only the ratings are shown there."""
 
 
 def report_answer(sheet: Sheet) -> Answer:
@@ -37,14 +37,17 @@ def report_answer(sheet: Sheet) -> Answer:
     >>> answer.sentences[1]
     "Find your row and your opponent's column. 7:6 means that you need 7 games and your opponent 6."
     """
-    shown = sheet.strongest(MOST_SHOWN)
-    items = list(left_out(sheet, in_table=len(shown.listed)))
+    shown = sheet.strongest(MOST_ON_SHEET)
+    many = len(shown.listed)
+    races: list[Part] = [how_to_read(shown.paired), _race_table(shown)]
+    if many > MOST_ACROSS:
+        races = [f"sheet.pdf has the races between the {many} players listed below."]
+    items = list(left_out(sheet, in_table=many))
     return Answer(
         f"Fair races from {source_and_dates(sheet)}\n{played(sheet)}",
         [
             " ".join([sheet.offered.in_words, *how_even(shown.paired)]),
-            how_to_read(shown.paired),
-            _race_table(shown),
+            *races,
             " ".join([*about_ratings(sheet), how_rated(sheet)]),
             _ratings_table(shown),
             *(["\n".join(["Left out:", *(f"- {item}" for item in items)])] if items else []),

@@ -20,12 +20,15 @@ def ratings_frame(ratings: Ratings) -> pd.DataFrame:
     -------
     pandas.DataFrame
         player; rating, standard_error and quasi_error in points of the scale; games, won
-        and lost in the matches that were used; component: players with the same number are
+        and lost in the matches that were used; races_won and races_lost, where there are
+        matches of which only the winner is known; component: players with the same number are
         linked by a chain of opponents, and only their ratings can be compared; scale: the
         name of the scale, or the points that double the odds, the same in each row.
     """
     order = by_strength(ratings, range(len(ratings.players)))
-    columns = ("rating", "standard_error", "quasi_error", "games", "won", "lost", "component")
+    columns = ["rating", "standard_error", "quasi_error", "games", "won", "lost"]
+    columns += ["races_won", "races_lost"] if ratings.races_won.any() else []
+    columns.append("component")
     return pd.DataFrame(
         {
             "player": [ratings.players[k] for k in order],

@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from evenbreak.answers.fair_pairs import NOT_LINKED
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
 from evenbreak.files.problems import Problems, quoted
@@ -18,7 +17,6 @@ from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.given_ratings import (
     MOST_DOUBLINGS,
-    fair_races_given_ratings,
     length_given_ratings,
     win_given_ratings,
 )
@@ -32,6 +30,9 @@ Ints = NDArray[np.int64]
 
 FAIR_WITHIN = 0.1
 """How far from 1/2 the chance of a fair race may be."""
+
+NOT_LINKED = "no race: no chain of opponents links the two"
+"""The note on a pair whose ratings cannot be compared."""
 
 NOT_FAIR = "no race allowed is fair"
 """How the note begins on a pair whose fairest race is not within `FAIR_WITHIN`."""
@@ -209,10 +210,7 @@ def roster_matchups(
         by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
         columns |= _columns("chart_", by_chart, minutes_per_game)
     if offered is not None:
-        found = fair_races_given_ratings(
-            gap, error, games=offered.games, race_to=offered.race_to, scale=scale
-        )
-        best = Races.of(gap, error, *found, scale)
+        best = Races.of(gap, error, *offered.fairest(gap, error, scale), scale)
         columns |= _columns("", best, minutes_per_game)
     everyone = {
         "player_a": [roster.players[k] for k in pairs[:, 0].tolist()],

@@ -4,7 +4,7 @@ from evenbreak.answers.left_out import left_out
 from evenbreak.answers.remarks import warnings_of
 from evenbreak.answers.report_frames import count_groups, file_name
 from evenbreak.answers.scale_words import decimals_of
-from evenbreak.answers.sheet import Sheet
+from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
 from evenbreak.answers.sheet_words import (
     about_ratings,
     how_even,
@@ -20,8 +20,8 @@ from evenbreak.sheets.html_page import html_page
 from evenbreak.sheets.race_blocks import race_blocks, race_cards
 from evenbreak.sheets.rating_bars import Bars, player_lines
 
-MOST_LISTED, MOST_IN_TABLE = 500, 48
-"""Players in the list of ratings and in the table of races; the CSV files hold all."""
+MOST_LISTED = 500
+"""Players in the list of ratings; the CSV files hold all."""
 
 
 def sheet_html(sheet: Sheet) -> bytes:
@@ -29,7 +29,7 @@ def sheet_html(sheet: Sheet) -> bytes:
 
     It has no script, and its Content-Security-Policy allows nothing but its own style. A
     wide page and paper show the table of races, a narrow one each player's races. The 500
-    strongest players are listed, and the races of the 48 strongest of those who are paired.
+    strongest players are listed, and the races of the `MOST_ON_SHEET` strongest of those paired.
 
     Returns
     -------
@@ -47,7 +47,7 @@ def sheet_html(sheet: Sheet) -> bytes:
     >>> page[:15], "Fair races from season.csv" in page, "://" in page
     ('<!doctype html>', True, False)
     """
-    shown, scale = sheet.strongest(MOST_IN_TABLE), sheet.ratings.scale
+    shown, scale = sheet.strongest(MOST_ON_SHEET), sheet.ratings.scale
     bars = Bars(sheet.rated)
     grouped = count_groups(sheet.ratings) > 1
     lines = player_lines(sheet.rated, scale, bars, grouped=grouped)
@@ -71,7 +71,9 @@ def sheet_html(sheet: Sheet) -> bytes:
         ticks=bars.ticks(),
         bands=shown.bands,
         decimals=decimals_of(scale),
-        plot=evenness_plot(shown.bands, shown.sure, scale) if shown.sure else None,
+        plot=evenness_plot(shown.bands, shown.sure, scale, shown.typical_error)
+        if shown.sure
+        else None,
         size=(WIDTH, HEIGHT),
         how_sure=list(how_sure(scale, shown.sure)),
         sure=three_pairs(shown.sure),

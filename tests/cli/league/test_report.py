@@ -1,5 +1,6 @@
 import csv
 import io
+import itertools
 import json
 import os
 import signal
@@ -84,10 +85,14 @@ def test_the_columns_are_those_of_the_documentation(demo):
         [
             "player_a",
             "player_b",
+            "difference",
+            "difference_error",
             "p_game_a",
+            "p_game_a_plug_in",
             "race_a",
             "race_b",
             "p_win_a",
+            "p_win_a_plug_in",
             "mean_games",
             "games_p90",
             "note",
@@ -108,8 +113,28 @@ def test_the_true_order_of_the_demo_league_is_found(demo):
     assert set(players[-2:]) == {"Cosmo Dilworthy", "Pia Rautavuori"}
 
 
-def test_ten_players_with_the_most_games_are_paired(demo):
+def test_all_players_are_paired_in_the_order_of_their_ratings(demo):
     _, folder = demo
+    matchups = rows(folder, "matchups.csv")
+    players = [row["player"] for row in rows(folder, "ratings.csv")]
+    assert [(row["player_a"], row["player_b"]) for row in matchups] == (
+        list(itertools.combinations(players, 2))
+    )
+    assert len(players) == 24
+    assert {row["race_a"] for row in matchups} == {"7"}
+
+
+def test_the_pairs_of_a_report_are_those_of_matchups_with_its_ratings(run, demo):
+    _, folder = demo
+    listed = run("matchups", str(folder / "ratings.csv"), "--race-to", "7", "--csv").stdout
+    assert list(csv.DictReader(io.StringIO(listed))) == rows(folder, "matchups.csv")
+
+
+def test_of_a_large_league_those_who_played_most_are_paired(run, tmp_path, monkeypatch):
+    monkeypatch.setattr("evenbreak.cli.league.report.MOST_ON_SHEET", 10)
+    result = run("report", str(DEMO), "--out", str(tmp_path))
+    assert "--top" in result.stderr
+    folder = tmp_path
     matchups = rows(folder, "matchups.csv")
     assert len(matchups) == 45
     paired = {row[side] for row in matchups for side in ("player_a", "player_b")}
@@ -138,7 +163,10 @@ def test_the_scale_only_rescales(run, demo, tmp_path):
     _, npl = demo
     result = run("report", str(DEMO), "--out", str(tmp_path), "--scale", "fargo")
     assert "Fargo-like" in result.stdout
-    assert content(tmp_path)["matchups.csv"] == content(npl)["matchups.csv"]
+    for one, other in zip(rows(npl, "matchups.csv"), rows(tmp_path, "matchups.csv"), strict=True):
+        for name in ("player_a", "race_a", "race_b", "games_p90", "note"):
+            assert other[name] == one[name]
+        assert float(other["p_win_a"]) == pytest.approx(float(one["p_win_a"]), abs=2e-6)
     for one, other in zip(rows(npl, "ratings.csv"), rows(tmp_path, "ratings.csv"), strict=True):
         rescaled = 500 + (float(one["rating"]) - 80) * 100 / 30
         assert float(other["rating"]) == pytest.approx(rescaled, abs=1e-5)

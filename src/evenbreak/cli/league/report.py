@@ -11,6 +11,7 @@ import click
 
 from evenbreak import answers, sheets
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.sheet import MOST_ON_SHEET
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import (
     aliases_option,
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from evenbreak.files.results import ResultsFile
 
 
-TOP, MOST_PAIRED = 10, 1000
+MOST_PAIRED = 1000
 RACE_TO = 7
 
 EXAMPLES = """\b
@@ -36,7 +37,7 @@ Examples:
   evenbreak report season.csv --out sheet
   evenbreak report season.csv --out sheet --scale fargo --race-to 9
   evenbreak report season.csv --out sheet --games 7..13 --players "Ann Lee,Bo Diaz"
-  evenbreak report season.csv --out sheet --top 24 --html --excel
+  evenbreak report season.csv --out sheet --html --excel
   evenbreak report season.csv --out sheet --prior best --half-life 365
 """
 
@@ -59,7 +60,8 @@ Examples:
     "--top",
     type=Whole(2, MOST_PAIRED),
     metavar="N",
-    help=f"Pair the N players with the most games.  [default: {TOP}, without --players]",
+    help="Pair only the N players with the most games.  "
+    f"[default: everybody, or {MOST_ON_SHEET} of a larger league]",
 )
 @aliases_option
 @click.option(
@@ -90,7 +92,7 @@ def command(
     score_b and, if known, date, race_a, race_b, winner, first_break, break_format,
     racks, event and forfeit; - reads standard input. The sheet gives the rating
     of each player and the race nearest to even for each pair, a race to 7 unless --games
-    or --race-to says otherwise. The sheet is printed here, and sheet.pdf is for the wall;
+    or --race-to says otherwise. It holds all players, the strongest first. The sheet is printed here, and sheet.pdf is for the wall;
     --html adds a page to hand out, --excel a workbook.
     """
     refuse_both(games, race_to)
@@ -111,12 +113,13 @@ def command(
     if players:
         chosen = answers.find_players(ratings, _names(players, ratings.players), said="--players")
     else:
-        chosen = answers.most_active(ratings, TOP if top is None else top)
+        chosen = answers.most_active(ratings, MOST_ON_SHEET if top is None else top)
     if len(chosen) < 2:
         refuse("--players names one player; name two or more")
-    more = not players and top is None and len(chosen) < len(ratings.players)
-    hint = " (--top N pairs more, --players those you name)" if more else ""
-    say(f"Pairing {len(chosen):,} of them{hint}")
+    if len(chosen) < len(ratings.players):
+        why = "" if players else " who have played most"
+        hint = "" if players or top is not None else " (or --top N, or --players to name them)"
+        say(f"Pairing the {len(chosen):,}{why}{hint}")
     sheet = answers.Sheet.of(file, ratings, offered, chosen, choice)
     files = _files(sheet, html=html, excel=excel, excel_csv=excel_csv)
     write_folder(out, files)

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import roots_hermitenorm
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import floats, plain, probability, together, whole
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
@@ -177,6 +177,8 @@ def fair_races_given_ratings(
     target = float(probability(target, "target"))
     gap, error = np.broadcast_arrays(*_checked(difference, standard_error, scale))
     low, high = longest_matches(games, race_to)
+    if race_to is not None:
+        return _fairest_race_to(gap, error, low, scale, target)
     nodes, weights = _rule(float(error.max(initial=0.0)), high + 1, scale)
     m, longest = np.empty(gap.size, dtype=np.int64), np.empty(gap.size, dtype=np.int64)
     step = max(1, _AT_A_TIME // (len(nodes) * (high + 2)))
@@ -184,8 +186,7 @@ def fair_races_given_ratings(
         part = slice(first, first + step)
         ahead = gap.reshape(-1)[part]
         p = scale.win_probability(ahead + nodes[:, np.newaxis] * error.reshape(-1)[part])
-        fixed = None if race_to is None else (low, ahead >= 0.0)
-        m[part], longest[part] = _nearest(p, weights, low, high, fixed, target)
+        m[part], longest[part] = _nearest(p, weights, low, high, target)
     return m.reshape(gap.shape), (longest + 1 - m).reshape(gap.shape)
 
 
@@ -217,14 +218,30 @@ def _hermite(number: int) -> tuple[Floats, Floats]:
     return nodes[kept], weights[kept]
 
 
-def _nearest(
-    p: Floats,
-    weights: Floats,
-    low: int,
-    high: int,
-    fixed: tuple[int, Bools] | None,
-    target: float,
+def _fairest_race_to(
+    gap: Floats, error: Floats, needs: int, scale: Scale, target: float
 ) -> tuple[Ints, Ints]:
+    """Return (m, n) where the stronger player needs so many games, and the other at most as many.
+
+    The stronger player's chance rises with the games that the other needs, so the nearest to
+    the target is found by bisection.
+    """
+    ahead = gap >= 0.0
+    wanted = np.where(ahead, target, 1.0 - target)
+
+    def away(fewer: Ints) -> Floats:
+        return win_given_ratings(np.abs(gap), error, needs, fewer, scale=scale) - wanted
+
+    below, above = np.ones(gap.shape, dtype=np.int64), np.full(gap.shape, needs)
+    while (above - below > 1).any():
+        middle = (below + above) // 2
+        enough = away(middle) >= 0.0
+        below, above = np.where(enough, below, middle), np.where(enough, middle, above)
+    fewer = np.where(np.abs(away(above)) < np.abs(away(below)) - _TIE, above, below)
+    return np.where(ahead, needs, fewer), np.where(ahead, fewer, needs)
+
+
+def _nearest(p: Floats, weights: Floats, low: int, high: int, target: float) -> tuple[Ints, Ints]:
     """Return m and m + n - 1 of the best race for each column of p, shape (nodes, pairs).
 
     `row[m]` is W(p; m, n) for the races with one m + n - 1, from m = 0 (player 1 has won) on.
@@ -239,12 +256,8 @@ def _nearest(
         if longest < low:
             continue
         away = np.abs(np.einsum("k,mkj->mj", weights, inner) - target)
-        if fixed is None:
-            # The first of those that tie.
-            place = (away <= away.min(axis=0) + _TIE).argmax(axis=0)
-        else:
-            needs, ahead = fixed
-            place = np.where(ahead, needs, longest + 1 - needs) - 1
+        # The first of those that tie.
+        place = (away <= away.min(axis=0) + _TIE).argmax(axis=0)
         found = away[place, pairs]
         better = found < best - _TIE
         best = np.where(better, found, best)
