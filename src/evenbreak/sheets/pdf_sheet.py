@@ -58,8 +58,8 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
 
     Each line is a player: the fairest race against each opponent, the rating, and a bar of
     two standard errors of it either way. A league too large for a page is cut into blocks,
-    each a page; of more than `MOST_ON_SHEET` paired players the strongest are on paper. White squares
-    stand for letters that the font lacks.
+    each a page; of more than `MOST_ON_SHEET` paired players the strongest are on paper. White
+    squares stand for letters that the font lacks.
 
     >>> from evenbreak.answers.offered_races import OfferedRaces
     >>> from evenbreak.files.results import ResultsFile

@@ -92,8 +92,8 @@ def command(
     score_b and, if known, date, race_a, race_b, winner, first_break, break_format,
     racks, event and forfeit; - reads standard input. The sheet gives the rating
     of each player and the race nearest to even for each pair, a race to 7 unless --games
-    or --race-to says otherwise. It holds all players, the strongest first. The sheet is printed here, and sheet.pdf is for the wall;
-    --html adds a page to hand out, --excel a workbook.
+    or --race-to says otherwise, and holds all players, the strongest first. The sheet is printed
+    here, and sheet.pdf is for the wall; --html adds a page to hand out, --excel a workbook.
     """
     refuse_both(games, race_to)
     if players and top is not None:
