@@ -11,7 +11,7 @@ from evenbreak.games import Drill
 
 def test_success_goes_up_and_failure_down() -> None:
     drill = Drill([0.9, 0.5, 0.25])
-    assert drill.moves(1) == {2: 0.9, 1: 1 - 0.9}
+    assert drill.moves(1) == {2: 0.9, 1: 0.1}
     assert drill.moves(2) == {3: 0.5, 1: 0.5}
     assert drill.moves(3) == {3: 0.25, 2: 0.75}
     assert drill.start == 1

@@ -76,7 +76,7 @@ def test_races_in_a_break_format(breaks: Any) -> None:
         ends = final_scores(race).probability
         for at in np.ndindex(P1.shape):
             expected = table[at][MOST - m, MOST - n, first]
-            odds = race_odds(m, n, float(P1[at]), float(P2[at]), breaks, first)
+            odds = race_odds(m, n, Rack(float(P1[at]), float(P2[at])), breaks, first)
             for player, one, scalar in zip(
                 (1, 2), chance, (odds.p_win_1, odds.p_win_2), strict=True
             ):

@@ -54,7 +54,7 @@ class TwoPlayers:
         cls, rating_a: float, rating_b: float, scale: Scale, names: tuple[str, str] = ("A", "B")
     ) -> TwoPlayers:
         """Return two players of whom the ratings are known."""
-        rack = Rack(scale.win_probability(rating_a - rating_b))
+        rack = scale.rack(rating_a - rating_b)
         return cls(rack, ratings=(rating_a, rating_b), scale=scale, names=names)
 
     @property

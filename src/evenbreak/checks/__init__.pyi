@@ -5,6 +5,7 @@ from .arrays import plain as plain
 from .arrays import probability as probability
 from .arrays import together as together
 from .arrays import whole_numbers as whole_numbers
+from .complement import complement as complement
 from .numbers import number as number
 from .numbers import number_probabilities as number_probabilities
 from .numbers import number_probability as number_probability

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from evenbreak.checks import number_probabilities, number_probability, whole
+from evenbreak.checks import complement, number_probabilities, number_probability, whole
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Drill:
         """Return the probability of each next level, given an attempt at level `state`."""
         p = self.success[state - 1]
         up, down = min(state + 1, len(self.success)), max(state - 1, 1)
-        return {up: 1.0} if up == down else {up: p, down: 1.0 - p}
+        return {up: 1.0} if up == down else {up: p, down: complement(p)}
 
     def winner(self, state: int) -> None:  # noqa: ARG002
         """Return None: a drill has no winner and no end."""

@@ -71,9 +71,7 @@ def match_odds(match: Match) -> MatchOdds:
     """
     rack = checked_match(match).innermost_rack.of_numbers()
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
-        race = race_odds(
-            match.m, match.n, rack.p1, rack.p2, match.breaks, match.first_breaker, match.score
-        )
+        race = race_odds(match.m, match.n, rack, match.breaks, match.first_breaker, match.score)
         return MatchOdds(
             p_win_1=race.p_win_1,
             p_win_2=race.p_win_2,

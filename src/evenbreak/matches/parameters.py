@@ -53,8 +53,8 @@ def at_score(match: AnyMatch, score: Score | None) -> tuple[AnyMatch, tuple[int,
         return match, shape
     import numpy as np
 
-    p1, p2 = np.broadcast_arrays(rack.p1, rack.p2)
-    return with_rack(match, Rack(p1, p2)), shape
+    p1, p2, q1, q2 = np.broadcast_arrays(rack.p1, rack.p2, rack.q1, rack.q2)
+    return with_rack(match, Rack(p1, p2, q1=q1, q2=q2)), shape
 
 
 def in_shape(value: Any, shape: tuple[int, ...]) -> Any:

@@ -78,8 +78,7 @@ class RaceOdds(NamedTuple):
 def race_odds(
     m: int,
     n: int,
-    p1: float,
-    p2: float | None = None,
+    rack: Rack[float] | float,
     breaks: BreakFormat | None = None,
     first_breaker: int = 1,
     score: tuple[int, int] = (0, 0),
@@ -90,11 +89,10 @@ def race_odds(
     ----------
     m, n
         the games that player 1 and player 2 need.
-    p1, p2
-        P(player 1, 2 wins a rack | that player breaks it); if p2 is None, the break does not
-        matter and p1 is P(player 1 wins a rack).
+    rack
+        one rack, or P(player 1 wins a rack) where the break does not matter.
     breaks
-        who breaks next; needed with p2.
+        who breaks next; needed with Rack(p1, p2).
     first_breaker
         who breaks the first rack, 1 or 2.
     score
@@ -113,7 +111,7 @@ def race_odds(
     >>> round(race.p_win_1, 12), race.games
     (0.592592592593, [2, 3, 4])
     """
-    rack = Rack(p1, p2).of_numbers()
+    rack = (rack if isinstance(rack, Rack) else Rack(rack)).of_numbers()
     first_breaker = one_of(first_breaker, "first_breaker", (1, 2))
     need_1 = whole(m, "m") - whole(score[0], "score of player 1")
     need_2 = whole(n, "n") - whole(score[1], "score of player 2")

@@ -6,7 +6,6 @@ from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import betainc
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import one_of, plain, probability, together, whole_numbers
@@ -17,6 +16,7 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
 from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.parameters import at_score, in_shape
+from evenbreak.stats.beta_tail import beta_tail
 
 
 @overload
@@ -79,7 +79,7 @@ def _win(match: Match, player: int) -> Any:
     if not match.break_matters:
         one = rack.chance(player) if isinstance(rack, Rack) else _win(rack, player)
         mine, theirs = need if player == 1 else need[::-1]
-        return betainc(mine, theirs, one)
+        return beta_tail(mine, theirs, one)
     if isinstance(rack, Rack):
         endings = race_endings(*need, rack, match.breaks, match.first_breaker)[player - 1]
         return np.minimum(endings.sum(axis=0), 1.0)  # rounding may take a sum above 1
@@ -123,7 +123,7 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     needs_1, needs_2 = whole_numbers(m, "m", at_least=0), whole_numbers(n, "n", at_least=0)
     chances = probability(p, "p")
     together(p=chances, m=needs_1, n=needs_2)
-    chance = betainc(needs_1, needs_2, chances)
+    chance = np.asarray(beta_tail(needs_1, needs_2, chances))
     if not (needs_1.all() and needs_2.all()):
         won_1, won_2 = needs_1 == 0, needs_2 == 0
         if (won_1 & won_2).any():

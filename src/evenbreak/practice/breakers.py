@@ -36,7 +36,7 @@ class Breakers(NamedTuple):
         if p2 is None:
             raise InputError("p2 is missing; give P(player 2 wins a rack that player 2 breaks)")
         one, two = np.broadcast_arrays(rack.chance(1, 1), rack.chance(2, 2))
-        win, lose = (one, 1.0 - two), (1.0 - one, two)
+        win, lose = (one, rack.chance(1, 2)), (rack.chance(2, 1), two)
         passes = (
             win[0] * (breaks(1, 1) == 2) + lose[0] * (breaks(1, 2) == 2),
             win[1] * (breaks(2, 1) == 1) + lose[1] * (breaks(2, 2) == 1),

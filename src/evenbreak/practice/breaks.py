@@ -27,6 +27,9 @@ from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.practice.breakers import Breakers
 
+_SQUARABLE = 1e100
+"""Values beyond this are scaled before they are squared."""
+
 
 @overload
 def long_run_share(
@@ -115,8 +118,9 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
     """
     racks = Breakers.of(p1, p2, breaks)
     worth = np.nan_to_num(racks.first_break, posinf=0.0, neginf=0.0)
+    unit = np.where(np.abs(worth) > _SQUARABLE, np.abs(worth), 1.0)
     variance = sum(
-        broken * win * lose * (1.0 + pull * worth) ** 2
+        broken * win * lose * (1.0 / unit + pull * (worth / unit)) ** 2
         for broken, win, lose, pull in zip(
             racks.broken(first_breaker),
             racks.win,
@@ -125,7 +129,7 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
             strict=True,
         )
     )
-    return plain(np.sqrt(variance))
+    return plain(np.sqrt(variance) * unit)
 
 
 @overload

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 from evenbreak.checks import probability
 from evenbreak.errors import InputError
+from evenbreak.games.rack import Rack
 
 if TYPE_CHECKING:
     import numpy as np
@@ -134,6 +135,21 @@ class Scale:
         small = np.exp2(-np.abs(doublings))
         chances: Floats = np.where(doublings < 0, small, 1.0) / (1.0 + small)
         return chances
+
+    @overload
+    def rack(self, difference: float) -> Rack[float]: ...
+    @overload
+    def rack(self, difference: Many) -> Rack[Floats]: ...
+    def rack(self, difference: float | Many) -> Rack[Any]:
+        """Return one rack between two players, given the difference of their ratings in points.
+
+        Both chances keep their digits, however small one of them is.
+
+        >>> SCALES["npl"].rack(1600.0).chance(2)
+        8.811845986046434e-17
+        """
+        points = _numbers(difference, "difference")
+        return Rack(self.win_probability(points), q1=self.win_probability(-points))
 
     @overload
     def difference(self, p: float) -> float: ...

@@ -18,6 +18,7 @@ from evenbreak.checks import (
     whole_numbers,
 )
 from evenbreak.errors import InputError
+from evenbreak.stats.beta_tail import beta_tail
 from evenbreak.stats.counts import CountLaw
 from evenbreak.stats.exact import exact
 
@@ -172,10 +173,9 @@ class GamesWon(CountLaw):
 
     def _upper_tail(self, n: Floats, p: Fraction) -> Floats:
         import numpy as np
-        from scipy.special import betainc
 
         inside = np.clip(n, 1, max(self.games, 1))
-        tail = betainc(inside, self.games - inside + 1.0, float(p))
+        tail = beta_tail(inside, self.games - inside + 1.0, float(p))
         return np.where(n <= 0, 1.0, np.where(n > self.games, 0.0, tail))
 
     def exact_cumulative(self, n: int) -> Fraction:

@@ -19,6 +19,7 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import whole
+from evenbreak.stats.beta_tail import beta_tail
 from evenbreak.stats.binomial import GamesWon, score_probability
 from evenbreak.stats.counts import CountLaw
 from evenbreak.stats.exact import exact
@@ -190,10 +191,10 @@ def _binomial(p: Fraction, made: Any, missed: Any) -> Any:
 
 def _beta(a: Any, b: Any, x: Fraction) -> Any:
     """Return the regularised incomplete beta function I_x(a, b), a and b 1 or more."""
-    from scipy.special import betainc, betaincc
+    from scipy.special import betaincc
 
     a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
-    return betainc(a, b, float(x)) if 2 * x <= 1 else betaincc(b, a, float(1 - x))
+    return beta_tail(a, b, float(x)) if 2 * x <= 1 else betaincc(b, a, float(1 - x))
 
 
 def _terms(shots: int, p: Fraction, most: int) -> Iterator[int]:

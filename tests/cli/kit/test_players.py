@@ -14,8 +14,10 @@ def players(*ratings: str, scale=None, p=None, p1=None, p2=None, breaks=None, fi
 
 def test_by_ratings() -> None:
     found = players("612", "512", scale=SCALES["fargo"])
-    assert found.rack == Rack(2 / 3)
-    assert players("110", "80").rack == Rack(2 / 3)  # points of the NPL, if no scale is given
+    assert found.rack == SCALES["npl"].rack(30.0)
+    assert players("110", "80").rack == SCALES["npl"].rack(
+        30.0
+    )  # points of the NPL, if no scale is given
 
 
 def test_by_one_chance() -> None:

@@ -96,7 +96,7 @@ def test_break_formats_are_played_out(breaks, first_breaker):
     )
     assert len(found) == 28
     laws = {
-        (m, n): race_odds(m, n, 0.65, 0.5, breaks, first_breaker).p_win_1
+        (m, n): race_odds(m, n, Rack(0.65, 0.5), breaks, first_breaker).p_win_1
         for m in range(1, 8)
         for n in range(1, 9 - m)
     }

@@ -30,7 +30,7 @@ def test_plain_races_are_those_of_the_rack_by_rack_law(place):
 def test_with_a_break_that_counts_either_breaks_first_with_an_even_chance(breaks):
     rules = MatchRules("fargo", breaks=breaks, break_points=30)
     p1, p2 = (1 / (1 + 2 ** (-(d + 30) / 100)) for d in (50, -50))
-    laws = [race_odds(5, 4, p1, p2, breaks, first) for first in (1, 2)]
+    laws = [race_odds(5, 4, Rack(p1, p2), breaks, first) for first in (1, 2)]
     assert rules.win([5], [4], [50])[0, 0] == pytest.approx(np.mean([law.p_win_1 for law in laws]))
     assert rules.mean_games([5], [4], [50])[0, 0] == pytest.approx(
         np.mean([law.mean for law in laws])

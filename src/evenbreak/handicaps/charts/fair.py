@@ -221,5 +221,5 @@ def _shortest_of_ties(candidates: list[_Candidate]) -> list[_Candidate]:
 def _describe(
     rack: Rack, m: int, n: int, breaks: BreakFormat | None, first_breaker: int
 ) -> FairRace:
-    law = race_odds(m, n, rack.p1, rack.p2, breaks, first_breaker)
+    law = race_odds(m, n, rack, breaks, first_breaker)
     return FairRace(m, n, law.p_win_1, law.mean, law.quantile(0.9))

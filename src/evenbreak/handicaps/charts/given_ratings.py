@@ -23,7 +23,6 @@ from scipy.special import roots_hermitenorm
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import floats, plain, probability, together, whole
 from evenbreak.games.race import Race
-from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import longest_matches
 from evenbreak.matches.length import MatchLength, match_length
 from evenbreak.matches.win import race_win_probability
@@ -133,7 +132,7 @@ def length_given_ratings(
     games = np.arange(min(m, n), m + n)
     total: Floats = np.zeros((*gap.shape, len(games)))
     for node, weight in zip(nodes, weights, strict=True):
-        length = match_length(Race(m, n, Rack(scale.win_probability(gap + node * error))))
+        length = match_length(Race(m, n, scale.rack(gap + node * error)))
         # The shortest lengths are missing where their chance is 0.
         total[..., length.games - games[0]] += weight * length.probability
     mean: Any = total @ games

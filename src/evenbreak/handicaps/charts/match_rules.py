@@ -172,11 +172,10 @@ class MatchRules:
     def _matches(self, m: int, n: int, points: Floats) -> list[Race]:
         """Return the race at all differences, once for each possible first breaker."""
         if not self.break_points:
-            return [Race(m, n, Rack(self.scale.win_probability(points)), win_by=self.win_by)]
-        rack = Rack(
-            self.scale.win_probability(points + self.break_points),
-            self.scale.win_probability(self.break_points - points),
-        )
+            return [Race(m, n, self.scale.rack(points), win_by=self.win_by)]
+        own = self.scale.rack(points + self.break_points)
+        other = self.scale.rack(self.break_points - points)
+        rack = Rack(own.p1, other.p1, q1=own.q1, q2=other.q1)
         return [
             Race(m, n, rack, breaks=self.breaks, first_breaker=first, win_by=self.win_by)
             for first in (1, 2)
