@@ -78,5 +78,6 @@ def chart_bands(
         m, n = int(stronger[first]), int(weaker[first])
         ends = np.round(difference[[first, after]], decimals)
         chances = win_given_ratings(difference[[first, after]], error, m, n, scale=scale)
-        bands.append(Band(*ends.tolist(), m, n, *chances.tolist()))
+        (low, high), (p_low, p_high) = ends.tolist(), chances.tolist()
+        bands.append(Band(low, high, m, n, p_low, p_high))
     return bands

@@ -489,3 +489,20 @@ def test_a_page_never_takes_the_place_of_what_was_read(run, tmp_path):
     other = str(tmp_path / "page.html")
     for _ in range(2):  # a page of last time may be written over
         assert run("rate", str(season), "--html", other).exit_code == 0
+
+
+def test_entrants_are_paired_and_strangers_start_at_the_mean(run, tmp_path):
+    entrants = tmp_path / "entrants.txt"
+    entrants.write_text("zoë kestleman\nA Stranger\nInes Valbrecht\n", encoding="utf-8")
+    result = run("report", str(DEMO), "--out", str(tmp_path / "o"), "--players-file", str(entrants))
+    pairs = [(row["player_a"], row["player_b"]) for row in rows(tmp_path / "o", "matchups.csv")]
+    assert pairs == [
+        ("Ines Valbrecht", "Zoë Kestleman"),
+        ("Ines Valbrecht", "A Stranger"),
+        ("Zoë Kestleman", "A Stranger"),
+    ]
+    (new,) = [row for row in rows(tmp_path / "o", "ratings.csv") if row["player"] == "A Stranger"]
+    assert (float(new["rating"]), float(new["quasi_error"]), new["games"]) == (80, 30, "0")
+    assert "'A Stranger'" in result.stderr
+    both = ("--players-file", str(entrants), "--top", "3")
+    assert run("report", str(DEMO), "--out", str(tmp_path / "p"), *both).exit_code == 2

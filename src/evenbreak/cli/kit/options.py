@@ -122,6 +122,14 @@ aliases_option = click.option(
 """The option --aliases of every command that reads results."""
 
 
+players_file_option = click.option(
+    "--players-file",
+    metavar="FILE",
+    help="Who has entered: a name on each line, or a CSV file with player and rating.",
+)
+"""The option --players-file of the commands about the players of an evening or a season."""
+
+
 safety_option = click.option(
     "--safety",
     metavar="ALPHA",

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak import answers, sheets
+from evenbreak import answers, files, sheets
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.sheet import MOST_ON_SHEET
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import (
     aliases_option,
     out_option,
+    players_file_option,
     race_limit_options,
     refuse_both,
     scale_option,
@@ -23,6 +24,7 @@ from evenbreak.cli.kit.options import (
 from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.league.rate_options import how_to_rate, rated
+from evenbreak.files.problems import quoted
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
@@ -63,6 +65,7 @@ Examples:
     help="Pair only the N players with the most games.  "
     f"[default: everybody, or {MOST_ON_SHEET} of a larger league]",
 )
+@players_file_option
 @aliases_option
 @click.option(
     "--html", is_flag=True, help="Also write sheet.html, one file for phones, screens and printers."
@@ -81,6 +84,7 @@ def command(
     race_to: int | None,
     players: tuple[str, ...],
     top: int | None,
+    players_file: str | None,
     aliases: str | None,
     html: bool,
     excel: bool,
@@ -96,8 +100,10 @@ def command(
     here, and sheet.pdf is for the wall; --html adds a page to hand out, --excel a workbook.
     """
     refuse_both(games, race_to)
-    if players and top is not None:
-        refuse("--players and --top cannot be combined; leave one out")
+    ways = {"--players": players, "--top": top, "--players-file": players_file}
+    given = [name for name, value in ways.items() if value]
+    if len(given) > 1:
+        refuse(f"{' and '.join(given)} cannot be combined; leave all but one out")
     if excel:
         from evenbreak.sheets.workbook import check_workbook
 
@@ -108,21 +114,26 @@ def command(
     offered = answers.OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
     say(f"Reading {'standard input' if results == '-' else results}")
     file, warnings = _read(results, aliases)
+    found = None
+    if players_file is not None:
+        found, file, more = _with_entrants(file, players_file)
+        warnings = [*warnings, *more]
     say(f"Rating {len(file.results.players):,} players")
     ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of)
     if players:
         chosen = answers.find_players(ratings, _names(players, ratings.players), said="--players")
+    elif found is not None:
+        chosen = [ratings.players.index(name) for name in found.names]
     else:
         chosen = answers.most_active(ratings, MOST_ON_SHEET if top is None else top)
     if len(chosen) < 2:
-        refuse("--players names one player; name two or more")
+        refuse(f"{given[0]} names one player; name two or more")
     if len(chosen) < len(ratings.players):
-        why = "" if players else " who have played most"
-        hint = "" if players or top is not None else " (or --top N, or --players to name them)"
-        say(f"Pairing the {len(chosen):,}{why}{hint}")
+        why = "" if players or players_file else " who have played most"
+        hint = "" if given else " (or --top N, or --players to name them)"
+        say(f"Pairing {len(chosen):,} of them{why}{hint}")
     sheet = answers.Sheet.of(file, ratings, offered, chosen, choice)
-    files = _files(sheet, html=html, excel=excel, excel_csv=excel_csv)
-    write_folder(out, files)
+    write_folder(out, _files(sheet, html=html, excel=excel, excel_csv=excel_csv))
     return replace(answers.report_answer(sheet), warnings=warnings)
 
 
@@ -138,21 +149,36 @@ def _read(results: str, aliases: str | None) -> tuple[ResultsFile, Sequence[str]
     return replace(file, warnings=tuple(public)), file.warnings
 
 
+def _with_entrants(file: ResultsFile, path: str) -> tuple[files.Entered, ResultsFile, list[str]]:
+    """Return who has entered, the results with those who are new in them, and warnings."""
+    entrants = files.read_entrants(path)
+    found = files.entered(entrants, file.results.players, file.source)
+    results = replace(file.results, players=(*file.results.players, *found.new))
+    warnings = list(found.warnings)
+    for name, rating in zip(found.names, entrants.roster.rating.tolist(), strict=True):
+        if rating == rating and name in found.new:
+            warnings.append(
+                f"{path}: the rating of {quoted(name)} is not used, because a report rates players "
+                "from results alone; evenbreak matchups uses it"
+            )
+    return found, replace(file, results=results), warnings
+
+
 def _files(sheet: answers.Sheet, *, html: bool, excel: bool, excel_csv: bool) -> dict[str, bytes]:
     """Return the content of each file by its name."""
     from evenbreak.files.csv_writer import to_csv
 
-    files = {
+    written = {
         "ratings.csv": to_csv(sheet.rated, excel=excel_csv),
         "matchups.csv": to_csv(sheet.paired, excel=excel_csv),
         "summary.csv": to_csv(sheet.summary, excel=excel_csv),
         "sheet.pdf": sheets.sheet_pdf(sheet),
     }
     if html:
-        files["sheet.html"] = sheets.sheet_html(sheet)
+        written["sheet.html"] = sheets.sheet_html(sheet)
     if excel:
-        files["sheet.xlsx"] = sheets.workbook_bytes(sheets.report_tables(sheet))
-    return files
+        written["sheet.xlsx"] = sheets.workbook_bytes(sheets.report_tables(sheet))
+    return written
 
 
 def _names(given: Sequence[str], players: Collection[str]) -> list[str]:
