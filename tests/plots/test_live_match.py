@@ -26,6 +26,15 @@ def test_dots_show_who_won_a_rack(odds):
     assert dots["B won the rack"] == [2, 3]
 
 
+def test_players_with_names_are_named(odds):
+    above, _ = plot_course(odds, ("Ann $", "Bo $")).axes
+    assert "Ann $" in above.get_ylabel()
+    assert [text.get_text() for text in above.get_legend().get_texts()] == [
+        "Ann $ won the rack",
+        "Bo $ won the rack",
+    ]
+
+
 def test_the_largest_swing_is_labelled(odds):
     above, _ = plot_course(odds).axes
     (text,) = above.texts

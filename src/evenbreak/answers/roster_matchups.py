@@ -234,6 +234,11 @@ def _linked(roster: Roster, a: Ints, b: Ints) -> NDArray[np.bool_]:
     return linked
 
 
+def cannot_be_compared(roster: Roster, a: int, b: int) -> bool:
+    """Return whether no chain of opponents links two players of a list."""
+    return not _linked(roster, np.array([a]), np.array([b]))[0]
+
+
 def _by_chart(chart: Chart | LevelChart, rating: Floats, a: Ints, b: Ints) -> tuple[Ints, Ints]:
     points = _whole(rating)
     if isinstance(chart, LevelChart):

@@ -21,6 +21,7 @@ def plot_formats(
     pairs: Iterable[Crossings],
     *,
     p1: float,
+    names: tuple[str, str] = ("A", "B"),
 ) -> Figure:
     """Return a figure of P(A wins the match) against A's chance in a game, a curve per format.
 
@@ -34,6 +35,8 @@ def plot_formats(
         the crossings, each marked by a dot.
     p1
         A's chance for the two players in question, a vertical line.
+    names
+        what the two players are called.
 
     >>> from evenbreak.matches import crossings, match_format
     >>> two = [match_format("2:1"), match_format("4:2")]
@@ -43,8 +46,11 @@ def plot_formats(
     """
     fixed = {name: line.get(name) for name in ("p2", "break_odds")}
     matters = any(value is not None for value in fixed.values())
-    x = "p1 = P(A wins a game | A breaks)" if matters else "p = P(A wins a game)"
-    figure, axes = new_axes(x, "P(A wins the match)", size=(6.4, 5.2))
+    a = names[0]
+    x = f"p1 = P({a} wins a game | {a} breaks)" if matters else f"p = P({a} wins a game)"
+    figure, axes = new_axes("", "", size=(6.4, 5.2))
+    axes.set_xlabel(x, parse_math=False)
+    axes.set_ylabel(f"P({a} wins the match)", parse_math=False)
     chances = np.linspace(0.0, 1.0, _POINTS)[1:-1]
     rack: Rack = rack_along(chances, **fixed)
     axes.axhline(0.5, color="0.7", linewidth=0.8)

@@ -16,7 +16,7 @@ _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
 """Shares of the picture: the width and height of a label, and its distance from the line."""
 
 
-def plot_course(odds: LiveOdds) -> Figure:
+def plot_course(odds: LiveOdds, names: tuple[str, str] = ("A", "B")) -> Figure:
     """Return a figure of a match so far; player 1 is A and player 2 is B.
 
     The upper panel is P(A wins the match) after each rack: a filled dot is a rack that A won, an
@@ -27,6 +27,8 @@ def plot_course(odds: LiveOdds) -> Figure:
     ----------
     odds
         the match, with at least one rack.
+    names
+        what the two players are called.
 
     >>> from evenbreak.games import Race, Rack
     >>> from evenbreak.matches import live_odds
@@ -41,7 +43,8 @@ def plot_course(odds: LiveOdds) -> Figure:
     line = LINES[1]
     above.axhline(0.5, color="0.7", linewidth=0.8)
     above.plot(racks, wins, color=line.color, linewidth=1.4, zorder=2)
-    for winner, face, name in ((1, line.color, "A won the rack"), (2, "white", "B won the rack")):
+    for winner, face in ((1, line.color), (2, "white")):
+        name = f"{names[winner - 1]} won the rack"
         at = [i for i, won in enumerate(odds.winners, 1) if won == winner]
         if at:
             chances = [wins[i] for i in at]
@@ -53,8 +56,10 @@ def plot_course(odds: LiveOdds) -> Figure:
     place, va = _clear_of(wins, most + 0.5)
     label = above.text(most + 0.5, place, change, fontsize=9, ha="center", va=va)
     label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.0})  # over the line of 1/2
-    above.set(ylim=(-0.03, 1.03), ylabel="P(A wins the match)")
-    above.legend(frameon=False, loc="best")
+    above.set_ylim(-0.03, 1.03)
+    above.set_ylabel(f"P({names[0]} wins the match)", parse_math=False)
+    for text in above.legend(frameon=False, loc="best").get_texts():
+        text.set_parse_math(False)
     leverages = [moment.leverage or 0.0 for moment in odds.course[:-1]]
     below.bar([i + 0.5 for i in range(len(leverages))], leverages, width=0.7, color="0.6")
     below.set(ylabel="leverage", xlabel="score", ylim=(0.0, None))

@@ -34,13 +34,14 @@ class PlainCommand(click.Command):
         )
         rest = super().parse_args(ctx, args)
         words: Sequence[str] = ctx.params.get("ratings", ())
+        named = ctx.params.get("from_file") is not None
         for word in words:
-            if NUMBER.fullmatch(word):
+            if (named and not word.startswith("-")) or NUMBER.fullmatch(word):
                 continue
             if word.startswith("-"):
                 known = [name for option in self.params for name in option.opts]
                 raise click.NoSuchOption(word.split("=")[0], possibilities=known, ctx=ctx)
-            wanted = "give two numbers, such as 612 521"
+            wanted = "give two numbers, such as 612 521, or say with --from where it stands"
             refuse(f"{word!r} is not a rating; {wanted}{meant(word, -math.inf, math.inf)}")
         return rest
 

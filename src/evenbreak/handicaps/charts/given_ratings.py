@@ -92,7 +92,7 @@ def win_given_ratings(
     together(difference=gap, standard_error=error, m=m, n=n)
     gap, error, m, n = np.broadcast_arrays(gap, error, m, n)
     longest = int(np.max(m + n, initial=2))
-    nodes, weights = _rule(float(error.max(initial=0.0)), longest, scale)
+    nodes, weights = averaging_rule(float(error.max(initial=0.0)), longest, scale)
     chance = np.zeros(gap.shape)
     for node, weight in zip(nodes, weights, strict=True):
         chance += weight * race_win_probability(scale.win_probability(gap + node * error), m, n)
@@ -128,7 +128,7 @@ def length_given_ratings(
     scale = scale_of(scale)
     m, n = whole(m, "m", at_least=1), whole(n, "n", at_least=1)
     gap, error = np.broadcast_arrays(*_checked(difference, standard_error, scale))
-    nodes, weights = _rule(float(error.max(initial=0.0)), m + n, scale)
+    nodes, weights = averaging_rule(float(error.max(initial=0.0)), m + n, scale)
     games = np.arange(min(m, n), m + n)
     total: Floats = np.zeros((*gap.shape, len(games)))
     for node, weight in zip(nodes, weights, strict=True):
@@ -178,7 +178,7 @@ def fair_races_given_ratings(
     low, high = longest_matches(games, race_to)
     if race_to is not None:
         return _fairest_race_to(gap, error, low, scale, target)
-    nodes, weights = _rule(float(error.max(initial=0.0)), high + 1, scale)
+    nodes, weights = averaging_rule(float(error.max(initial=0.0)), high + 1, scale)
     m, longest = np.empty(gap.size, dtype=np.int64), np.empty(gap.size, dtype=np.int64)
     step = max(1, _AT_A_TIME // (len(nodes) * (high + 2)))
     for first in range(0, gap.size, step):
@@ -196,8 +196,10 @@ def _checked(difference: ArrayLike, standard_error: ArrayLike, scale: Scale) -> 
     return floats(difference, "difference"), error
 
 
-def _rule(largest_error: float, longest: int, scale: Scale) -> tuple[Floats, Floats]:
-    """Return nodes and weights that average W over N(0, 1) to 1e-9.
+def averaging_rule(
+    largest_error: float, longest: int, scale: Scale, most: int = _MOST_NODES
+) -> tuple[Floats, Floats]:
+    """Return nodes and weights that average W over N(0, 1) to 1e-9, unless `most` are too few.
 
     The number of nodes depends on the error compared with the width of W's rise, about
     2 / sqrt(m + n) in log-odds; it was found by trial against adaptive quadrature.
@@ -205,7 +207,7 @@ def _rule(largest_error: float, longest: int, scale: Scale) -> tuple[Floats, Flo
     if largest_error == 0.0:
         return np.zeros(1), np.ones(1)
     ratio = scale.log_odds(largest_error) * math.sqrt(max(longest, _FEWEST_GAMES)) / 2.0
-    return _hermite(min(_MOST_NODES, 24 + math.ceil(14.0 * ratio**2)))
+    return _hermite(min(most, 24 + math.ceil(14.0 * ratio**2)))
 
 
 @cache
