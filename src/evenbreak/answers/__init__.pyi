@@ -12,3 +12,4 @@ from .report_frames import summary_frame as summary_frame
 from .round import Round as Round
 from .sheet import Sheet as Sheet
 from .validate import validate_answer as validate_answer
+from .why import why_answer as why_answer
