@@ -60,7 +60,7 @@ def rate_answer(
         f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
         [first, *_fit_in_words(ratings, choice), *unlinked_words(ratings), table],
         details=[prior_words(ratings), *([] if pairs else [_ERRORS_IN_WORDS])],
-        warnings=[*file.warnings, *warnings],
+        warnings=[*file.warnings, *warnings, *prior_doubts(choice)],
         data=_how(ratings, choice),
     )
 
@@ -175,6 +175,21 @@ def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]
         stronger = "higher" if points >= 0 else "lower"
         known = ", as given" if error is None else f", give or take {_ONE(error)}"
         yield f"The breaker plays as if rated {_ONE(abs(points))} points {stronger}{known}."
+
+
+def prior_doubts(choice: PriorChoice | None) -> list[str]:
+    """Return a warning if the results are too few to choose the width of the prior by.
+
+    >>> prior_doubts(None)
+    []
+    """
+    if choice is None or choice.clear:
+        return []
+    return [
+        f"--prior best: {count_of(choice.predicted, 'result')} to predict say little about the "
+        "prior, and values four times as large or as small do nearly as well; leave --prior out "
+        "until there are more"
+    ]
 
 
 def prior_words(ratings: Ratings) -> str:

@@ -58,6 +58,14 @@ COMMANDS = {
 class Program(LazyGroup):
     """The group of all commands; it exits with the code of the command that ran."""
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the words; `help` and `version` may come without dashes, as elsewhere."""
+        if args[:1] == ["help"]:
+            args = [*args[1:], "--help"]
+        elif args == ["version"]:
+            args = ["--version"]
+        return super().parse_args(ctx, args)
+
     def main(
         self,
         args: Sequence[str] | None = None,

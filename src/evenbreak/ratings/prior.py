@@ -24,6 +24,9 @@ WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 
 STRETCHES = 30
 
+_FAR, _CLEAR = 4, 2.0
+"""Four steps are a factor of 4; a difference of 2 in log-likelihood is two standard errors."""
+
 
 class PriorChoice(NamedTuple):
     """The width of the prior that predicts best.
@@ -45,6 +48,18 @@ class PriorChoice(NamedTuple):
     tried: tuple[float, ...]
     log_loss: tuple[float, ...]
     predicted: int
+
+    @property
+    def clear(self) -> bool:
+        """Whether the results say much about the width.
+
+        They do if a width four steps from the best one is worse by more than chance: by 2 in the
+        log-likelihood of all results that were predicted.
+        """
+        best = self.tried.index(self.prior_sd)
+        far = [loss for k, loss in enumerate(self.log_loss) if abs(k - best) >= _FAR]
+        least = min(far, default=math.inf) - self.log_loss[best]
+        return least * self.predicted > _CLEAR
 
 
 def best_prior(

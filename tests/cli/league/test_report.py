@@ -506,3 +506,17 @@ def test_entrants_are_paired_and_strangers_start_at_the_mean(run, tmp_path):
     assert "'A Stranger'" in result.stderr
     both = ("--players-file", str(entrants), "--top", "3")
     assert run("report", str(DEMO), "--out", str(tmp_path / "p"), *both).exit_code == 2
+
+
+@pytest.mark.parametrize("words", [("--html", "page.html"), ("--excel", "page.xlsx")])
+def test_a_name_after_an_option_without_one_gets_a_hint(run, tmp_path, words):
+    result = run("report", "-", *words, "--out", str(tmp_path / "sheet"), stdin=SMALL)
+    assert result.exit_code == 2
+    assert f"{words[0]} takes no name" in result.stderr
+
+
+def test_a_prior_from_too_few_results_is_doubted(run, tmp_path):
+    result = run("report", "-", "--out", str(tmp_path), "--prior", "best", stdin=SMALL)
+    assert "--prior best" in result.stderr
+    result = run("report", str(DEMO), "--out", str(tmp_path), "--prior", "best")
+    assert "Warning" not in result.stderr

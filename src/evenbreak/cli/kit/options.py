@@ -6,6 +6,7 @@ from typing import Any, TypeVar
 
 import click
 
+from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Whole, meant, refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
@@ -34,6 +35,8 @@ class PlainCommand(click.Command):
         )
         rest = super().parse_args(ctx, args)
         words: Sequence[str] = ctx.params.get("ratings", ())
+        if ctx.resilient_parsing:
+            return rest
         named = ctx.params.get("from_file") is not None
         for word in words:
             if (named and not word.startswith("-")) or NUMBER.fullmatch(word):
@@ -68,6 +71,7 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
     return click.option(
         "--scale",
         type=_scale,
+        shell_complete=completion.scales,
         default=without if fixed else None,
         show_default=False,
         metavar="npl|fargo|elo|POINTS",

@@ -5,6 +5,7 @@ import math
 import click
 
 from evenbreak.answers.two_players import FORMATS, TwoPlayers
+from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.options import Command, scale_option, with_options
 from evenbreak.cli.kit.values import CHANCE, refuse
 from evenbreak.games.rack import Rack
@@ -118,5 +119,5 @@ def player_options(command: Command) -> Command:
         click.option("--p", metavar="P", type=CHANCE, help="Chance that A wins a game."),
         scale_option("the one that the file of --from states, else npl", fixed=False),
         from_option,
-        click.argument("ratings", nargs=-1, metavar="[A B]"),
+        click.argument("ratings", nargs=-1, metavar="[A B]", shell_complete=completion.players),
     )

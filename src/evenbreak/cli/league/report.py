@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ import click
 
 from evenbreak import answers, files, sheets
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.rate import prior_doubts
 from evenbreak.answers.sheet import MOST_ON_SHEET
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import (
@@ -44,7 +46,23 @@ Examples:
 """
 
 
-@click.command("report", epilog=EXAMPLES)
+class ReportCommand(click.Command):
+    """A command whose options for further files take no name."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the words, and say what becomes of a name after --html or --excel."""
+        for option, suffix in (("--html", ".html"), ("--excel", ".xlsx")):
+            for word, name in pairwise(args):
+                if word == option and name.lower().endswith(suffix):
+                    message = (
+                        f"{option} takes no name: it writes sheet{suffix} to the folder of --out; "
+                        f"leave {name} out"
+                    )
+                    raise click.UsageError(message, ctx=ctx)
+        return super().parse_args(ctx, args)
+
+
+@click.command("report", cls=ReportCommand, epilog=EXAMPLES)
 @click.argument("results", metavar="RESULTS.csv")
 @out_option(
     "The folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if needed."
@@ -134,7 +152,7 @@ def command(
         say(f"Pairing {len(chosen):,} of them{why}{hint}")
     sheet = answers.Sheet.of(file, ratings, offered, chosen, choice)
     write_folder(out, _files(sheet, html=html, excel=excel, excel_csv=excel_csv))
-    return replace(answers.report_answer(sheet), warnings=warnings)
+    return replace(answers.report_answer(sheet), warnings=[*warnings, *prior_doubts(choice)])
 
 
 def _read(results: str, aliases: str | None) -> tuple[ResultsFile, Sequence[str]]:

@@ -8,6 +8,7 @@ import click
 
 from evenbreak import answers, files
 from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import aliases_option, race_limit_options, refuse_both, scale_option
 from evenbreak.cli.kit.terminal import say
@@ -29,8 +30,8 @@ Examples:
 
 
 @click.command("why", epilog=EXAMPLES)
-@click.argument("player_a", metavar="A")
-@click.argument("player_b", metavar="B")
+@click.argument("player_a", metavar="A", shell_complete=completion.players)
+@click.argument("player_b", metavar="B", shell_complete=completion.players)
 @click.option("--from", "results", required=True, metavar="RESULTS.csv", help="The results.")
 @scale_option()
 @how_to_rate

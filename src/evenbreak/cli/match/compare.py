@@ -50,6 +50,8 @@ class CompareCommand(PlainCommand):
             who = [word for word in words if NUMBER.fullmatch(word)]
             formats = [word for word in words if not NUMBER.fullmatch(word)]
         ctx.params["ratings"], ctx.params["formats"] = tuple(who), list(formats)
+        if ctx.resilient_parsing:
+            return rest
         for word in ctx.params["formats"]:
             if word.startswith("-"):
                 raise click.NoSuchOption(word.split("=")[0], ctx=ctx)
