@@ -41,6 +41,7 @@ ASKED = {
     "compare": "compare --p 0.6667 9:5 '3:1 of 3:3' 'ahead 5:3'",
     "physics_speed": "physics speed --lag-time 7.0",
     "physics_throw": "physics throw --cut 30 --side -0.3",
+    "physics_throw_speed": "physics throw --cut 30 --topspin 0 --speed 150",
     "physics_aim": "physics aim --cut 14.5 --distance 36",
     "physics_deflect": "physics deflect --cut 30",
     "physics_strike": "physics strike --offset -0.3 --stick-speed 60 --distance 24",

@@ -9,6 +9,7 @@ from evenbreak.answers.hit import Hit
 from evenbreak.answers.shot_units import IMPERIAL, METRIC
 from evenbreak.answers.throw import throw_answer
 from evenbreak.errors import InputError
+from evenbreak.physics import SlipFriction
 from evenbreak.physics.units import INCH
 
 INCHES = IMPERIAL.length
@@ -19,8 +20,8 @@ def hit(cut, topspin=1.0, side=0.0, mu=MU):
     return Hit(cut, topspin, side, mu, "limited")
 
 
-def aim(cut, topspin=1.0, side=0.0, mu=MU, unit=INCHES, inches=36.0):
-    return aim_answer(hit(cut, topspin, side, mu), inches * INCH, unit).to_dict()
+def aim(cut, topspin=1.0, side=0.0, mu=MU, units=IMPERIAL, inches=36.0):
+    return aim_answer(hit(cut, topspin, side, mu), inches * INCH, units).to_dict()
 
 
 def test_the_example_of_the_text():
@@ -31,13 +32,13 @@ def test_the_example_of_the_text():
     assert found["aim_cut_deg"] - found["throw_deg"] == pytest.approx(cut)
     left = aim(-cut)
     for key in ("offset_in", "rule_offset_in", "aim_cut_deg"):
-        assert left[key] == -found[key]
+        assert left[key] == pytest.approx(-found[key])
 
 
 @pytest.mark.parametrize(("topspin", "side"), [(0.0, 0.0), (1.0, 0.5), (-0.4, -0.8)])
 def test_a_ball_aimed_so_goes_where_it_should(topspin, side):
     found = aim(20.0, topspin, side)
-    thrown = throw_answer(hit(found["aim_cut_deg"], topspin, side)).to_dict()
+    thrown = throw_answer(hit(found["aim_cut_deg"], topspin, side), IMPERIAL).to_dict()
     assert thrown["object_cut_deg"] == pytest.approx(20.0)
     assert found["offset_in"] == pytest.approx(
         36 * math.tan(math.radians(found["aim_cut_deg"] - 20)), rel=1e-9
@@ -45,7 +46,7 @@ def test_a_ball_aimed_so_goes_where_it_should(topspin, side):
 
 
 def test_in_centimetres():
-    inches, metric = aim(20.0), aim(20.0, unit=METRIC.length)
+    inches, metric = aim(20.0), aim(20.0, units=METRIC)
     assert metric["offset_cm"] == pytest.approx(2.54 * inches["offset_in"])
     assert metric["distance_cm"] == pytest.approx(36 * 2.54)
     assert metric["aim_cut_deg"] == inches["aim_cut_deg"]
@@ -80,3 +81,17 @@ spins = st.floats(-100, 100)
 def test_aims_of_all_kinds_go_where_they_should(cut, topspin, side, mu, inches):
     found = aim(cut, topspin, side, mu, inches=inches)
     assert found["aim_cut_deg"] - found["throw_deg"] == pytest.approx(cut, abs=1e-6)
+
+
+def test_a_hard_shot_needs_less_allowance():
+    soft, hard = (
+        aim_answer(
+            Hit(30.0, 0.0, 0.0, SlipFriction(), "limited", speed), 36 * INCH, METRIC
+        ).to_dict()
+        for speed in (1.0, 4.0)
+    )
+    assert soft["offset_cm"] > hard["offset_cm"] > 0.0
+    # The friction is that of the cut to aim for.
+    cut = math.radians(hard["aim_cut_deg"])
+    assert hard["mu"] == pytest.approx(SlipFriction().at(4.0 * math.sin(cut)))
+    assert (hard["mu_by_speed"], hard["hit_speed_m_s"]) == (True, 4.0)

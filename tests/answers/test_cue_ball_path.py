@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from evenbreak.answers.cue_ball_path import cue_ball_path_answer, path_words
 from evenbreak.answers.hit import Hit
+from evenbreak.answers.shot_units import IMPERIAL
 from evenbreak.physics import collide
 
 MU = 4 / 72
@@ -16,7 +17,7 @@ def hit(cut, topspin=1.0, side=0.0, mu=MU):
 
 
 def path(*how):
-    return cue_ball_path_answer(hit(*how)).to_dict()
+    return cue_ball_path_answer(hit(*how), IMPERIAL).to_dict()
 
 
 def test_deflections_of_the_text():

@@ -2,8 +2,8 @@ import math
 
 import pytest
 
-from evenbreak.answers.hit import Hit, cut_words, spin_words
-from evenbreak.physics import collide
+from evenbreak.answers.hit import Hit, cut_words, friction_values, spin_words
+from evenbreak.physics import SlipFriction, collide
 
 
 def hit(cut, topspin=1.0, side=0.0):
@@ -28,14 +28,14 @@ def test_outside_english_is_on_the_side_away_from_the_cut(cut, side, english):
 
 def test_a_cut_to_the_left_is_the_mirror_image_of_one_to_the_right():
     left, right = hit(-20.0, 0.5, 0.3), hit(20.0, 0.5, -0.3)
-    assert left.in_frame == right.in_frame
     assert left.collide().throw == right.collide().throw
-    assert (left.mirror, left.towards, left.away) == (-1.0, "left", "right")
-    assert (right.mirror, right.towards, right.away) == (1.0, "right", "left")
+    assert left.collide().sideways == -right.collide().sideways
+    assert (left.hand, left.towards, left.away) == (-1.0, "left", "right")
+    assert (right.hand, right.towards, right.away) == (1.0, "right", "left")
 
 
 def test_the_english_that_leaves_no_slip_is_exact():
-    angle, _, side = hit(30.0, 0.0, -0.5).in_frame
+    angle, _, side = hit(30.0, 0.0, -0.5).cut_and_spin
     assert side == -math.sin(angle)
     assert hit(30.0, 0.0, -0.5).collide().throw == 0.0
 
@@ -43,6 +43,15 @@ def test_the_english_that_leaves_no_slip_is_exact():
 def test_it_is_the_hit_of_the_library():
     found, wanted = hit(25.0, 0.3, -0.2).collide(), collide(math.radians(25.0), 0.3, -0.2)
     assert (found.throw, found.departure) == (wanted.throw, wanted.departure)
+
+
+def test_friction_is_taken_at_the_speed_of_the_hit():
+    by_speed = hit(30.0, 0.0)._replace(mu=SlipFriction(), speed=2.0)
+    assert by_speed.collide().mu == pytest.approx(SlipFriction().at(1.0))
+    full = by_speed.collide(0.0)
+    assert (full.cut, full.mu) == (0.0, SlipFriction().slow)
+    assert friction_values(by_speed.mu, None, "limited")["mu"] is None
+    assert friction_values(0.05, None, "limited")["mu"] == 0.05
 
 
 def test_in_words():

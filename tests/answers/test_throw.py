@@ -5,14 +5,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.answers.hit import Hit
+from evenbreak.answers.shot_units import IMPERIAL, METRIC
 from evenbreak.answers.throw import throw_answer, throw_words
-from evenbreak.physics import collide
+from evenbreak.physics import SlipFriction, collide
 
 MU = 4 / 72
 
 
 def throw(cut, topspin=1.0, side=0.0, mu=MU, friction="limited"):
-    return throw_answer(Hit(cut, topspin, side, mu, friction)).to_dict()
+    return throw_answer(Hit(cut, topspin, side, mu, friction), IMPERIAL).to_dict()
 
 
 def test_throw_of_the_text():
@@ -72,6 +73,21 @@ def test_the_words_go_where_the_balls_go():
     cut = Hit(30.0, 1.0, 0.0, MU, "limited")
     assert "thick" in throw_words(1.0, cut)
     assert "thin" in throw_words(-1.0, cut)
+
+
+def test_the_friction_that_was_used_is_said():
+    at_any = throw(30.0, 0.0)
+    assert (at_any["mu"], at_any["mu_by_speed"], at_any["hit_speed_in_s"]) == (MU, False, None)
+    answer = throw_answer(Hit(30.0, 0.0, 0.0, SlipFriction(), "limited", 4.0), METRIC)
+    found = answer.to_dict()
+    mu = SlipFriction().at(2.0)
+    assert (found["mu"], found["mu_by_speed"]) == (pytest.approx(mu), True)
+    assert found["hit_speed_m_s"] == 4.0
+    assert math.tan(math.radians(found["throw_deg"])) == pytest.approx(mu)
+    assert "0.0222" in answer.heading
+    assert "4 metres per second" in answer.heading
+    slow = throw_answer(Hit(30.0, 0.0, 0.0, SlipFriction(), "limited", 0.5), METRIC).to_dict()
+    assert slow["friction_stops"]
 
 
 spins = st.floats(-100, 100)

@@ -26,15 +26,6 @@ def test_dots_show_who_won_a_rack(odds):
     assert dots["B won the rack"] == [2, 3]
 
 
-def test_players_with_names_are_named(odds):
-    above, _ = plot_course(odds, ("Ann $", "Bo $")).axes
-    assert "Ann $" in above.get_ylabel()
-    assert [text.get_text() for text in above.get_legend().get_texts()] == [
-        "Ann $ won the rack",
-        "Bo $ won the rack",
-    ]
-
-
 def test_the_largest_swing_is_labelled(odds):
     above, _ = plot_course(odds).axes
     (text,) = above.texts
@@ -67,3 +58,12 @@ def test_sets_and_one_sided_matches():
 def test_long_matches_name_some_scores_only():
     _, below = plot_course(live_odds(Race(60, 60, Rack(0.5)), [1, 2] * 40)).axes
     assert len(below.get_xticks()) <= 24
+
+
+def test_the_picture_names_match_and_players(odds):
+    figure = plot_course(odds, title="Ann against Bo\nRace 4:3", names=("Ann", "Bo"))
+    assert figure.get_suptitle() == "Ann against Bo\nRace 4:3"
+    above, _ = figure.axes
+    assert above.get_ylabel() == "P(Ann wins the match)"
+    assert [text.get_text().split()[0] for text in above.get_legend().get_texts()] == ["Ann", "Bo"]
+    assert plot_course(odds).get_suptitle() == ""

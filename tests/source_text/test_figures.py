@@ -3,6 +3,7 @@
 from importlib.resources import files
 
 import matplotlib as mpl
+import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -75,11 +76,32 @@ def test_plots_are_of_moderate_size(reproduced, name):
     assert len(reproduced.files[f"{name}.svg"]) < 200_000
 
 
-@pytest.mark.parametrize("name", [name for name in PLOTS if not name.startswith("figure_5")])
-def test_no_two_names_overlap(name):
+def boxes(axes, room=0.0):
+    """Return the boxes of the names in a panel, and so many pixels of room around each."""
+    found = [text.get_window_extent() for text in axes.texts if text.get_text()]
+    return [box.padded(room) for box in found]
+
+
+@pytest.mark.parametrize("name", [*PLOTS, *SKETCHES])
+def test_no_two_names_touch(name):
     drawn = figure(name)
     FigureCanvasAgg(drawn).draw()
-    for axes in drawn.axes:
-        boxes = [text.get_window_extent() for text in axes.texts if text.get_text()]
-        for here, box in enumerate(boxes):
-            assert not any(box.overlaps(other) for other in boxes[here + 1 :])
+    for axes in [panel for one in drawn.axes for panel in (one, *one.child_axes)]:
+        found = boxes(axes, 0.5)
+        for here, box in enumerate(found):
+            assert not any(box.overlaps(other) for other in found[here + 1 :])
+
+
+@pytest.mark.parametrize("name", ["figure_3_1", "figure_3_4", "figure_4_5", "figure_5_1"])
+def test_no_name_lies_on_a_curve_or_leaves_its_panel(name):
+    drawn = figure(name)
+    FigureCanvasAgg(drawn).draw()
+    for axes in [panel for one in drawn.axes for panel in (one, *one.child_axes)]:
+        frame = axes.get_window_extent()
+        curves = [axes.transData.transform(line.get_xydata()) for line in axes.lines]
+        for box in boxes(axes):
+            assert frame.x0 <= box.x0 < box.x1 <= frame.x1
+            assert frame.y0 <= box.y0 < box.y1 <= frame.y1
+            for points in curves:
+                along = np.linspace(points[:-1], points[1:], 20).reshape(-1, 2)
+                assert not box.count_contains(along)

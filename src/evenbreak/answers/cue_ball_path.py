@@ -5,6 +5,7 @@ import math
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.hit import Hit, degrees
 from evenbreak.answers.parts import Quantities
+from evenbreak.answers.shot_units import Units
 from evenbreak.answers.worded import worded
 from evenbreak.physics.collision import Collision
 from evenbreak.physics.deflection import (
@@ -39,16 +40,17 @@ _AT_REST = 1e-12
 """The speed below which a ball counts as standing still, over that of the cue ball."""
 
 
-def cue_ball_path_answer(hit: Hit) -> Answer:
+def cue_ball_path_answer(hit: Hit, units: Units) -> Answer:
     """Return the deflection of the cue ball: the angle by which its path turns.
 
-    >>> answer = cue_ball_path_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"))
+    >>> from evenbreak.answers.shot_units import IMPERIAL
+    >>> answer = cue_ball_path_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"), IMPERIAL)
     >>> print(answer.sentences[0])
     Once it rolls, the cue ball goes 35.73 degrees to the left; without friction between the
     balls it would go 33.67 degrees to the left.
     """
     found = hit.collide()
-    angle, topspin, _ = hit.in_frame
+    angle, topspin, _ = hit.cut_and_spin
     stops = hit.cut == 0.0 and topspin == 0.0
     smooth = None if stops else deflection(angle, topspin)
     rough = _deflection_with_friction(found)
@@ -70,13 +72,13 @@ def cue_ball_path_answer(hit: Hit) -> Answer:
         for name, one in answers.items()
     }
     values = {
-        **hit.asked,
         **in_degrees,
         "object_energy_share": _object_share(energy_after_hit(angle, topspin)),
         "object_energy_share_rolling": _object_share(energy_in_roll(angle, topspin)),
     }
     sentence = path_words(in_degrees["deflection_thrown_deg"], in_degrees["deflection_deg"], hit)
-    return Answer(hit.description, [sentence, Quantities(worded(values, _WORDS, _DETAILS))])
+    quantities = [*hit.asked(found, units.speed), *worded(values, _WORDS, _DETAILS)]
+    return Answer(hit.heading(found, units.speed), [sentence, Quantities(quantities)])
 
 
 def path_words(rough: float | None, smooth: float | None, hit: Hit) -> str:
@@ -116,13 +118,15 @@ def _deflection_with_friction(found: Collision) -> float | None:
     """Return the deflection in radians, below 0 to the side of the object ball."""
     rim_velocity = found.ball.radius * found.cue_spin
     ahead, left = map(float, roll_velocity(found.cue_velocity[:2], rim_velocity))
-    return None if math.hypot(ahead, left) < _AT_REST else math.atan2(left, ahead)
+    if math.hypot(ahead, left) < _AT_REST * found.speed:
+        return None
+    return math.atan2(-left if found.cut < 0.0 else left, ahead)
 
 
 def _departure(found: Collision) -> float | None:
     """Return the angle between the two paths in radians; None if a ball stands still."""
     slowest = min(math.hypot(*ball[:2]) for ball in (found.object_velocity, found.cue_velocity))
-    return None if slowest < _AT_REST else float(found.departure)
+    return None if slowest < _AT_REST * found.speed else float(found.departure)
 
 
 def _object_share(energies: EnergyShares) -> float:

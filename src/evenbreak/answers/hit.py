@@ -3,7 +3,11 @@
 import math
 from typing import Any, NamedTuple
 
+from evenbreak.answers.parts import Quantity
+from evenbreak.answers.shot_units import Unit
+from evenbreak.answers.worded import worded
 from evenbreak.answers.wording import decimals
+from evenbreak.physics.ball_friction import SlipFriction
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.throw import gearing_side
 
@@ -23,36 +27,42 @@ class Hit(NamedTuple):
     side
         J_z: right english above 0, left english below.
     mu
-        coefficient of friction between the balls.
+        coefficient of friction between the balls, or how it falls with the speed of the slip.
     friction
         the law of friction, one of `FRICTION_LAWS`.
+    speed
+        of the cue ball, in m/s; None if the friction does not depend on it.
     """
 
     cut: float
     topspin: float
     side: float
-    mu: float
+    mu: float | SlipFriction
     friction: str
+    speed: float | None = None
 
     @property
-    def mirror(self) -> float:
-        """The sign of the cut: -1.0 for one to the left, which is the mirror image."""
+    def hand(self) -> float:
+        """The sign of the cut: 1.0 to the right and for a full hit, -1.0 to the left."""
         return -1.0 if self.cut < 0.0 else 1.0
 
     @property
-    def in_frame(self) -> tuple[float, float, float]:
-        """The hit as a cut to the right: its angle in radians, J_y and J_z.
+    def cut_and_spin(self) -> tuple[float, float, float]:
+        """The cut angle in radians, J_y and J_z.
 
         No decimal is sin(30 degrees) to the last bit, and the difference would leave a slip, to
         which the law of the source text gives its full throw.
         """
-        angle = math.radians(abs(self.cut))
-        side, without_slip = self.mirror * self.side, float(gearing_side(angle))
-        return angle, self.topspin, without_slip if abs(side - without_slip) < 1e-12 else side
+        angle = math.radians(self.cut)
+        without_slip = float(gearing_side(angle))
+        exact = abs(self.side - without_slip) < 1e-12
+        return angle, self.topspin, without_slip if exact else self.side
 
-    def collide(self) -> Collision:
-        """Return what the balls do, as for a cut to the right."""
-        return collide(*self.in_frame, mu=self.mu, friction=self.friction)
+    def collide(self, cut: float | None = None) -> Collision:
+        """Return what the balls do, at another cut angle in radians if one is given."""
+        angle, topspin, side = self.cut_and_spin
+        angle, speed = angle if cut is None else cut, 1.0 if self.speed is None else self.speed
+        return collide(angle, topspin, side, speed=speed, mu=self.mu, friction=self.friction)
 
     @property
     def towards(self) -> str:
@@ -85,17 +95,55 @@ class Hit(NamedTuple):
             english = f"{self.english} ({'right' if self.side > 0.0 else 'left'}) english"
         return f"{cut_words(self.cut)}; {spin_words(self.topspin)}, {english}"
 
-    @property
-    def asked(self) -> dict[str, Any]:
-        """What was asked, which files hold before the answer."""
-        return {
+    def asked(self, found: Collision, speed: Unit) -> list[Quantity]:
+        """Return what was asked, which files hold before the answer.
+
+        Parameters
+        ----------
+        found
+            the hit, whose friction was used.
+        speed
+            the unit of speed.
+        """
+        values: dict[str, Any] = {
             "cut_deg": self.cut,
             "topspin": self.topspin,
             "side": self.side,
             "english": self.english,
-            "mu": self.mu,
-            "friction": self.friction,
+            **friction_values(self.mu, found, self.friction),
         }
+        return [*worded(values, {}), speed.quantity("hit_speed", self.speed)]
+
+    def heading(self, found: Collision, speed: Unit, *more: str) -> str:
+        """Return what is hit and how, and what friction is assumed, in two lines."""
+        pace = [] if self.speed is None else [f"cue ball at {speed.typed(self.speed)}"]
+        shot = "; ".join([self.description, *pace, *more])
+        return f"{shot}\n{friction_words(self.mu, found, self.friction)}"
+
+
+def friction_values(mu: float | SlipFriction, found: Collision | None, law: str) -> dict[str, Any]:
+    """Return the friction between the balls as files hold it: the coefficient of the hit."""
+    by_speed = isinstance(mu, SlipFriction)
+    known = None if found is None else float(found.mu)
+    return {"mu": known if by_speed else mu, "mu_by_speed": by_speed, "friction": law}
+
+
+def friction_words(mu: float | SlipFriction, found: Collision | None, law: str) -> str:
+    """Return what is assumed about the friction between the balls.
+
+    >>> friction_words(0.0556, None, "limited")
+    'Friction between the balls: 0.0556, the same at any speed'
+    >>> print(friction_words(SlipFriction(), collide(0.5, speed=4.0, mu=SlipFriction()), "limited"))
+    Friction between the balls: 0.0113 at this speed, less in harder shots (Alciatore's fit)
+    """
+    if not isinstance(mu, SlipFriction):
+        words = f"{mu:.3g}, the same at any speed"
+    else:
+        at_hit = "" if found is None else f"{found.mu:.3g} at this speed, "
+        source = " (Alciatore's fit)" if mu == SlipFriction() else ""
+        words = f"{at_hit}less in harder shots{source}"
+    throughout = "; it acts throughout the hit" if law == "shepard" else ""
+    return f"Friction between the balls: {words}{throughout}"
 
 
 def cut_words(cut: float) -> str:

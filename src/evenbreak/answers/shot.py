@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.hit import friction_values
 from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 from evenbreak.answers.shot_units import Units
 from evenbreak.answers.shot_words import shot_heading, shot_words
@@ -105,6 +106,7 @@ def _hit(found: Shot, units: Units) -> list[Quantity]:
     return [
         Quantity("hit_s", state and state.time),
         units.speed.quantity("hit_speed", speed, "speed of the cue ball at the hit"),
+        *worded(friction_values(found.mu, found.collision, found.friction), {}),
         *worded(values, _WORDS, _DETAILS),
     ]
 

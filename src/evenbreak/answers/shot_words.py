@@ -2,7 +2,7 @@
 
 import math
 
-from evenbreak.answers.hit import cut_words, spin_words
+from evenbreak.answers.hit import cut_words, friction_words, spin_words
 from evenbreak.answers.shot_units import Units
 from evenbreak.answers.strike import tip_words
 from evenbreak.answers.wording import decimals
@@ -13,7 +13,7 @@ from evenbreak.physics.shot import Shot, spin_ratios
 
 
 def shot_heading(found: Shot, units: Units, pocket: Pocket | None) -> str:
-    """Return what is played, in two lines."""
+    """Return what is played, in two lines, and what friction is assumed."""
     length = units.length
     if pocket is None:
         apart = math.dist(found.approach.slide.position, found.object_position)
@@ -23,7 +23,8 @@ def shot_heading(found: Shot, units: Units, pocket: Pocket | None) -> str:
         cue, standing = (f"({x / length.size:g}, {y / length.size:g})" for x, y in places)
         where = f"Cue ball at {cue}, object ball at {standing} {length.words}; pocket {pocket.name}"
     speed = units.speed.typed(found.strike.speed)
-    return f"{where}\n{tip_words(found.strike)}; cue ball at {speed}"
+    friction = friction_words(found.mu, found.collision, found.friction)
+    return f"{where}\n{tip_words(found.strike)}; cue ball at {speed}\n{friction}"
 
 
 def shot_words(

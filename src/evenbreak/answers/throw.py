@@ -5,6 +5,7 @@ import math
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.hit import Hit, degrees
 from evenbreak.answers.parts import Quantities
+from evenbreak.answers.shot_units import Units
 from evenbreak.answers.worded import worded
 from evenbreak.physics.throw import gearing_side, throw_factor, throw_sensitivity
 
@@ -21,29 +22,32 @@ _DETAILS = {
 }
 
 
-def throw_answer(hit: Hit) -> Answer:
+def throw_answer(hit: Hit, units: Units) -> Answer:
     """Return the throw of a hit.
 
-    >>> answer = throw_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"))
+    >>> from evenbreak.answers.shot_units import IMPERIAL
+    >>> answer = throw_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"), IMPERIAL)
     >>> print(answer.sentences[0])
     Throw takes 1.59 degrees off the cut: the object ball goes thick unless you aim thinner.
     """
     found = hit.collide()
     throw = math.degrees(found.throw)
-    factor, sensitivity = throw_factor(*hit.in_frame), throw_sensitivity(*hit.in_frame)
+    shot = hit.cut_and_spin
+    factor, sensitivity = throw_factor(*shot), throw_sensitivity(*shot)
     given = -2.5 * found.sideways / math.hypot(found.ahead, found.sideways)
     values = {
-        **hit.asked,
         "throw_deg": throw,
-        "object_cut_deg": hit.mirror * (abs(hit.cut) - throw),
+        "object_cut_deg": hit.cut - hit.hand * throw,
         "throw_factor": factor,
         "sensitivity": sensitivity if math.isfinite(sensitivity) else None,
-        "friction_stops": math.tan(abs(found.throw)) < (1.0 - 1e-9) * hit.mu * abs(factor),
-        "no_throw_side": hit.mirror * gearing_side(hit.in_frame[0]),
-        "object_side": hit.mirror * given,
+        "friction_stops": math.tan(abs(found.throw)) < (1.0 - 1e-9) * found.mu * abs(factor),
+        "no_throw_side": gearing_side(shot[0]),
+        "object_side": given,
     }
-    quantities = Quantities(worded(values, _WORDS, _DETAILS))
-    return Answer(hit.description, [throw_words(throw, hit), quantities])
+    quantities = [*hit.asked(found, units.speed), *worded(values, _WORDS, _DETAILS)]
+    return Answer(
+        hit.heading(found, units.speed), [throw_words(throw, hit), Quantities(quantities)]
+    )
 
 
 def throw_words(throw: float, hit: Hit) -> str:

@@ -198,7 +198,10 @@ def _unit_lower(
     return csc_array(
         (
             np.concatenate((np.ones(size), -entries)),
-            (np.concatenate((places, rows)), np.concatenate((places, columns))),
+            tuple(
+                np.concatenate((places, ends), dtype=np.int32, casting="same_kind")
+                for ends in (rows, columns)
+            ),
         ),
         shape=(size, size),
     )

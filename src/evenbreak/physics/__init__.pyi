@@ -1,5 +1,7 @@
 from .aimed import AimedShot as AimedShot
 from .aimed import aimed_shot as aimed_shot
+from .ball_friction import BALL_FRICTION as BALL_FRICTION
+from .ball_friction import SlipFriction as SlipFriction
 from .collision import Collision as Collision
 from .collision import Jump as Jump
 from .collision import axis_tilt as axis_tilt
@@ -80,7 +82,6 @@ from .table_speed import lag_speed as lag_speed
 from .table_speed import roll_distance as roll_distance
 from .table_speed import roll_time as roll_time
 from .table_speed import table_speed as table_speed
-from .throw import BALL_FRICTION as BALL_FRICTION
 from .throw import FRICTION_LAWS as FRICTION_LAWS
 from .throw import Aim as Aim
 from .throw import aim as aim

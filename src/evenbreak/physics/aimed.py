@@ -13,14 +13,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import number
+from evenbreak.checks import kind_or_usual
 from evenbreak.errors import InputError
+from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
 from evenbreak.physics.leg import State, on_table, place_of, time_to
 from evenbreak.physics.objects import Cloth, PoolTable
 from evenbreak.physics.shot import Shot, shot, sound_strike, spin_ratios, travel_for
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
-from evenbreak.physics.throw import BALL_FRICTION, throw_angle
+from evenbreak.physics.throw import throw_angle
 
 _THINNEST = 0.5 * math.pi - 1e-9
 """Just short of a right angle, at which nothing is hit."""
@@ -80,7 +81,7 @@ def aimed_shot(
     *,
     cloth: Cloth | None = None,
     table: PoolTable | None = None,
-    mu: float = BALL_FRICTION,
+    mu: float | SlipFriction = BALL_FRICTION,
     friction: str = "limited",
 ) -> AimedShot:
     """Trace the shot that sends an object ball to a target, allowing for throw.
@@ -110,9 +111,9 @@ def aimed_shot(
     >>> round(math.degrees(found.turn), 2), round(math.degrees(found.shot.throw), 2)
     (3.16, 3.16)
     """
-    cloth, table = cloth or Cloth(), table or PoolTable()
+    cloth, table = kind_or_usual(cloth, "cloth", Cloth), kind_or_usual(table, "table", PoolTable)
     sound_strike(strike)
-    mu = number(mu, "mu", low=0.0)
+    mu = one_friction(mu)
     places = {"cue_ball": cue_ball, "object_ball": object_ball, "target": target}
     start, standing, goal = (place_of(value, name) for name, value in places.items())
     diameter = strike.ball.diameter
@@ -140,13 +141,13 @@ def aimed_shot(
         )
 
     def throw(cut: float) -> float:
-        spin = _spin_after(strike, cloth, travel_for(cut, distance, diameter))
-        if spin is None:
+        """Return the throw to the left, as the angles are to the right."""
+        now = _state_after(strike, cloth, travel_for(cut, distance, diameter))
+        if now is None:
             return 0.0
-        turn = math.copysign(1.0, cut)
-        return turn * float(
-            throw_angle(abs(cut), spin[0], turn * spin[1], mu=mu, friction=friction)
-        )
+        spin = spin_ratios(now, strike.ball.radius)
+        found = throw_angle(cut, *spin, mu=mu, friction=friction, speed=now.speed)
+        return -found if cut < 0.0 else found
 
     def short(cut: float, thrown: float) -> float:
         return wanted - (cut - thrown - math.asin(diameter * math.sin(cut) / distance))
@@ -155,14 +156,13 @@ def aimed_shot(
     return AimedShot(trace(_solve(lambda cut: short(cut, throw(cut)))), trace(plain), goal)
 
 
-def _spin_after(strike: Strike, cloth: Cloth, travel: float) -> tuple[float, float] | None:
-    """Return J_y and J_z after the cue ball has travelled this far; None if it stops before."""
+def _state_after(strike: Strike, cloth: Cloth, travel: float) -> State | None:
+    """Return the cue ball after it has travelled this far; None if it stops before."""
     slide = Slide(strike.ball, cloth, np.zeros(2), strike.velocity, strike.spin)
     time = time_to(slide, np.array([1.0, 0.0]), travel)
     if time >= (1.0 - 1e-9) * float(slide.stop_time):
         return None
-    now = State(time, slide.at(time), slide.velocity_at(time), slide.spin_at(time))
-    return spin_ratios(now, strike.ball.radius)
+    return State(time, slide.at(time), slide.velocity_at(time), slide.spin_at(time))
 
 
 def _solve(short: Callable[[float], float]) -> float:

@@ -20,10 +20,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import plain
+from evenbreak.checks import kind_or_usual, plain
 from evenbreak.physics.arrays import numbers, positive
+from evenbreak.physics.ball_friction import BALL_FRICTION, checked_friction, friction_of_slip
 from evenbreak.physics.objects import Ball
-from evenbreak.physics.throw import BALL_FRICTION, shot_of, slip_of, thrown
+from evenbreak.physics.throw import hand_of, shot_of, slip_of, thrown
 from evenbreak.physics.units import GRAVITY
 
 
@@ -47,7 +48,9 @@ class Collision:
     ball
         both balls.
     cut, topspin, side, speed
-        the shot: cut angle in radians, J_y, J_z, and V_0 in m/s.
+        the shot: cut angle in radians, to the left below 0; J_y, J_z, and V_0 in m/s.
+    mu
+        the coefficient of friction between the balls in this hit.
     ahead, sideways, upward
         the velocity that the object ball gets, in m/s: V_bx along the line of centres, V_by to
         its left, and V_bz, which is below 0 if the table takes it up.
@@ -58,14 +61,19 @@ class Collision:
     topspin: Any
     side: Any
     speed: Any
+    mu: Any
     ahead: Any
     sideways: Any
     upward: Any
 
     @property
     def throw(self) -> Any:
-        """The angle from the line of centres to the object ball's path, in radians (P4.2)."""
-        return plain(np.arctan2(self.sideways, np.maximum(self.ahead, 1e-300)))
+        """The angle from the line of centres to the object ball's path, in radians (P4.2).
+
+        Above 0 if the ball is thrown forward, towards the direction of the shot.
+        """
+        forward = hand_of(np.asarray(self.cut)) * self.sideways
+        return plain(np.arctan2(forward, np.maximum(self.ahead, 1e-300)))
 
     @property
     def departure(self) -> Any:
@@ -74,7 +82,7 @@ class Collision:
         A right angle minus the throw (P4.11), or plus the throw if friction turns the cue ball
         back across the line of centres.
         """
-        on = self._cue_across >= 0.0
+        on = hand_of(np.asarray(self.cut)) * self._cue_across >= 0.0
         return plain(np.where(on, 0.5 * np.pi - self.throw, 0.5 * np.pi + self.throw))
 
     @property
@@ -200,15 +208,16 @@ def collide(
     Parameters
     ----------
     cut
-        cut angle in radians, 0 to pi/2: the object ball is cut to the right.
+        cut angle in radians, -pi/2 to pi/2: above 0 the object ball is cut to the right.
     topspin
         J_y just before the hit: 1 in natural roll, 0 for stun, below 0 for draw.
     side
-        J_z just before the hit, below 0 for outside english.
+        J_z just before the hit; outside english is below 0 on a cut to the right.
     speed
         V_0, the speed of the cue ball, in m/s.
     mu
-        coefficient of friction between the balls.
+        coefficient of friction between the balls; `SlipFriction()` for one that falls with the
+        speed of the slip.
     friction
         'limited': it stops when the slip stops; 'shepard': the text's law, without that limit.
     ball
@@ -221,7 +230,7 @@ def collide(
 
     Notes
     -----
-    Source: P4.2 to P4.12. A cut to the left is the mirror image: change the sign of `side`.
+    Source: P4.2 to P4.12. A cut to the left with the other `side` is the mirror image.
 
     >>> hit = collide(np.radians(30.0), 0.0, speed=2.0)
     >>> round(float(np.degrees(hit.throw)), 2), hit.object_velocity.round(3)
@@ -229,12 +238,14 @@ def collide(
     >>> bool(hit.energy_lost > 0.0)
     True
     """
-    speed, mu = numbers(speed, "speed", low=0.0), numbers(mu, "mu", low=0.0)
+    mu, speed = checked_friction(mu, speed)
     cut, topspin, side = shot_of(cut, topspin, side, speed=speed, mu=mu)
     sin, cos = np.sin(cut), np.cos(cut)
-    left, up = thrown(cos, *slip_of(sin, cos, topspin, side), mu, friction)
-    found = (cut, topspin, side, speed, speed * cos, speed * left, speed * up)
-    return Collision(ball or Ball(), *map(plain, found))
+    slip = slip_of(sin, cos, topspin, side)
+    mu = friction_of_slip(mu, speed, *slip)
+    left, up = thrown(cos, *slip, mu, friction)
+    found = (cut, topspin, side, speed, mu, speed * cos, speed * left, speed * up)
+    return Collision(kind_or_usual(ball, "ball", Ball), *map(plain, found))
 
 
 def axis_tilt(throw: Any) -> Any:

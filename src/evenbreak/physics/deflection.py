@@ -42,8 +42,8 @@ def deflection(cut: Any, topspin: Any = 1.0) -> Any:
     Parameters
     ----------
     cut
-        cut angle in radians, 0 to pi/2. The value at 0 is the limit of small angles: pi/2 for
-        stun, although the cue ball then stands still.
+        cut angle in radians, -pi/2 to pi/2; a cut to the left is the mirror image. The value at 0
+        is the limit of small angles: pi/2 for stun, although the cue ball then stands still.
     topspin
         J_y just before the hit: 1 in natural roll, 0 for stun, -1 in reverse natural roll.
 
@@ -57,7 +57,7 @@ def deflection(cut: Any, topspin: Any = 1.0) -> Any:
     """
     cut, topspin, _ = shot_of(cut, topspin, 0.0)
     # A full hit is the limit of small angles, by the smallest of them.
-    sin = np.maximum(np.sin(cut), 1e-300)
+    sin = np.maximum(np.abs(np.sin(cut)), 1e-300)
     return plain(np.arctan2(sin * np.cos(cut), sin * sin + 0.4 * topspin))
 
 
@@ -68,7 +68,7 @@ def deflection_slope(cut: float, topspin: float = ...) -> float: ...
 @overload
 def deflection_slope(cut: ArrayLike, topspin: ArrayLike = ...) -> Floats: ...
 def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:
-    """Return d theta / d cut, the sensitivity of the cue ball's path to the cut (P4.15).
+    """Return d theta / d |cut|, the sensitivity of the cue ball's path to the cut (P4.15).
 
     In natural roll it falls from 5/2 at small cut angles (P4.18) to -5/7; for stun it is -1 at
     every cut.

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-from evenbreak.checks import one_of
+from evenbreak.checks import kind_of, one_of
 from evenbreak.physics.objects import Ball
 from evenbreak.physics.units import INCH, OUNCE
 
@@ -61,6 +61,7 @@ def volume_range(balls: BallSet) -> tuple[float, float]:
     >>> round(low / INCH**3, 3), round(high / INCH**3, 3)
     (5.924, 6.004)
     """
+    kind_of(balls, "balls", BallSet)
     low, high = min(balls.diameters), max(balls.diameters)
     return (
         Ball(radius=(low - balls.tolerance) / 2.0).volume,

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import plain, together
+from evenbreak.checks import kind_of, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import LEAST, numbers, positive
 from evenbreak.physics.friction import tip_friction_of
@@ -155,10 +155,11 @@ def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth
     >>> round(now.y, 4), round(now.z, 4)
     (0.2222, 0.8889)
     """
+    kind_of(contact, "contact", ContactPoint)
     y, z = _offset(contact.y, "y"), _height(contact.z)
     speed, time = positive(speed, "speed"), numbers(time, "time", low=0.0)
     together(y=y, z=z, speed=speed, time=time)
-    slowing = cloth.slide_deceleration
+    slowing = kind_of(cloth, "cloth", Cloth).slide_deceleration
     # Natural roll ends it at 5/7 z of the speed, slower or faster than the ball began.
     rolls = 5.0 / 7.0 * z
     lost = np.minimum(slowing * time / speed, np.abs(1.0 - rolls))
@@ -176,6 +177,7 @@ def contact_for_later(later: ContactPoint, z: Any) -> ContactPoint:
     >>> contact_for_later(ContactPoint(0.3, 1.0), 0.7)
     ContactPoint(y=0.21, z=0.7)
     """
+    kind_of(later, "later", ContactPoint)
     z, height, y = _height(z), _height(later.z, "later.z"), numbers(later.y, "later.y")
     together(**{"later.y": y, "later.z": height, "z": z})
     # Where sidespin lasts, `later` may lie beyond the ball; what the tip can strike may not.
@@ -242,11 +244,12 @@ def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
     speed = positive(speed, "speed")
     distance = numbers(distance, "distance", low=0.0)
     together(speed=speed, distance=distance)
-    lost = 2.0 * cloth.slide_deceleration * distance / speed**2
+    slowing = kind_of(cloth, "cloth", Cloth).slide_deceleration
+    lost = 2.0 * slowing * distance / speed**2
     if np.any(lost > 1.0):
         raise InputError(
             "distance is more than a ball of this speed slides; give a higher speed, or less "
-            f"than {float(np.min(speed)) ** 2 / (2.0 * cloth.slide_deceleration):.4g} m"
+            f"than {float(np.min(speed)) ** 2 / (2.0 * slowing):.4g} m"
         )
     # 1 - sqrt(1 - lost), written so that small offsets keep their digits.
     return plain(-lost / (1.0 + np.sqrt(1.0 - lost)))

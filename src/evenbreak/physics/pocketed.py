@@ -12,13 +12,14 @@ from functools import partial
 import numpy as np
 
 from evenbreak.arrays import Floats
+from evenbreak.checks import kind_of
 from evenbreak.errors import InputError
 from evenbreak.physics.aimed import AimedShot, aimed_shot
+from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction
 from evenbreak.physics.leg import place_of
 from evenbreak.physics.objects import Cloth, PoolTable
 from evenbreak.physics.pockets import Pocket
 from evenbreak.physics.strike import Strike
-from evenbreak.physics.throw import BALL_FRICTION
 
 _STEPS = 8
 """The number of points of the mouth to try on each side of its middle."""
@@ -32,7 +33,7 @@ def pocketed_shot(
     *,
     cloth: Cloth | None = None,
     table: PoolTable | None = None,
-    mu: float = BALL_FRICTION,
+    mu: float | SlipFriction = BALL_FRICTION,
     friction: str = "limited",
 ) -> AimedShot:
     """Trace the shot that sends an object ball into a pocket, allowing for throw.
@@ -71,6 +72,7 @@ def pocketed_shot(
         mu=mu,
         friction=friction,
     )
+    kind_of(pocket, "pocket", Pocket)
     straight = aim_at([pocket.x, pocket.y])
     if not _blocked(straight, pocket):
         return straight

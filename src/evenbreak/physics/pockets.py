@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from evenbreak.checks import kind_of
 from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.units import INCH
 
@@ -90,6 +91,7 @@ def pockets(table: PoolTable) -> tuple[Pocket, ...]:
     >>> [pocket.name for pocket in pockets(PoolTable())][2]
     'foot-right'
     """
+    kind_of(table, "table", PoolTable)
     slant = math.sqrt(0.5)
     inset = 0.5 * slant * CORNER_MOUTH
     far, across, middle = table.length - inset, table.width - inset, 0.5 * table.length

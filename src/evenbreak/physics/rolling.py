@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.checks import plain, together
+from evenbreak.checks import kind_of, plain, together
 from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.objects import Ball, Cloth
 from evenbreak.physics.units import GRAVITY, INCH
@@ -50,9 +50,10 @@ def kinetic_energy(ball: Ball, speed: Any, rim_speed: Any) -> Energy:
     >>> round(energy.translational / energy.total, 6)
     0.714286
     """
+    mass = kind_of(ball, "ball", Ball).mass
     speed, rim_speed = numbers(speed, "speed"), numbers(rim_speed, "rim_speed")
     together(speed=speed, rim_speed=rim_speed)
-    return Energy(plain(0.5 * ball.mass * speed**2), plain(0.2 * ball.mass * np.square(rim_speed)))
+    return Energy(plain(0.5 * mass * speed**2), plain(0.2 * mass * np.square(rim_speed)))
 
 
 def rolling_friction(mu_roll: Any, *, shape: float = SHAPES["ball"]) -> Any:
@@ -154,6 +155,7 @@ def spin_stop(rim_speed: Any, cloth: Cloth) -> SpinStop:
     (4.2825, 83.1562, 87.4387)
     """
     speed = 2.0 / 7.0 * np.abs(numbers(rim_speed, "rim_speed"))
+    kind_of(cloth, "cloth", Cloth)
     pull, resistance = cloth.slide_deceleration, cloth.roll_deceleration
     parts = (
         speed,

@@ -18,8 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import number, one_of
+from evenbreak.checks import kind_of, kind_or_usual, number, one_of
 from evenbreak.errors import InputError
+from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, place_of, time_to
@@ -27,7 +28,7 @@ from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import Energy
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
-from evenbreak.physics.throw import BALL_FRICTION, FRICTION_LAWS
+from evenbreak.physics.throw import FRICTION_LAWS
 
 _ROUNDING = 1e-12
 """The rounding error allowed in the distance between touching balls, in diameters."""
@@ -49,10 +50,12 @@ class Shot:
         the cut angle in radians, above 0 if the object ball is cut to the right.
     object_position
         where the object ball is at first, in metres; shape (2,).
+    mu, friction
+        the friction between the balls, and its law.
     approach
         the cue ball's path until the hit, or until it ends without one.
     collision
-        the hit, mirrored for a cut to the left; None if there is none.
+        the hit; None if there is none.
     cue_leg, object_leg
         the paths of the balls after the hit; None if there is none.
     """
@@ -63,6 +66,8 @@ class Shot:
     direction: float
     cut: float
     object_position: Floats
+    mu: float | SlipFriction
+    friction: str
     approach: Leg
     collision: Collision | None
     cue_leg: Leg | None
@@ -157,7 +162,7 @@ def shot(
     table: PoolTable | None = None,
     cue_ball: Sequence[float] | None = None,
     direction: float = 0.0,
-    mu: float = BALL_FRICTION,
+    mu: float | SlipFriction = BALL_FRICTION,
     friction: str = "limited",
 ) -> Shot:
     """Trace a shot at an object ball.
@@ -197,11 +202,11 @@ def shot(
     >>> [leg.ending for leg in found.legs], round(math.degrees(found.deflection), 1)
     (['hit', 'rest', 'rest'], 35.7)
     """
-    cloth, table = cloth or Cloth(), table or PoolTable()
+    cloth, table = kind_or_usual(cloth, "cloth", Cloth), kind_or_usual(table, "table", PoolTable)
     sound_strike(strike)
     # Check these even if no ball is hit.
     one_of(friction, "friction", FRICTION_LAWS)
-    mu = number(mu, "mu", low=0.0)
+    mu = one_friction(mu)
     cut, direction = number(cut, "cut"), number(direction, "direction")
     if abs(cut) >= 0.5 * math.pi:
         raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2")
@@ -223,23 +228,21 @@ def shot(
     cue_leg = object_leg = None
     if approach.ending == "hit":
         found = _collision(approach, cut, mu, friction)
-        turn = (math.copysign(1.0, cut), direction)
         after = {
             "cue ball": (struck, found.cue_velocity, found.cue_spin),
             "object ball": (standing, found.object_velocity, found.object_spin),
         }
         cue_leg, object_leg = (
-            leg_until(name, _set_off(ball, cloth, *state, *turn), approach.end, table)
+            leg_until(name, _set_off(ball, cloth, *state, direction), approach.end, table)
             for name, state in after.items()
         )
-    return Shot(
-        strike, cloth, table, direction, cut, standing, approach, found, cue_leg, object_leg
-    )
+    setting = (strike, cloth, table, direction, cut, standing, mu, friction)
+    return Shot(*setting, approach, found, cue_leg, object_leg)
 
 
 def sound_strike(strike: Strike) -> None:
     """Raise an error if there is more than one strike, or it is a miscue."""
-    if np.ndim(strike.speed):
+    if np.ndim(kind_of(strike, "strike", Strike).speed):
         raise InputError(f"strike is {np.size(strike.speed)} strikes; give one")
     if strike.miscue:
         raise InputError(
@@ -283,15 +286,11 @@ def spin_ratios(state: State, radius: float) -> tuple[float, float]:
     return float(radius * around / state.speed), float(radius * state.spin[2] / state.speed)
 
 
-def _collision(approach: Leg, cut: float, mu: float, friction: str) -> Collision:
-    """Return the hit; a cut to the left as its mirror image, with the sidespin reversed."""
+def _collision(approach: Leg, cut: float, mu: float | SlipFriction, friction: str) -> Collision:
     state = approach.state(approach.end)
     ball = approach.slide.ball
     topspin, side = spin_ratios(state, ball.radius)
-    turn = math.copysign(1.0, cut)
-    return collide(
-        abs(cut), topspin, turn * side, speed=state.speed, mu=mu, friction=friction, ball=ball
-    )
+    return collide(cut, topspin, side, speed=state.speed, mu=mu, friction=friction, ball=ball)
 
 
 def _set_off(
@@ -300,14 +299,11 @@ def _set_off(
     position: Floats,
     velocity: Floats,
     spin: Floats,
-    mirror: float,
     direction: float,
 ) -> Slide:
-    """Return a ball that leaves the hit; its state is given in the mirrored frame of the shot."""
-    velocity = velocity[:2] * [1.0, mirror]
-    # Spin is an axial vector: a mirror reverses the components that it keeps of a velocity.
-    spin = spin * [mirror, 1.0, mirror]
-    return Slide(ball, cloth, position, _turned(velocity, direction), _turned(spin, direction))
+    """Return a ball that leaves the hit; its state is given in the frame of the shot."""
+    velocity = _turned(velocity[:2], direction)
+    return Slide(ball, cloth, position, velocity, _turned(spin, direction))
 
 
 def _turned(vector: Floats, angle: float) -> Floats:

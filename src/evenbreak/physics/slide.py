@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import plain, together
+from evenbreak.checks import kind_of, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import numbers
 from evenbreak.physics.objects import Ball, Cloth
@@ -115,7 +115,7 @@ def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
     together(**{"ahead": x, "velocity[..., 0]": across})
     if not np.all(across):
         raise InputError("velocity is 0 across the force; the path is a straight line then")
-    return plain(along / across * x + 0.5 * cloth.slide_deceleration * (x / across) ** 2)
+    return plain(along / across * x + 0.5 * _pull_of(cloth) * (x / across) ** 2)
 
 
 @overload
@@ -146,7 +146,7 @@ def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     speed = numbers(speed, "speed", low=0.0)
     spin = numbers(spin, "spin", low=-2.5, high=0.0)
     together(speed=speed, spin=spin)
-    time = -0.4 * spin * speed / cloth.slide_deceleration
+    time = -0.4 * spin * speed / _pull_of(cloth)
     return plain(speed * time * (1.0 + 0.2 * spin))
 
 
@@ -175,7 +175,7 @@ def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     spin = numbers(spin, "spin", low=-2.5)
     together(speed=speed, spin=spin)
     slip = 1.0 - spin
-    time = 2.0 * np.abs(slip) * speed / (7.0 * cloth.slide_deceleration)
+    time = 2.0 * np.abs(slip) * speed / (7.0 * _pull_of(cloth))
     return plain(speed * time * (1.0 - slip / 7.0))
 
 
@@ -214,6 +214,8 @@ class Slide:
     spin: Floats
 
     def __post_init__(self) -> None:
+        kind_of(self.ball, "ball", Ball)
+        kind_of(self.cloth, "cloth", Cloth)
         names = {"position": 2, "velocity": 2, "spin": 3}
         for name, size in names.items():
             array = _vectors(getattr(self, name), name, size).copy()
@@ -293,6 +295,11 @@ class Slide:
         together(time=times, **{"slip[..., 0]": self.slip[..., 0]})
         rolled = np.clip(times - self.slide_time, 0.0, self.stop_time - self.slide_time)
         return np.minimum(times, self.slide_time)[..., None], rolled[..., None]
+
+
+def _pull_of(cloth: Cloth) -> float:
+    """Return how fast a ball loses speed while it slides on a cloth, in m/s^2."""
+    return kind_of(cloth, "cloth", Cloth).slide_deceleration
 
 
 def _vectors(value: Any, name: str, size: int) -> Floats:

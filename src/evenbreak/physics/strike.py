@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import plain, together
+from evenbreak.checks import kind_or_usual, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import numbers
 from evenbreak.physics.friction import miscue_offset
@@ -130,7 +130,8 @@ def strike(
     """
     speed = numbers(stick_speed, "stick_speed", low=0.0)
     up, right = _on_the_ball(offset, side_offset, stick_speed=speed)
-    return Strike(ball or Ball(), cue or Cue(), plain(speed), plain(up), plain(right))
+    ball, cue = kind_or_usual(ball, "ball", Ball), kind_or_usual(cue, "cue", Cue)
+    return Strike(ball, cue, plain(speed), plain(up), plain(right))
 
 
 def strike_for_speed(
@@ -159,7 +160,7 @@ def strike_for_speed(
     >>> round(hit.stick_speed, 9), round(hit.speed, 9)
     (2.0, 3.0)
     """
-    ball, cue = ball or Ball(), cue or Cue()
+    ball, cue = kind_or_usual(ball, "ball", Ball), kind_or_usual(cue, "cue", Cue)
     wanted = numbers(ball_speed, "ball_speed", low=0.0)
     up, right = _on_the_ball(offset, side_offset, ball_speed=wanted)
     ratio = ball_speed_ratio(np.hypot(up, right), ball.mass / cue.mass)

@@ -10,7 +10,7 @@ from typing import Any, overload
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import plain, together
+from evenbreak.checks import kind_of, plain, together
 from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.units import GRAVITY
@@ -33,7 +33,7 @@ def lag_distance(table: PoolTable, ball: Ball) -> float:
     >>> round(lag_distance(PoolTable(), Ball()) / INCH, 9)
     97.75
     """
-    return table.length - ball.diameter
+    return kind_of(table, "table", PoolTable).length - kind_of(ball, "ball", Ball).diameter
 
 
 @overload
@@ -102,7 +102,8 @@ def roll_time(speed: Any, cloth: Cloth) -> Any:
     >>> round(roll_time(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
     10.0
     """
-    return plain(numbers(speed, "speed", low=0.0) / cloth.roll_deceleration)
+    resistance = kind_of(cloth, "cloth", Cloth).roll_deceleration
+    return plain(numbers(speed, "speed", low=0.0) / resistance)
 
 
 @overload
@@ -117,7 +118,8 @@ def roll_distance(speed: Any, cloth: Cloth) -> Any:
     >>> round(roll_distance(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
     5.0
     """
-    return plain(numbers(speed, "speed", low=0.0) ** 2 / (2.0 * cloth.roll_deceleration))
+    resistance = kind_of(cloth, "cloth", Cloth).roll_deceleration
+    return plain(numbers(speed, "speed", low=0.0) ** 2 / (2.0 * resistance))
 
 
 def _nine_feet() -> float:

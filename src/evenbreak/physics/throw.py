@@ -14,6 +14,9 @@ balls down. So, in size,
 
 and a stun shot has its full throw only where tan(cut) >= 7 mu. `friction="limited"` includes this
 limit; `friction="shepard"` is the law of the source text without it, which can create energy.
+
+A cut to the left, an angle below 0, is the mirror image of one to the right: it slips and throws
+with the other sidespin. Throw above 0 is forward for both.
 """
 
 from __future__ import annotations
@@ -28,9 +31,13 @@ from evenbreak.arrays import Floats
 from evenbreak.checks import one_of, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import numbers
-
-BALL_FRICTION = 4.0 / 72.0
-"""The coefficient of friction between two balls, as measured in P1.6."""
+from evenbreak.physics.ball_friction import (
+    BALL_FRICTION,
+    BallFriction,
+    SlipFriction,
+    checked_friction,
+    friction_of_slip,
+)
 
 _ROUNDING = 4.0 * np.finfo(float).eps
 
@@ -50,7 +57,7 @@ def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
     Parameters
     ----------
     cut
-        cut angle in radians, 0 to pi/2.
+        cut angle in radians, to the left below 0, at most pi/2.
     topspin
         J_y, 1 in natural roll, 0 for stun, below 0 for draw.
     side
@@ -70,12 +77,18 @@ def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
     """
     cut, topspin, side = shot_of(cut, topspin, side)
     left, up = slip_of(np.sin(cut), np.cos(cut), topspin, side)
-    return plain(left / _length(left, up))
+    return plain(hand_of(cut) * left / _length(left, up))
 
 
 @overload
 def throw_angle(
-    cut: float, topspin: float = ..., side: float = ..., *, mu: float = ..., friction: str = ...
+    cut: float,
+    topspin: float = ...,
+    side: float = ...,
+    *,
+    mu: float | SlipFriction = ...,
+    friction: str = ...,
+    speed: float | None = ...,
 ) -> float: ...
 
 
@@ -85,8 +98,9 @@ def throw_angle(
     topspin: ArrayLike = ...,
     side: ArrayLike = ...,
     *,
-    mu: ArrayLike = ...,
+    mu: BallFriction = ...,
     friction: str = ...,
+    speed: ArrayLike | None = ...,
 ) -> Floats: ...
 def throw_angle(
     cut: Any,
@@ -95,6 +109,7 @@ def throw_angle(
     *,
     mu: Any = BALL_FRICTION,
     friction: str = "limited",
+    speed: Any = None,
 ) -> Any:
     """Return the angle between the object ball's path and the line of centres, in radians (P4.2).
 
@@ -103,17 +118,26 @@ def throw_angle(
     cut, topspin, side
         as for `throw_factor`.
     mu
-        coefficient of friction between the balls.
+        coefficient of friction between the balls; `SlipFriction()` for one that falls with the
+        speed of the slip.
     friction
         'limited' or 'shepard'.
+    speed
+        of the cue ball at the hit, in m/s; needed for `SlipFriction`, else it does not matter.
 
     Returns
     -------
     above 0 if the ball is thrown forward, as in a cut without english: it misses thick
 
+    Raises
+    ------
+    InputError
+        if a number is not finite or out of range, `friction` is neither of the two, or the
+        speed is missing.
+
     Notes
     -----
-    Source: P4.2; for stun P4.3, for natural roll P4.4. The speed does not matter.
+    Source: P4.2; for stun P4.3, for natural roll P4.4.
 
     >>> round(math.degrees(throw_angle(math.radians(30.0))), 3)
     1.591
@@ -121,13 +145,17 @@ def throw_angle(
     1.443
     >>> round(math.degrees(throw_angle(math.radians(10.0), 0.0, friction="shepard")), 3)
     3.18
+    >>> speeds = [0.5, 2.0, 4.0]
+    >>> np.degrees(throw_angle(math.pi / 6.0, 0.0, mu=SlipFriction(), speed=speeds)).round(1)
+    array([4.7, 2.7, 1.3])
     """
-    mu = numbers(mu, "mu", low=0.0)
-    cut, topspin, side = shot_of(cut, topspin, side, mu=mu)
+    mu, speed = checked_friction(mu, speed)
+    cut, topspin, side = shot_of(cut, topspin, side, mu=mu, speed=speed)
     # cos(pi/2) rounds to 6e-17, so the throw at a right angle is the limit of thin cuts.
     sin, cos = np.sin(cut), np.cos(cut)
-    sideways, _ = thrown(cos, *slip_of(sin, cos, topspin, side), mu, friction)
-    return plain(np.arctan2(sideways, cos))
+    slip = slip_of(sin, cos, topspin, side)
+    sideways, _ = thrown(cos, *slip, friction_of_slip(mu, speed, *slip), friction)
+    return plain(np.arctan2(hand_of(cut) * sideways, cos))
 
 
 @overload
@@ -156,6 +184,8 @@ def gearing_side(cut: float) -> float: ...
 def gearing_side(cut: ArrayLike) -> Floats: ...
 def gearing_side(cut: Any) -> Any:
     """Return the sidespin J_z that leaves no sideways slip, and so no throw (P4.26).
+
+    The cut angle is in radians, to the left below 0.
 
     >>> round(gearing_side(math.radians(20.0)), 4)
     -0.342
@@ -200,9 +230,10 @@ class Aim(NamedTuple):
     Parameters
     ----------
     cut
-        the cut angle to aim for, in radians.
+        the cut angle to aim for, in radians, to the left below 0.
     throw
-        the throw at that cut, in radians; the object ball then leaves at the angle wanted.
+        the throw at that cut, in radians, above 0 towards a fuller hit; the object ball then
+        leaves at the angle wanted.
     offset
         how far beside the target the line of centres points, towards the thinner cut, in the
         unit of the distance.
@@ -224,16 +255,17 @@ def aim(
     *,
     mu: Any = BALL_FRICTION,
     friction: str = "limited",
+    speed: Any = None,
 ) -> Aim:
     """Return where to aim so that the thrown object ball goes where it should (P4.6).
 
     Parameters
     ----------
     cut
-        the angle at which the object ball should leave, in radians.
+        the angle at which the object ball should leave, in radians, to the left below 0.
     distance
         from the object ball to its target, in any unit of length.
-    topspin, side, mu, friction
+    topspin, side, mu, friction, speed
         as for `throw_angle`.
 
     Raises
@@ -245,18 +277,20 @@ def aim(
     >>> round(found.offset_of_text, 3), round(found.offset, 3)
     (0.5, 0.528)
     """
-    distance, mu = numbers(distance, "distance", low=0.0), numbers(mu, "mu", low=0.0)
-    wanted, topspin, side = shot_of(cut, topspin, side, distance=distance, mu=mu)
+    distance = numbers(distance, "distance", low=0.0)
+    mu, speed = checked_friction(mu, speed)
+    wanted, topspin, side = shot_of(cut, topspin, side, distance=distance, mu=mu, speed=speed)
 
     def throw(angle: Floats) -> Any:
-        # Beyond a full hit the ball is cut the other way, so inside english becomes outside.
-        turned = np.where(angle < 0.0, -side, side)
-        found = throw_angle(np.abs(angle), topspin, turned, mu=mu, friction=friction)
-        return np.where(angle < 0.0, -found, found)
+        """Return the throw to the left, as the angles are to the right."""
+        forward = throw_angle(angle, topspin, side, mu=mu, friction=friction, speed=speed)
+        return hand_of(angle) * forward
 
-    largest = np.arctan(mu)
-    low, high = np.broadcast_arrays(wanted - largest, np.minimum(wanted + largest, math.pi / 2.0))
-    if np.any(high - throw(high) < wanted - 1e-12):
+    largest = np.arctan(mu.slow if isinstance(mu, SlipFriction) else mu)
+    low, high = np.broadcast_arrays(
+        np.maximum(wanted - largest, -math.pi / 2.0), np.minimum(wanted + largest, math.pi / 2.0)
+    )
+    if np.any((low - throw(low) > wanted + 1e-12) | (high - throw(high) < wanted - 1e-12)):
         raise InputError(
             "cut is too thin: allowing for throw, it would be more than a right angle; give a "
             "smaller cut angle, or other spin"
@@ -267,21 +301,28 @@ def aim(
         low, high = np.where(short, middle, low), np.where(short, high, middle)
     # For stun the law of the text jumps where nothing slips; a cut without throw is a solution.
     found = np.where(throw(wanted) == 0.0, wanted, 0.5 * (low + high))
-    rule = mu * distance * throw_factor(wanted, topspin, side)
+    slip = slip_of(np.sin(wanted), np.cos(wanted), topspin, side)
+    rule = friction_of_slip(mu, speed, *slip) * distance * throw_factor(wanted, topspin, side)
+    hand = hand_of(wanted)
     return Aim(
         plain(found),
-        plain(throw(found)),
-        plain(distance * np.tan(found - wanted)),
+        plain(hand * throw(found)),
+        plain(hand * distance * np.tan(found - wanted)),
         plain(rule),
     )
 
 
 def cut_of(cut: Any) -> Floats:
-    """Return a cut angle as an array, if it is from 0 to pi/2."""
-    return numbers(cut, "cut", low=0.0, high=math.pi / 2.0)
+    """Return a cut angle as an array, if it is from -pi/2 to pi/2."""
+    return numbers(cut, "cut", low=-math.pi / 2.0, high=math.pi / 2.0)
 
 
-def shot_of(cut: Any, topspin: Any, side: Any, **others: Floats) -> tuple[Floats, Floats, Floats]:
+def hand_of(cut: Floats) -> Any:
+    """Return 1 for a cut to the right and for a full hit, -1 for a cut to the left."""
+    return np.where(cut < 0.0, -1.0, 1.0)
+
+
+def shot_of(cut: Any, topspin: Any, side: Any, **others: Any) -> tuple[Floats, Floats, Floats]:
     """Return cut angle, J_y and J_z as arrays, if they and the others broadcast together."""
     cut, topspin, side = cut_of(cut), numbers(topspin, "topspin"), numbers(side, "side")
     together(cut=cut, topspin=topspin, side=side, **others)

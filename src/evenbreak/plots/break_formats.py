@@ -12,6 +12,7 @@ from evenbreak.games.breaks import BREAK_FORMATS
 from evenbreak.games.rack import Rack
 from evenbreak.plots.contours import contour_axes
 from evenbreak.plots.point_labels import mark_points
+from evenbreak.plots.style import write_title
 from evenbreak.practice.breaks import long_run_share
 
 _X = "$p_1$ = P(A wins | A breaks)"
@@ -100,5 +101,9 @@ def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Figure:
     for axes, title in zip(panels, [*titles, f"winner minus loser breaks: {text}"], strict=True):
         axes.set_title(title)
         mark_points(axes, [(p1, p2, "")])
-    figure.suptitle(f"the dot: A wins {p1:g} of the racks A breaks, B {p2:g} of the racks B breaks")
+    write_title(
+        figure,
+        "A's share of the racks in the long run, by break format\n"
+        f"The dot: A wins {p1:g} of the racks A breaks, B wins {p2:g} of the racks B breaks",
+    )
     return figure

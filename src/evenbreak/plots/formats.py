@@ -10,7 +10,13 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.crossings import Crossings, rack_along
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.win import win_probability
-from evenbreak.plots.style import LINES, new_axes, unit_axis
+from evenbreak.plots.style import (
+    LINES,
+    new_axes,
+    take_names_as_they_are,
+    unit_axis,
+    write_title,
+)
 
 _POINTS = 401
 
@@ -21,9 +27,10 @@ def plot_formats(
     pairs: Iterable[Crossings],
     *,
     p1: float,
+    title: str = "",
     names: tuple[str, str] = ("A", "B"),
 ) -> Figure:
-    """Return a figure of P(A wins the match) against A's chance in a game, a curve per format.
+    """Return a figure of player 1's chance in a match against that in a game, a curve per format.
 
     Parameters
     ----------
@@ -34,27 +41,26 @@ def plot_formats(
     pairs
         the crossings, each marked by a dot.
     p1
-        A's chance for the two players in question, a vertical line.
+        that chance for the two players in question, a vertical line.
+    title
+        who plays, above the picture.
     names
-        what the two players are called.
+        of player 1 and player 2.
 
     >>> from evenbreak.matches import crossings, match_format
     >>> two = [match_format("2:1"), match_format("4:2")]
     >>> figure = plot_formats(two, {}, [crossings(*two)], p1=0.6)
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
-    ['2:1', '4:2', 'worth the same']
+    ['2:1', '4:2', 'worth the same', 'A against B']
     """
     fixed = {name: line.get(name) for name in ("p2", "break_odds")}
     matters = any(value is not None for value in fixed.values())
-    a = names[0]
+    a, b = names
     x = f"p1 = P({a} wins a game | {a} breaks)" if matters else f"p = P({a} wins a game)"
-    figure, axes = new_axes("", "", size=(6.4, 5.2))
-    axes.set_xlabel(x, parse_math=False)
-    axes.set_ylabel(f"P({a} wins the match)", parse_math=False)
+    figure, axes = new_axes(x, f"P({a} wins the match)", size=(6.4, 5.6))
     chances = np.linspace(0.0, 1.0, _POINTS)[1:-1]
     rack: Rack = rack_along(chances, **fixed)
     axes.axhline(0.5, color="0.7", linewidth=0.8)
-    axes.axvline(p1, color="0.7", linewidth=0.8)
     for played, style in zip(formats, LINES, strict=False):
         match = played.match(
             rack, breaks=line.get("breaks"), first_breaker=line.get("first_breaker", 1)
@@ -78,6 +84,10 @@ def plot_formats(
             clip_on=False,
             label="worth the same",
         )
+    axes.axvline(p1, color="0.5", linewidth=1.0, zorder=0, label=f"{a} against {b}")
     unit_axis(axes, "x", "y")
+    if title:
+        write_title(figure, title)
     axes.legend(frameon=False, loc="best")
+    take_names_as_they_are(axes)
     return figure

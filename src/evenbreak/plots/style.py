@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from textwrap import fill
 from typing import Any, Literal, NamedTuple
 
 import matplotlib as mpl
@@ -31,11 +32,14 @@ LINES = (
 """The lines of a plot, in order; the first seven colours are those of Okabe and Ito (2008)."""
 
 _LABEL = 10
-"""The font size of a curve's name."""
+"""The font size of a curve's name, and of a title of several lines."""
+_LETTERS_AN_INCH = 11.5
+"""How many letters of that size fit into an inch, at least."""
 _BESIDE = {
     "left": ((-6, 0), "right", "center"),
     "right": ((6, -1), "left", "center"),
     "above": ((0, 4), "center", "bottom"),
+    "below": ((4, -5), "center", "top"),
 }
 
 
@@ -80,6 +84,19 @@ def new_axes(
     return figure, axes
 
 
+def write_title(figure: Figure, text: str) -> None:
+    """Write what is drawn above all panels of a figure, in lines that fit its width.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> write_title(figure, "Race 7:5, score 2:3")
+    >>> figure.get_suptitle()
+    'Race 7:5, score 2:3'
+    """
+    width = int(_LETTERS_AN_INCH * figure.get_figwidth())
+    lines = [fill(line, width) for line in text.splitlines()]
+    figure.suptitle("\n".join(lines), fontsize=_LABEL, parse_math=False)
+
+
 def unit_axis(axes: Axes, *which: str) -> None:
     """Let the axes given, "x" or "y", run from 0 to 1, with a tick at every tenth.
 
@@ -108,7 +125,7 @@ def label_on(axes: Axes, x: float, y: float, text: str) -> Text:
 
 
 def label_beside(
-    axes: Axes, x: float, y: float, text: str, side: Literal["left", "right", "above"]
+    axes: Axes, x: float, y: float, text: str, side: Literal["left", "right", "above", "below"]
 ) -> Text:
     """Write a curve's name beside the point (x, y), in the units of the axes.
 
@@ -130,3 +147,10 @@ def note(
     'even'
     """
     return axes.annotate(text, place, beside, textcoords="offset points", **style)
+
+
+def take_names_as_they_are(axes: Axes) -> None:
+    """Show labels and legend without reading a $ in a player's name as mathematics."""
+    legend = axes.get_legend()
+    for text in (axes.xaxis.label, axes.yaxis.label, *(legend.get_texts() if legend else ())):
+        text.set_parse_math(False)

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from scipy.integrate import solve_ivp
 
 from evenbreak.source_text.answers import compute
 from evenbreak.source_text.physics.natural_roll import ANSWERS
@@ -31,3 +32,32 @@ def test_a_sliding_ball_slips_one_way_and_so_draws_a_parabola():
 
 def test_on_the_moon_a_lag_takes_the_root_of_the_gravities_longer():
     assert compute("P2.5", "sqrt(g/g on the moon)", "") == pytest.approx(math.sqrt(386 / 63.8))
+
+
+def drift(speed: float, rim: float, time: float) -> float:
+    """Integrate how far a ball goes down a slope of 1e-5, across its line, with mu g = 1.
+
+    The state is y, the velocity v of the ball and u of its rim, equal in natural roll; friction
+    acts against the slip v - u, and changes u by 5/2 of what it takes from v. Below a slip of
+    1e-6 it is less than mu g: so the ball stays in natural roll.
+    """
+
+    def motion(_: float, state: list[float]) -> list[float]:
+        _, v_x, v_y, u_x, u_y = state
+        slip = math.hypot(v_x - u_x, v_y - u_y, 1e-6)
+        pull_x, pull_y = (u_x - v_x) / slip, (u_y - v_y) / slip
+        return [v_y, pull_x, 1e-5 + pull_y, -2.5 * pull_x, -2.5 * pull_y]
+
+    start = [0.0, speed, 0.0, rim, 0.0]
+    solved = solve_ivp(motion, (0.0, time), start, method="LSODA", rtol=1e-10, atol=1e-15)
+    return float(solved.y[0, -1])
+
+
+def test_the_drift_of_a_drag_shot_is_that_of_the_equations_of_motion():
+    # From J = -1 the slip 2 V_0 ends after 2 V_0 / (7/2 mu g), at 3/7 V_0 and a mean of 5/7 V_0.
+    slide = 2.0 / 3.5
+    dragged, rolled = drift(1.0, -1.0, slide), drift(3 / 7, 3 / 7, slide * 5 / 3)
+    assert dragged / rolled == pytest.approx(54 / 125, rel=1e-5)
+    quantity = "by how much off-level drift falls against natural roll all the way, %"
+    saved = compute("Exercise 2.1", quantity, "J=-1")
+    assert saved == pytest.approx(100 * (1 - dragged / rolled), rel=1e-5)

@@ -80,10 +80,13 @@ def test_what_friction_gives_the_one_ball_it_takes_from_the_other() -> None:
     assert line @ left == pytest.approx(0)
     assert math.atan2(-line[1], line[0]) == pytest.approx(math.pi / 6)
     assert gained @ left > 0
+    (before,) = vectors("figure_4_2", "$V_0$")
     # Without friction the object ball goes along the line of centres, the cue ball across it.
     (object_ball,), (cue_ball,) = (vectors("figure_4_2", f"$V_{ball}$") for ball in "bc")
     assert cross(object_ball - gained, line) == pytest.approx(0)
     assert (cue_ball - lost) @ line == pytest.approx(0)
+    assert object_ball + cue_ball == pytest.approx(before)
+    assert before[1] == 0
 
 
 def test_each_way_of_slipping_has_its_quadrant() -> None:

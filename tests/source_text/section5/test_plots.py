@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from drawings import at, contours, curves, figure, line_at
+from drawings import at, contours, curves, figure, line_at, marked
 
 
 def race(p: Fraction, m: int, n: int) -> Fraction:
@@ -19,9 +19,8 @@ def race(p: Fraction, m: int, n: int) -> Fraction:
 
 
 def test_races_are_ten_even_and_ten_with_twice_the_games_for_player_1() -> None:
-    axes = figure("figure_5_1").axes[0]
-    assert len(axes.lines) == 20
-    drawn = curves(axes)
+    drawn = curves(figure("figure_5_1").axes[0])
+    assert len(drawn) == 20
     for n, (even, uneven) in enumerate(zip(drawn[0::2], drawn[1::2], strict=True), start=1):
         for p in (Fraction(1, 4), Fraction(1, 2), Fraction(7, 10)):
             assert at(even, float(p)) == pytest.approx(float(race(p, n, n)), abs=1e-12)
@@ -30,7 +29,7 @@ def test_races_are_ten_even_and_ten_with_twice_the_games_for_player_1() -> None:
 
 
 def test_the_two_families_of_races_differ_without_colour() -> None:
-    lines = figure("figure_5_1").axes[0].lines
+    lines = figure("figure_5_1").axes[0].lines[:20]
     styles = (
         {line.get_linestyle() for line in lines[0::2]},
         {line.get_linestyle() for line in lines[1::2]},
@@ -46,6 +45,7 @@ def test_the_inset_marks_where_2_to_1_and_4_to_2_cross() -> None:
     assert chance == pytest.approx(0.410097, abs=1e-6)
     assert inset.get_xlim()[0] < p < inset.get_xlim()[1]
     assert "$p$ = 0.640" in [text.get_text() for text in inset.texts]
+    assert marked(figure("figure_5_1").axes[0], p, chance)
 
 
 # Fig. 5.3
@@ -122,6 +122,8 @@ def test_the_drill_has_nine_shares_that_make_up_the_whole() -> None:
 def test_no_two_levels_share_a_line() -> None:
     lines = figure("figure_5_8").axes[0].lines
     assert len({line.get_color() for line in lines}) == 9
+    legend = figure("figure_5_8").axes[0].get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == [f"$v_{n}$" for n in range(1, 10)]
     dashes = {line._unscaled_dash_pattern for line in lines}
     assert len({str(pattern) for pattern in dashes}) == 9
 

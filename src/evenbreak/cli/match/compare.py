@@ -97,12 +97,20 @@ def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) 
         (i, j): matches.crossings(read[i], read[j], **line)
         for i, j in combinations(range(len(read)), 2)
     }
+    answer = compare_answer(players, compared, pairs, hold=hold)
     if plot is not None:
         from evenbreak.plots.formats import plot_formats
 
-        p1 = float(players.rack.p1)
-        write_plot(plot_formats(read, line, pairs.values(), p1=p1, names=players.names), plot)
-    return compare_answer(players, compared, pairs, hold=hold)
+        figure = plot_formats(
+            read,
+            line,
+            pairs.values(),
+            p1=float(players.rack.p1),
+            title=answer.heading,
+            names=players.names,
+        )
+        write_plot(figure, plot)
+    return answer
 
 
 def _refuse_numbers(

@@ -73,8 +73,9 @@ def command(
         refuse("--plot draws the match as it went; give --racks, such as abbab")
     refuse_giants(match)
     odds = live_odds(match, racks, set_score=set_score)
+    answer = live_answer(players, match, odds, comebacks=table)
     if plot is not None:
         from evenbreak.plots.live_match import plot_course
 
-        write_plot(plot_course(odds, players.names), plot)
-    return live_answer(players, match, odds, comebacks=table)
+        write_plot(plot_course(odds, title=answer.heading, names=players.names), plot)
+    return answer

@@ -1,12 +1,15 @@
 """`evenbreak physics deflect`: where the cue ball goes after the hit."""
 
+from dataclasses import replace
 from typing import Any
 
 import click
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.shot_units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.hit_options import hit_of, hit_options
+from evenbreak.cli.physics.measures import metric_option
 
 EXAMPLES = """\b
 Examples:
@@ -18,14 +21,17 @@ Examples:
 
 @click.command("deflect", epilog=EXAMPLES)
 @hit_options
+@metric_option
 @faces()
-def command(**hit: Any) -> Answer:
+def command(units: Units, **hit: Any) -> Answer:
     """Find where the cue ball goes after the hit.
 
     The deflection is the angle between the direction of the shot and the cue ball's path
-    once it rolls: 0 to 180 degrees, away from the object ball. --side, --mu and --friction
-    change only the angles that allow for friction between the balls.
+    once it rolls: 0 to 180 degrees, away from the object ball. --side, --speed, --mu and
+    --friction change only the angles that allow for friction between the balls.
     """
     from evenbreak.answers.cue_ball_path import cue_ball_path_answer
+    from evenbreak.answers.shot_units import unit_doubts
 
-    return cue_ball_path_answer(hit_of(**hit))
+    answer = cue_ball_path_answer(hit_of(units, **hit), units)
+    return replace(answer, warnings=unit_doubts(units, speed=hit["speed"]))

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.kit.options import Command, with_options
-from evenbreak.cli.physics.measures import CUT, FRICTION, OFFSET, SPIN
+from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.physics.measures import CUT, FRICTION, OFFSET, SPEED, SPIN
 
 if TYPE_CHECKING:
     from evenbreak.answers.hit import Hit
+    from evenbreak.answers.shot_units import Units
+    from evenbreak.physics import SlipFriction
 
 
 _FRICTION = (
@@ -25,13 +28,17 @@ _FRICTION = (
     click.option(
         "--mu",
         type=FRICTION,
-        default=4.0 / 72.0,
-        show_default=False,
-        help="Friction between the two balls.  [default: 4/72 = 0.0556]",
+        help="Friction between the two balls: a number for any speed, or by-speed, which falls "
+        "with the speed as measured (Alciatore's fit).  [default: 4/72 = 0.0556]",
     ),
 )
 _HIT = (
     *_FRICTION,
+    click.option(
+        "--speed",
+        type=SPEED,
+        help="Speed of the cue ball at the hit; friction then falls with it (--mu by-speed).",
+    ),
     click.option(
         "--side",
         type=SPIN,
@@ -59,15 +66,35 @@ def friction_options(command: Command) -> Command:
 
 
 def hit_options(command: Command) -> Command:
-    """Add the options --cut, --topspin, --side, --mu and --friction; see `hit_of`."""
+    """Add the options --cut, --topspin, --side, --speed, --mu and --friction; see `hit_of`."""
     return with_options(command, *_HIT)
 
 
-def hit_of(*, cut: float, topspin: float, side: float, mu: float, friction: str) -> Hit:
+def hit_of(
+    units: Units,
+    *,
+    cut: float,
+    topspin: float,
+    side: float,
+    speed: float | None,
+    mu: float | SlipFriction | None,
+    friction: str,
+) -> Hit:
     """Return the hit that the options describe."""
     from evenbreak.answers.hit import Hit
+    from evenbreak.physics import BALL_FRICTION, SlipFriction
 
-    return Hit(cut, topspin, side, mu, friction)
+    if mu is None:
+        mu = BALL_FRICTION if speed is None else SlipFriction()
+    elif isinstance(mu, SlipFriction) and speed is None:
+        refuse("--mu by-speed needs the speed of the cue ball at the hit; give --speed too")
+    elif not isinstance(mu, SlipFriction) and speed is not None:
+        refuse(
+            f"--speed {speed:g} changes nothing with --mu {mu:g}, which holds at any speed; leave "
+            "one of them out"
+        )
+    pace = None if speed is None else speed * units.speed.size
+    return Hit(cut, topspin, side, mu, friction, pace)
 
 
 def tip_options(**offset: Any) -> Callable[[Command], Command]:

@@ -1,5 +1,7 @@
 """The numbers that players type for a shot, and the option --metric."""
 
+from typing import Any
+
 import click
 
 from evenbreak.answers.shot_units import Units
@@ -23,13 +25,28 @@ class Measure(Number):
         return f"{self.needed.capitalize()}."
 
 
+class Friction(Measure):
+    """A coefficient of friction from 0 to 1, or `by-speed`: the fit to measurements."""
+
+    def __init__(self) -> None:
+        super().__init__("mu", 0.0, 1.0, "0.06, or by-speed")
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the number, or the friction that falls with the speed of the slip."""
+        if str(value).strip().lower() == "by-speed":
+            from evenbreak.physics import SlipFriction
+
+            return SlipFriction()
+        return super().convert(value, param, ctx)
+
+
 CUT = Measure("degrees", -90.0, 90.0, "30")
 LENGTH = Measure("length", 0.01, 1e5, "36")
 SPEED = Measure("speed", 0.01, 1e5, "60")
 WEIGHT = Measure("weight", 0.01, 1e5, "6")
 SPIN = Measure("J", -100.0, 100.0, "0.3")
 OFFSET = Measure("B", -1.0, 1.0, "0.4")
-FRICTION = Measure("mu", 0.0, 1.0, "0.06")
+FRICTION = Friction()
 
 
 def _units(ctx: click.Context, param: click.Parameter, value: bool) -> Units:  # noqa: ARG001

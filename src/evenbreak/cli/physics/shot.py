@@ -22,6 +22,7 @@ from evenbreak.cli.physics.measures import LENGTH, Measure, metric_option
 EXAMPLES = """\b
 Examples:
   evenbreak physics shot --cut 30 --distance 24 --speed 80 --offset -0.3
+  evenbreak physics shot --cut 30 --distance 24 --speed 80 --mu by-speed
   evenbreak physics shot --cut -45 --distance 20 --speed 50 --plot shot.svg
   evenbreak physics shot --cue-ball 25,16 --object-ball 50,25 --pocket foot-left --speed 60
 """
@@ -89,7 +90,8 @@ def command(units: Units, plot: str | None, **how: Any) -> Answer:
     places = ("cut", "distance", "cue_ball", "object_ball", "pocket", "table_length")
     layout = layout_of(units, **{name: how[name] for name in places})
     cloth = physics.Cloth(mu_slide=how["cloth_mu"], mu_roll=1.0 / how["table_speed"])
-    friction = {"mu": how["mu"], "friction": how["friction"]}
+    mu = physics.BALL_FRICTION if how["mu"] is None else how["mu"]
+    friction = {"mu": mu, "friction": how["friction"]}
     traced = traced_shot(_strike(how, units), layout, cloth=cloth, **friction)
     if plot is not None:
         write_plot(plots.shot_on_table(traced), plot)

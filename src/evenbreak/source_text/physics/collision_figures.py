@@ -79,8 +79,8 @@ def sensitivity() -> Figure:
     """Fig. 4.5: how fast the throw factor changes with the spin; contours a factor 2 apart."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.3, 5.5), layout="constrained")
-    axes, inset = figure.subplots(1, 2, width_ratios=(5, 3.2))
+    figure = Figure(figsize=(9.3, 5.1), layout="constrained")
+    axes, inset = figure.subplots(1, 2, width_ratios=(5, 4.2))
     figure.suptitle(
         r"Sensitivity $F(J_0)$ of $\cos\gamma$, half-ball cut $\alpha$ = π/6; "
         "levels and spins chosen"
@@ -111,21 +111,24 @@ def _contours(axes: Axes, across: tuple[float, float], up: float, levels: list[f
     axes.set(xlim=across, ylim=(-up, up), aspect="equal", xlabel=_SIDE, ylabel=_TOPSPIN)
     axes.tick_params(direction="in", top=True, right=True)
     # The smallest contour of the whole plot has no room for its level; the inset names it.
-    places = [_place(level, up) for level in levels if level != _LARGEST_DRAWN or up == INSET]
+    named = [level for level in levels if level != _LARGEST_DRAWN or up == INSET]
+    places = [_place(level, up, right) for level in named]
     axes.clabel(lines, fmt=_power, fontsize=8.5, manual=places)
 
 
-def _place(level: float, up: float) -> tuple[float, float]:
+def _place(level: float, up: float, right: float) -> tuple[float, float]:
     """Return where to write a level: straight above the point where nothing slips, or beside it.
+
+    The lower the level, the nearer to the horizontal, so that the names keep apart.
 
     The sensitivity falls as 1/r along every ray from there, so each contour is the next one at
     twice the size.
     """
     step = gearing_side(HALF_BALL)
-    for degrees in (90.0, 20.0, 8.0):
+    for degrees in (90.0, 50.0, 36.0, 22.0, 12.0, 9.0):
         way = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
         far = throw_sensitivity(HALF_BALL, way[1], step + way[0]) / level
-        if far * way[1] < 0.9 * up and far * way[0] < 1.1 * up:
+        if far * way[1] < 0.9 * up and far * way[0] < 0.9 * (right - step):
             break
     return step + far * way[0], far * way[1]
 

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+from evenbreak.physics.ball_friction import BALL_FRICTION
 from evenbreak.physics.collision import Collision, axis_tilt, collide
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.offset import NATURAL_ROLL_OFFSET, gearing_tip, offset_for
 from evenbreak.physics.slide import roll_velocity
 from evenbreak.physics.throw import (
-    BALL_FRICTION,
     aim,
     full_throw_cut,
     gearing_side,

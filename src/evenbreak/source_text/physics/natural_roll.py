@@ -60,6 +60,21 @@ def _time_saved(i: Inputs) -> float:
     return 1.0 - float(roll_speed(1.0, i["J"])) / _mean_drag_speed(i)
 
 
+def _drift_saved(i: Inputs) -> float:
+    """Return the share of sideways drift saved on a table that is not level.
+
+    Compared with rolling at the speed of arrival. A rolling ball accelerates down a slope beta by
+    5/7 g sin(beta). For a ball that slides for a time T, the sideways slip grows as gravity makes
+    it and falls as friction uses it up, 7/2 as fast as friction pulls: with s = T - t left,
+
+        slip = g sin(beta) s ln(T/s),   acceleration = g sin(beta) (1 - 2/7 ln(T/s))
+
+    and the integral of s times the acceleration is (1/2 - 1/14) g sin(beta) T^2.
+    """
+    sliding, rolling = 0.5 - 2.0 / 7.0 / 4.0, 0.5 * _shares()[0]
+    return 1.0 - sliding / rolling * (1.0 - _time_saved(i)) ** 2
+
+
 def _masse(i: Inputs) -> Slide:
     velocity = np.array([i["V_x"], i["V_y"]])
     spin = np.array([i["w_x"], i["w_y"], i["w_z"]])
@@ -112,6 +127,10 @@ ANSWERS: Answers = {
     (
         "Exercise 2.1",
         "by how much off-level drift falls against natural roll all the way, %",
+    ): lambda i: 100.0 * _drift_saved(i),
+    (
+        "Exercise 2.1",
+        "by how much the time falls against natural roll all the way, %",
     ): lambda i: 100.0 * _time_saved(i),
     ("P2.3", "spread of the direction of friction during a slide, rad"): _spread,
     ("P2.3", "y of the parabola where the slide ends, in"): _parabola,

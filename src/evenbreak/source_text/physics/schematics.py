@@ -21,6 +21,8 @@ _CUT = math.pi / 6.0
 _FRICTION = 0.2
 """Friction between the balls, exaggerated to show its effect."""
 _OFFSET = 0.5
+_SPEED = 1.5
+"""The length of the arrow of V_0 in Fig. 4.2; the radius of a ball is 1."""
 
 Pair = Sequence[float]
 
@@ -92,20 +94,21 @@ def hit_from_above() -> Figure:
     left = np.array([math.sin(_CUT), math.cos(_CUT)])
     _ball(axes, (0.0, 0.0))
     _ball(axes, 2.0 * way)
-    object_ball, cue_ball = 1.5 * _velocities(_CUT)
+    object_ball, cue_ball = _SPEED * _velocities(_CUT)
     _arrow(axes, (0.0, 0.0), (2.6, 0.0), "$x'$", beside=(8, 0), lw=0.8)
+    _arrow(axes, (0.0, 0.0), (_SPEED, 0.0), "$V_0$", beside=(0, 10), at=0.85, lw=2.2)
     _arrow(axes, (0.0, 0.0), (0.0, 1.5), "$y'$", beside=(0, 8), lw=0.8)
     _arrow(axes, (0.0, 0.0), 3.4 * way, "$x$", beside=(7, -5), lw=0.8)
     _arrow(axes, (0.0, 0.0), 1.5 * left, "$y$", beside=(6, 6), lw=0.8)
     _angle(axes, (0.0, 0.0), way, (1.0, 0.0), r"$\alpha$", radius=0.62)
     friction = (object_ball @ left) * left
     for start, after, sign, name, side in (
-        (2.0 * way, object_ball, 1.0, "$V_b$", (9, 8)),
-        (np.zeros(2), cue_ball, -1.0, "$V_c$", (13, -5)),
+        (2.0 * way, object_ball, 1.0, "$V_b$", (2, 11)),
+        (np.zeros(2), cue_ball, -1.0, "$V_c$", (-13, 2)),
     ):
         _arrow(axes, start, after, name, beside=side, lw=2.2)
         shift = "$+V_{by}$" if sign > 0.0 else "$-V_{by}$"
-        beside = (24, 2) if sign > 0.0 else (20, -3)
+        beside = (24, -4) if sign > 0.0 else (20, -3)
         _arrow(axes, start + after - sign * friction, sign * friction, shift, beside=beside, at=0.4)
     return figure
 

@@ -46,7 +46,7 @@ def same_sidespin() -> Figure:
     """Fig. 3.1: the contact points of equal sidespin, just after the tip and in natural roll."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.0, 4.9), layout="constrained")
+    figure = Figure(figsize=(9.3, 5.0), layout="constrained")
     figure.suptitle("Contact points of equal sidespin; values of $J_z$ chosen")
     after_tip, in_roll = figure.subplots(1, 2)
     ball_view(after_tip, "a) $J_z$ just after the tip")
@@ -70,7 +70,7 @@ def _name_spin(axes: Axes, side: float, place: tuple[float, float], ha: str) -> 
     whole, rest = divmod(abs(side), 1.0)
     sign = "\N{MINUS SIGN}" if side < 0.0 else ""
     name = sign + (f"{whole:.0f}" if whole or not rest else "") + _QUARTERS[rest]
-    axes.text(*place, name, fontsize=8.5, ha=ha, va="center")
+    axes.text(*place, name, fontsize=7.5, ha=ha, va="center")
 
 
 def small_circle() -> Figure:
@@ -121,7 +121,9 @@ def lag_speeds() -> Figure:
         best = best_lag_offset(float(ratio))
         height = roll_speed_ratio(best, float(ratio))
         axes.plot([best], [height], "ko", ms=4, zorder=4)
-        note(axes, f"{best:.3f}", (best, height), (0, 6), fontsize=9, ha="center")
+        # The two highest curves leave no room between them.
+        beside = (0, 6) if ratio == min(MASS_RATIOS) else (0, -14)
+        note(axes, f"{best:.3f}", (best, height), beside, fontsize=9, ha="center")
     axes.set(ylim=(0.0, 1.4))
     axes.legend(loc="lower right", frameon=False, handlelength=3.5)
     return figure

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.plots.contours import contour_axes
-from evenbreak.plots.style import LINES, label_beside, label_on, new_axes, unit_axis
+from evenbreak.plots.style import LINES, label_beside, label_on, new_axes, note, unit_axis
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,14 +43,16 @@ def _crossing(axes: Axes) -> None:
 
     inset = axes.inset_axes((0.71, 0.08, 0.26, 0.33))
     _race_curves(inset, np.linspace(0.6, 0.7, 101), (1, 2))
-    inset.set(xlim=(0.6, 0.7), ylim=(0.34, 0.52), xticks=(0.6, 0.65, 0.7), yticks=(0.4, 0.5))
+    # No tick in the corners, from which the lines to the part enlarged begin.
+    inset.set(xlim=(0.6, 0.7), ylim=(0.34, 0.52), xticks=(0.62, 0.65, 0.68), yticks=(0.4, 0.5))
     inset.tick_params(direction="in", top=True, right=True, labelsize=8)
     axes.indicate_inset_zoom(inset, edgecolor="0.4")
-    label_beside(inset, 0.67, _race(0.67, 2, 1), "2:1", "right")
-    label_beside(inset, 0.67, _race(0.67, 4, 2), "4:2", "left")
+    label_beside(inset, 0.685, _race(0.685, 2, 1), "2:1", "below")
+    label_beside(inset, 0.675, _race(0.675, 4, 2), "4:2", "left")
     p = brentq(lambda p: _race(p, 2, 1) - _race(p, 4, 2), 0.6, 0.7)
-    inset.plot([p], [_race(p, 2, 1)], "ko", markersize=3.5)
-    label_beside(inset, p, _race(p, 2, 1), f"$p$ = {p:.3f}", "right")
+    for panel, size in ((axes, 3.0), (inset, 4.5)):
+        panel.plot([p], [_race(p, 2, 1)], "ko", markersize=size, zorder=4)
+    note(inset, f"$p$ = {p:.3f}", (p, _race(p, 2, 1)), (8, -11), fontsize=10, va="center")
 
 
 def _race(p: Any, m: int, n: int) -> Any:
@@ -119,17 +121,10 @@ def progressive_drill() -> Figure:
     )
     for level in levels:
         share = np.array([limit.get(level, 0.0) for limit in limits])
-        line = LINES[level - 1]
-        axes.plot(_P, share, **line._asdict(), lw=1.4)
-        name = f"$v_{level}$"
-        if level == 7:  # over its peak the last two curves cross
-            label_beside(axes, _P[185], share[185], name, "right")
-        elif level == 9:
-            label_beside(axes, _P[192], share[192], name, "left")
-        else:
-            peak = max(int(np.argmax(share)), 20)
-            label_beside(axes, _P[peak], share[peak], name, "above")
+        axes.plot(_P, share, **LINES[level - 1]._asdict(), lw=1.4, label=f"$v_{level}$")
     unit_axis(axes, "x", "y")
+    # Where the curves peak they lie too close to be named one by one.
+    axes.legend(title="level", loc="upper center", ncols=3, frameon=False, handlelength=4.0)
     return figure
 
 
