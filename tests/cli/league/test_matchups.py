@@ -2,6 +2,7 @@ import csv
 import io
 import json
 
+import click
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -228,7 +229,7 @@ def test_what_a_roster_may_lack(run, roster):
 
 
 def test_examples_of_the_help_name_options_that_exist():
-    command = program.get_command(None, "matchups")
+    command = program.get_command(click.Context(program), "matchups")
     known = {name for option in command.params for name in option.opts}
     used = {word for word in module.EXAMPLES.split() if word.startswith("--")}
     assert used <= known
