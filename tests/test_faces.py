@@ -88,6 +88,11 @@ ASKED = {
     "validate_prior": "validate data/demo_league.csv --prior 200",
     "report": "report data/demo_league.csv --out OUT --top 6",
     "report_lengths": "report data/demo_league.csv --out OUT --scale fargo --games 7..13 --top 14",
+    "why": "why 'Zoë Kestleman' 'Petra Nowicz-Hale' --from data/demo_league.csv",
+    "odds_named": "odds 'Keiko Amasuda' 'Noor Al-Beyrati' --from data/demo_roster.csv --race 7:5",
+    "fair_named": "fair 'Keiko Amasuda' 'Noor Al-Beyrati' --from data/demo_roster.csv --race-to 7",
+    "live_named": "live 'Keiko Amasuda' 'Noor Al-Beyrati' --from data/demo_roster.csv --race 7:5 "
+    "--racks abb",
     "matchups": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10",
     "matchups_levels": "matchups data/apa_roster.csv --chart apa_8ball",
     "matchups_both": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10 "

@@ -3,9 +3,13 @@ import math
 import numpy as np
 import pytest
 
-from evenbreak.answers.fair_pairs import NOT_LINKED
 from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.answers.roster_matchups import all_pairs, check_roster, roster_matchups
+from evenbreak.answers.roster_matchups import (
+    NOT_LINKED,
+    all_pairs,
+    check_roster,
+    roster_matchups,
+)
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.roster import read_roster
 from evenbreak.handicaps.charts.chart import chart

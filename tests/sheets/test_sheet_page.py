@@ -12,7 +12,7 @@ from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.report import report_answer
 from evenbreak.ratings.results import Results
 from evenbreak.sheets.html_page import shown_name
-from evenbreak.sheets.sheet_page import MOST_IN_TABLE, MOST_LISTED, sheet_html
+from evenbreak.sheets.sheet_page import sheet_html
 from leagues import HOSTILE, SHA, league, sheet_of, two_groups
 
 VOID = {"meta", "line", "circle", "polyline", "input"}
@@ -189,8 +189,9 @@ def test_any_name_stays_one_name(name):
 
 def test_a_large_league_is_cut_and_the_page_says_so(monkeypatch):
     monkeypatch.setattr("evenbreak.sheets.sheet_page.MOST_LISTED", 51)
+    monkeypatch.setattr("evenbreak.sheets.sheet_page.MOST_ON_SHEET", 48)
     page, _ = page_of(league(52))
-    assert len(page.all("details")) == MOST_IN_TABLE < 52 < MOST_LISTED
+    assert len(page.all("details")) == 48
     (ratings,) = page.all("table", class_="ratings")
     assert len(page.within(ratings, "tr")) == 1 + 51
     assert [plain(what) for what in page.all("strong")] == (

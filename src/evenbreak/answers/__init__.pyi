@@ -16,3 +16,4 @@ from .season_tables import standings_frame as standings_frame
 from .season_tables import weeks_frame as weeks_frame
 from .sheet import Sheet as Sheet
 from .validate import validate_answer as validate_answer
+from .why import why_answer as why_answer

@@ -12,6 +12,8 @@ from evenbreak.matches.odds import MatchOdds, match_odds
 def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     """Return the chances of a match between two players, and its length.
 
+    They are averaged over how far ratings from a list may be off.
+
     >>> from evenbreak.answers.two_players import TwoPlayers
     >>> from evenbreak.games import Race, Rack
     >>> answer = odds_answer(TwoPlayers(Rack(0.6)), Race(7, 5, Rack(0.6)))
@@ -19,12 +21,12 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     A wins the match 53% of the time.
     It lasts 9.3 games on average, and 9 out of 10 such matches end within 11.
     """
-    odds = match_odds(match)
+    odds = _odds(players, match)
     a, b = players.names
     from_now = " from now on" if any(match.score) else ""
     by_break = players.p_game_a is None
     quantities = [
-        Quantity("p_game_a", players.p_game_a, f"{a} wins a game", chance),
+        Quantity("p_game_a", _p_game(players), f"{a} wins a game", chance),
         Quantity("p1", players.rack.p1 if by_break else None),
         Quantity("p2", players.rack.p2),
         Quantity("p_win_a", odds.p_win_1, f"{a} wins the match", chance),
@@ -55,9 +57,34 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     ]
     return Answer(
         f"{players.description}\n{match_words(match, players.names)}",
-        [_in_words(odds, match, players), Quantities(quantities)],
+        [
+            _in_words(odds, match, players),
+            Quantities(quantities),
+            *([_AVERAGED] if players.error else []),
+        ],
         warnings=players.doubts,
+        data=players.named,
     )
+
+
+_AVERAGED = "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
+
+
+def _odds(players: TwoPlayers, match: Match) -> MatchOdds:
+    if not players.error or players.scale is None:
+        return match_odds(match)
+    from evenbreak.handicaps.charts.odds_given_ratings import odds_given_ratings
+
+    return odds_given_ratings(match, players.difference, players.error, scale=players.scale)
+
+
+def _p_game(players: TwoPlayers) -> float | None:
+    """Return P(A wins a game), averaged as the odds are, None where it depends on who breaks."""
+    if not players.error or players.scale is None:
+        return players.p_game_a
+    from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+
+    return win_given_ratings(players.difference, players.error, 1, 1, scale=players.scale)
 
 
 def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:

@@ -11,7 +11,7 @@ from evenbreak.answers.rate import prior_warnings
 from evenbreak.answers.remarks import Remarks
 from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.scale_words import decimals_of
-from evenbreak.answers.sheet import NO_RACE, Sheet
+from evenbreak.answers.sheet import MOST_ON_SHEET, NO_RACE, Sheet
 from evenbreak.answers.sheet_words import (
     about_ratings,
     how_even,
@@ -23,19 +23,19 @@ from evenbreak.answers.sheet_words import (
 )
 from evenbreak.files.csv_writer import rows_of
 
-MOST_SHOWN = 30
-"""Players whose races are shown; JSON and files hold all."""
+MOST_ACROSS = 30
+"""Players whose races are a table on a terminal; of more only the ratings are shown there."""
 
 
-def report_answer(sheet: Sheet, *, most: int = MOST_SHOWN, listed: int | None = None) -> Answer:
+def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None = None) -> Answer:
     """Return a fair-race sheet as an answer.
 
     Parameters
     ----------
     sheet
         the sheet.
-    most
-        how many players the table of races has.
+    across
+        up to how many players the races are shown as a table.
     listed
         how many players the face lists with their ratings, if it lists others than those.
 
@@ -48,13 +48,19 @@ def report_answer(sheet: Sheet, *, most: int = MOST_SHOWN, listed: int | None = 
     >>> answer.parts[1].title
     "Find your row and your opponent's column. 7:6 means that you need 7 games and your opponent 6."
     """
-    shown = sheet.strongest(most)
-    items = list(left_out(sheet, listed=listed, in_table=len(shown.listed)))
+    shown = sheet.strongest(MOST_ON_SHEET)
+    many = len(shown.listed)
+    races = (
+        _race_table(shown)
+        if many <= across
+        else f"sheet.pdf has the races between the {many} players listed below."
+    )
+    items = list(left_out(sheet, listed=listed, in_table=many))
     return Answer(
         f"Fair races from {source_and_dates(sheet)}\n{played(sheet)}",
         [
             " ".join([sheet.offered.in_words, *how_even(shown.paired)]),
-            _race_table(shown),
+            races,
             " ".join([*about_ratings(sheet), how_rated(sheet)]),
             _ratings_table(shown),
             *([Remarks(items, "Left out")] if items else []),

@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from evenbreak.answers.fair_pairs import NOT_LINKED
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
 from evenbreak.files.problems import Problems, quoted
@@ -18,7 +17,6 @@ from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.given_ratings import (
     MOST_DOUBLINGS,
-    fair_races_given_ratings,
     length_given_ratings,
     win_given_ratings,
 )
@@ -35,6 +33,9 @@ Ints = NDArray[np.int64]
 
 FAIR_WITHIN = 0.1
 """How far from 1/2 the chance of a fair race may be."""
+
+NOT_LINKED = "no race: no chain of opponents links the two"
+"""The note on a pair whose ratings cannot be compared."""
 
 NOT_FAIR = "no race allowed is fair"
 """How the note begins on a pair whose fairest race is not within `FAIR_WITHIN`."""
@@ -228,10 +229,7 @@ def roster_matchups(
         by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale, pace)
         columns |= _columns("chart_", by_chart)
     if offered is not None:
-        found = fair_races_given_ratings(
-            gap, error, games=offered.games, race_to=offered.race_to, scale=scale
-        )
-        best = Races.of(gap, error, *found, scale, pace)
+        best = Races.of(gap, error, *offered.fairest(gap, error, scale), scale, pace)
         columns |= _columns("", best)
     everyone = {
         "player_a": [roster.players[k] for k in pairs[:, 0].tolist()],
@@ -253,6 +251,11 @@ def _linked(roster: Roster, a: Ints, b: Ints) -> NDArray[np.bool_]:
     group = np.where(roster.games == 0, 0, roster.component)
     linked: NDArray[np.bool_] = (group[a] == group[b]) | (group[a] == 0) | (group[b] == 0)
     return linked
+
+
+def cannot_be_compared(roster: Roster, a: int, b: int) -> bool:
+    """Return whether no chain of opponents links two players of a list."""
+    return not _linked(roster, np.array([a]), np.array([b]))[0]
 
 
 def _by_chart(chart: Chart | LevelChart, rating: Floats, a: Ints, b: Ints) -> tuple[Ints, Ints]:

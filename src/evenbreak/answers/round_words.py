@@ -7,10 +7,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from evenbreak.answers.fair_pairs import NOT_LINKED
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.remarks import Remark
-from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR
+from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR, NOT_LINKED
 from evenbreak.answers.round import EveningEnd, Round
 from evenbreak.answers.scale_words import game_chance, scale_words
 from evenbreak.answers.wording import clock, count_of, percent, race

@@ -24,6 +24,10 @@ NO_RACE = "-"
 """Stands for the race of two players who cannot be compared."""
 
 
+MOST_ON_SHEET = 96
+"""Players on one sheet, whatever its form: 16 pages of paper."""
+
+
 @short_repr
 @dataclass(frozen=True, eq=False)
 class Sheet:
@@ -91,15 +95,23 @@ class Sheet:
     @cached_property
     def sure(self) -> list[SurePair]:
         """How well the difference of each pair is known, the best known first."""
-        return sure_pairs(self.ratings, self.paired)
+        return sure_pairs(self.paired, self.ratings.scale)
 
     @cached_property
     def bands(self) -> list[Band]:
-        """The chart that the races come to, empty if there is none."""
+        """The chart that the races come to, empty if there is none.
+
+        It is that of a pair whose difference is known as well as for half of the pairs.
+        """
         if not self.sure:
             return []
         furthest = max(pair.difference for pair in self.sure)
-        return chart_bands(self.offered, self.ratings.scale, furthest)
+        return chart_bands(self.offered, self.ratings.scale, furthest, self.typical_error)
+
+    @property
+    def typical_error(self) -> float:
+        """The standard error of the difference of half of the pairs, or less; 0 without pairs."""
+        return self.sure[(len(self.sure) - 1) // 2].error if self.sure else 0.0
 
     @cached_property
     def summary(self) -> pd.DataFrame:

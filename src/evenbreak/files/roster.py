@@ -42,13 +42,15 @@ OPTIONAL = {
     "games": ("games played", "racks", "robustness"),
     "component": ("group",),
     "matches": ("matches played",),
+    "races_won": (),
+    "races_lost": (),
     "scale": ("rating scale", "points that double the odds"),
 }
 """The columns that a roster may have, with their other names."""
 
 WRITTEN = dict.fromkeys(
     (
-        *("won", "lost", "races_won", "races_lost"),
+        *("won", "lost"),
         *("rating_before", "change", "matches_won", "matches_lost", "why"),
     ),
     (),
@@ -160,6 +162,9 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
     error, quasi = (_error(table, name) for name in ("standard_error", "quasi_error"))
     error = np.where(np.isnan(quasi), error, quasi)
     games, matches = _counts(table, "games"), _counts(table, "matches")
+    # A rating can rest on matches of which only the winner is known.
+    races = np.maximum(_counts(table, "races_won"), 0) + np.maximum(_counts(table, "races_lost"), 0)
+    games = np.where(games == NOT_STATED, games, games + races)
     component = whole_numbers(table, "component", at_least=1, may_be_empty=True).values
     unrated = np.array([not text for text in table.cells("rating")], dtype=bool)
     if "rating" in table and not season:

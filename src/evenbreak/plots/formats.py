@@ -11,7 +11,13 @@ from evenbreak.matches.crossings import Crossings, rack_along
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.win import win_probability
 from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, new_axes, unit_axis, write_title
+from evenbreak.plots.style import (
+    LINES,
+    new_axes,
+    take_names_as_they_are,
+    unit_axis,
+    write_title,
+)
 
 _POINTS = 401
 
@@ -111,4 +117,5 @@ def plot_formats(
     elif title:
         axes.set_title(title)
     axes.legend(frameon=False, loc="best")
+    take_names_as_they_are(axes)
     return figure if ax is None else ax

@@ -7,7 +7,7 @@ import numpy as np
 
 from evenbreak.matches.live import LiveOdds
 from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, write_title
+from evenbreak.plots.style import LINES, take_names_as_they_are, write_title
 
 _MOST_SCORES = 24
 """The most scores that fit below the picture; of more, only every second, third, ... is written."""
@@ -62,6 +62,7 @@ def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A
     label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.0})  # over the line of 1/2
     above.set(ylim=(-0.03, 1.03), ylabel=f"P({names[0]} wins the match)")
     above.legend(frameon=False, loc="best")
+    take_names_as_they_are(above)
     leverages = [moment.leverage or 0.0 for moment in odds.course[:-1]]
     below.bar([i + 0.5 for i in range(len(leverages))], leverages, width=0.7, color="0.6")
     below.set(ylabel="leverage", xlabel="score", ylim=(0.0, None))

@@ -101,7 +101,7 @@ def write_title(figure: Figure, text: str) -> None:
     """
     width = int(_LETTERS_AN_INCH * figure.get_figwidth())
     lines = [fill(line, width) for line in text.splitlines()]
-    figure.suptitle("\n".join(lines), fontsize=_LABEL)
+    figure.suptitle("\n".join(lines), fontsize=_LABEL, parse_math=False)
 
 
 def unit_axis(axes: Axes, *which: str) -> None:
@@ -154,3 +154,10 @@ def note(
     'even'
     """
     return axes.annotate(text, place, beside, textcoords="offset points", **style)
+
+
+def take_names_as_they_are(axes: Axes) -> None:
+    """Show labels and legend without reading a $ in a player's name as mathematics."""
+    legend = axes.get_legend()
+    for text in (axes.xaxis.label, axes.yaxis.label, *(legend.get_texts() if legend else ())):
+        text.set_parse_math(False)

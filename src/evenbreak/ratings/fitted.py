@@ -104,8 +104,10 @@ class Ratings:
         """Return every player's rating as a DataFrame, the strongest first.
 
         Its columns are those of ratings.csv: player; rating, standard_error and quasi_error in
-        points of the scale; games, won and lost in the matches that were used; component; and
-        scale, the same in each row: its name, or the points that double the odds.
+        points of the scale; games, won and lost in the matches that were used; races_won and
+        races_lost, where there are matches of which only the winner is known; component: players
+        with the same number are linked by a chain of opponents, and only their ratings can be
+        compared; and scale, the same in each row: its name, or the points that double the odds.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [50], [70]), scale="fargo")
@@ -117,7 +119,9 @@ class Ratings:
         import pandas as pd
 
         order = self.strongest_first()
-        columns = ("rating", "standard_error", "quasi_error", "games", "won", "lost", "component")
+        columns = ["rating", "standard_error", "quasi_error", "games", "won", "lost"]
+        columns += ["races_won", "races_lost"] if self.races_won.any() else []
+        columns.append("component")
         return pd.DataFrame(
             {
                 "player": [self.players[k] for k in order],

@@ -232,6 +232,35 @@ class Results:
         }
         return Results(self.players, **picked)
 
+    def with_match(
+        self, a: int, b: int, score_a: int, score_b: int, date: np.datetime64 | None = None
+    ) -> Results:
+        """Return the results with one more match at the end; what else they hold is not stated.
+
+        Parameters
+        ----------
+        a, b
+            who plays: positions in `players`.
+        score_a, score_b
+            the games that each wins.
+        date
+            the day, where the results have days.
+
+        >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[7])
+        >>> more = season.with_match(1, 0, 7, 2)
+        >>> more.player_a, more.score_b, more.race_a
+        (array([0, 1]), array([5, 2]), array([7, 0]))
+        """
+        given = {"player_a": a, "player_b": b, "score_a": score_a, "score_b": score_b}
+        given["date"] = np.datetime64("NaT", "D") if date is None else date  # type: ignore[assignment]
+        columns: dict[str, Any] = {}
+        for name, kind in _TYPES.items():
+            values = getattr(self, name)
+            unstated = "" if kind is object else 0
+            more = np.array([given.get(name, unstated)], dtype=kind)
+            columns[name] = None if values is None else np.concatenate([values, more])
+        return Results(self.players, **columns)
+
     def played(self) -> Played:
         """Return the matches with games in them, and how many rows were left out.
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from evenbreak.answers.left_out import left_out
 from evenbreak.answers.report_frames import count_groups, file_name
-from evenbreak.answers.sheet import Sheet
+from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
 from evenbreak.answers.sheet_words import (
     about_ratings,
     how_even,
@@ -48,11 +48,8 @@ from evenbreak.sheets.pdf_page import (
 from evenbreak.sheets.race_blocks import Block, parts_of, race_blocks
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, Tick, player_lines
 
-MOST_PAIRED = 48
-"""Players that are put on paper; the files hold all."""
-
-LEADING = 1.45
-"""The height of a line of text for each point of its size."""
+SMALL, LEADING = 8.0, 1.45
+"""The size of notes, in points, and the height of a line of text for each point."""
 
 
 def sheet_pdf(sheet: Sheet) -> bytes:
@@ -67,8 +64,8 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
 
     Each line is a player: the fairest race against each opponent, the rating, and a bar of
     two standard errors of it either way. A league too large for a page is cut into blocks,
-    each a page; of more than 48 paired players the 48 strongest are on paper. White squares
-    stand for letters that the font lacks.
+    each a page; of more than `MOST_ON_SHEET` paired players the strongest are on paper. White
+    squares stand for letters that the font lacks.
 
     >>> from evenbreak.answers.offered_races import OfferedRaces
     >>> from evenbreak.files.results import ResultsFile
@@ -78,7 +75,7 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
     >>> len(sheet_pages(Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2])))
     1
     """
-    shown = sheet.strongest(MOST_PAIRED)
+    shown = sheet.strongest(MOST_ON_SHEET)
     bars = Bars(shown.listed)
     grouped = count_groups(sheet.ratings) > 1
     lines = player_lines(shown.listed, sheet.ratings.scale, bars, grouped=grouped)

@@ -6,7 +6,7 @@ from evenbreak.answers.left_out import NOTHING_LEFT_OUT
 from evenbreak.answers.report import report_answer
 from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.scale_words import decimals_of
-from evenbreak.answers.sheet import Sheet
+from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
 from evenbreak.answers.sheet_words import how_even, how_to_read
 from evenbreak.answers.sure_pairs import how_sure, three_pairs
 from evenbreak.sheets.answer_page import Section, drawn_page
@@ -15,8 +15,8 @@ from evenbreak.sheets.html_page import drawn
 from evenbreak.sheets.race_blocks import race_blocks, race_cards
 from evenbreak.sheets.rating_bars import Bars, player_lines
 
-MOST_LISTED, MOST_IN_TABLE = 500, 48
-"""Players in the list of ratings and in the table of races; the CSV files hold all."""
+MOST_LISTED = 500
+"""Players in the list of ratings; the CSV files hold all."""
 
 
 def sheet_html(sheet: Sheet) -> bytes:
@@ -24,8 +24,8 @@ def sheet_html(sheet: Sheet) -> bytes:
 
     Its Content-Security-Policy allows its own style, the script of its search box, and nothing
     else. A wide page and paper show the table of races, a narrow one each player's races. The 500
-    strongest players are listed, and the races of the 48 strongest of those who are paired. All
-    else is what `report_answer` says.
+    strongest players are listed, and the races of the `MOST_ON_SHEET` strongest of those who are
+    paired. All else is what `report_answer` says.
 
     Returns
     -------
@@ -43,7 +43,7 @@ def sheet_html(sheet: Sheet) -> bytes:
     >>> page[:15], "Fair races from season.csv" in page, "://" in page
     ('<!doctype html>', True, False)
     """
-    shown, scale = sheet.strongest(MOST_IN_TABLE), sheet.ratings.scale
+    shown, scale = sheet.strongest(MOST_ON_SHEET), sheet.ratings.scale
     bars = Bars(sheet.rated)
     grouped = count_groups(sheet.ratings) > 1
     lines = player_lines(sheet.rated, scale, bars, grouped=grouped)
@@ -53,7 +53,7 @@ def sheet_html(sheet: Sheet) -> bytes:
     races = Section("races", "The races", drawn("races", blocks, cards, how_to_read(shown.paired)))
     ratings = [Section("ratings", "Ratings", drawn("ratings", listed, bars.ticks()))]
     if shown.sure:
-        plot = evenness_plot(shown.bands, shown.sure, scale)
+        plot = evenness_plot(shown.bands, shown.sure, scale, shown.typical_error)
         first, *_ = how_even(shown.paired)
         chart = drawn("chart", plot, (WIDTH, HEIGHT), shown.bands, decimals_of(scale), first)
         ratings.append(Section("chart", "How even the races are", chart))
@@ -61,7 +61,7 @@ def sheet_html(sheet: Sheet) -> bytes:
     ratings.append(Section("sure", "How sure this is", sure))
     return drawn_page(
         replace(
-            report_answer(sheet, most=MOST_IN_TABLE, listed=len(listed)),
+            report_answer(sheet, across=MOST_ON_SHEET, listed=len(listed)),
             warnings=sheet.file.warnings,
         ),
         [[races], ratings],

@@ -2,6 +2,7 @@ import csv
 import io
 import json
 
+import click
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -269,7 +270,7 @@ def test_what_a_roster_may_lack(run, roster):
 
 
 def test_examples_of_the_help_name_options_that_exist():
-    command = program.get_command(None, "matchups")
+    command = program.get_command(click.Context(program), "matchups")
     known = {name for option in command.params for name in option.opts}
     used = {word for word in module.EXAMPLES.split() if word.startswith("--")}
     assert used <= known
@@ -376,3 +377,19 @@ def test_a_season_on_another_scale_than_the_list_is_refused(run, fargo_list, tmp
     refused = run("simulate", str(fargo_list), "--out", str(tmp_path / "season"))
     assert refused.exit_code == 2
     assert "Fargo scale" in refused.stderr
+
+
+def test_of_a_list_only_the_entrants_meet(run, tmp_path):
+    entrants = tmp_path / "entrants.txt"
+    entrants.write_text("Søren Lindqvall\nNoor Al-Beyrati\nA Stranger\n", encoding="utf-8")
+    words = (str(DATA / "demo_roster.csv"), "--race-to", "7", "--json")
+    result = run("matchups", *words, "--players-file", str(entrants))
+    pairs = json.loads(result.stdout)["pairs"]
+    assert [(pair["player_a"], pair["player_b"]) for pair in pairs] == [
+        ("Søren Lindqvall", "A Stranger"),
+        ("Søren Lindqvall", "Noor Al-Beyrati"),
+        ("A Stranger", "Noor Al-Beyrati"),
+    ]
+    assert pairs[0]["difference"] == 19
+    assert pairs[0]["difference_error"] == pytest.approx((6.7**2 + 30**2) ** 0.5)
+    assert "'A Stranger'" in result.stderr

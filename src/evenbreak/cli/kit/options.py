@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 import click
 
+from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Whole, meant, refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
@@ -36,13 +37,16 @@ class PlainCommand(click.Command):
         )
         rest = super().parse_args(ctx, args)
         words: Sequence[str] = ctx.params.get("ratings", ())
+        if ctx.resilient_parsing:
+            return rest
+        named = ctx.params.get("from_file") is not None
         for word in words:
-            if NUMBER.fullmatch(word):
+            if (named and not word.startswith("-")) or NUMBER.fullmatch(word):
                 continue
             if word.startswith("-"):
                 known = [name for option in self.params for name in option.opts]
                 raise click.NoSuchOption(word.split("=")[0], possibilities=known, ctx=ctx)
-            wanted = "give two numbers, such as 612 521"
+            wanted = "give two numbers, such as 612 521, or say with --from where it stands"
             refuse(f"{word!r} is not a rating; {wanted}{meant(word, -math.inf, math.inf)}")
         return rest
 
@@ -69,6 +73,7 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
     return click.option(
         "--scale",
         type=_scale,
+        shell_complete=completion.scales,
         default=without if fixed else None,
         show_default=False,
         metavar="npl|fargo|elo|POINTS",
@@ -176,6 +181,14 @@ def results_options(command: Command) -> Command:
             help="Names that mean the same player: a file with the columns name and means.",
         ),
     )
+
+
+players_file_option = click.option(
+    "--players-file",
+    metavar="FILE",
+    help="Who has entered: a name on each line, or a CSV file with player and rating.",
+)
+"""The option --players-file of the commands about the players of an evening or a season."""
 
 
 safety_option = click.option(

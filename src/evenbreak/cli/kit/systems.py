@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import files, handicaps
+from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import InputError
@@ -29,6 +30,7 @@ def system_option(default: str | None = "npl") -> Decorator[Any]:
     return click.option(
         "--system",
         type=read_system,
+        shell_complete=completion.systems,
         metavar="NAME",
         default=default,
         show_default=False,

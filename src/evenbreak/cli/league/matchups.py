@@ -14,6 +14,7 @@ from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name
 from evenbreak.cli.kit.options import (
     chart_option,
+    players_file_option,
     race_limit_options,
     refuse_both,
     scale_option,
@@ -51,6 +52,7 @@ EXAMPLES = """\b
 Examples:
   evenbreak matchups roster.csv --chart npl_10
   evenbreak matchups roster.csv --games 7..13 --pairs tonight.csv --html tonight.html
+  evenbreak matchups roster.csv --race-to 7 --players-file entrants.txt
   evenbreak matchups roster.csv --race-to 7 --discipline 9-ball --tables 4
 """
 
@@ -59,6 +61,7 @@ Examples:
 @click.argument("roster", metavar="ROSTER.csv")
 @chart_option("The league's chart, by name or in a file.")
 @race_limit_options
+@players_file_option
 @click.option("--pairs", metavar="PAIRS.csv", help="Who meets whom.  [default: all pairs]")
 @scale_option(
     "the one that the file states, else the chart's, else npl; for skill levels, where the "
@@ -111,6 +114,7 @@ def command(
     chart: str | None,
     games: tuple[int, int] | None,
     race_to: int | None,
+    players_file: str | None,
     pairs: str | None,
     scale: Scale | None,
     starter: float | None,
@@ -127,6 +131,7 @@ def command(
     ROSTER.csv has a row for each player, with the columns player and rating and, if you
     have them, standard_error and games; - reads standard input. --chart looks the
     races up, --games or --race-to finds the fairest ones; with both, they stand side by side.
+    --players-file says who has entered, if not all of them; those not on the list are new players.
     Where standard errors are given, the chances are averaged over how far the ratings may be
     off.
     """
@@ -147,6 +152,8 @@ def command(
         refuse("only one list can come from standard input; name a file for the other")
     of_league, warnings = (None, []) if chart is None else _chart(chart)
     file = files.read_roster(roster)
+    if players_file is not None:
+        file = files.roster_of_entrants(file, files.read_entrants(players_file))
     if scale is not None:
         refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
     levels = None

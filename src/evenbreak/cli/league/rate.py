@@ -10,6 +10,7 @@ import click
 
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, results_options, scale_option
 from evenbreak.cli.kit.systems import read_system
@@ -72,6 +73,7 @@ Examples:
 @click.option(
     "--system",
     type=read_system,
+    shell_complete=completion.systems,
     metavar="NAME",
     help="Apply a league's own rule to --roster instead, such as npl or 'step 2'.",
 )
