@@ -38,10 +38,14 @@ def verdicts_table(found: Iterable[Finding]) -> str:
 
 
 def compared(finding: Finding) -> list[str]:
-    """Return what the text prints, what is computed and the verdict, as cells of a table."""
+    """Return what the text prints, what is computed and the verdict, as cells of a table.
+
+    What the text has only as a formula or in words stands in parentheses.
+    """
     computed, verdict = finding.computed, finding.verdict
+    text = printed_text(finding.published.printed)
     return [
-        printed_text(finding.published.printed),
+        f"({text})" if finding.published.value_is in {"formula", "words"} else text,
         "" if computed is None else short(number_cell(computed)),
         "**erratum**" if verdict == "erratum" else verdict,
     ]
