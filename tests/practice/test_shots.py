@@ -249,7 +249,7 @@ def test_a_shot_may_have_fractions():
         (lambda: compare_shots([]), "shots is empty"),
         (
             lambda: compare_shots([ShotChoice("", 0.5, 0.5)], look_ahead=""),
-            "'two shots' or 'all shots'\",
+            "'two shots' or 'all shots'",
         ),
     ],
 )

@@ -75,14 +75,14 @@ def oneball_answer(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite")
         heading,
         [
             _advice(ranked, otherwise, look_ahead),
-            Table("shots", columns, [_row(one, columns, look_ahead) for one in ranked]),
+            Table("shots", columns, [_row(one, look_ahead, known=known) for one in ranked]),
             words,
         ],
         data={"look_ahead": look_ahead},
     )
 
 
-def _row(one: RankedShot, columns: Sequence[Column], look_ahead: str) -> tuple[Any, ...]:
+def _row(one: RankedShot, look_ahead: str, *, known: bool) -> tuple[Any, ...]:
     shot = one.shot
     cells = {
         "shot": int(shot.name),
@@ -97,7 +97,7 @@ def _row(one: RankedShot, columns: Sequence[Column], look_ahead: str) -> tuple[A
         "behind": one.behind,
         "turning_p2": one.turning_p2,
     }
-    return tuple(cells[column.name] for column in columns)
+    return tuple(cell for name, cell in cells.items() if known or name not in _OF_LATER)
 
 
 def _even_at(shot: ShotChoice, look_ahead: str) -> float | None:
