@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.chosen_players import by_strength
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
@@ -61,7 +60,12 @@ def rate_answer(
         f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
         [first, *_fit_in_words(ratings, choice), *unlinked_words(ratings), table],
         details=[prior_words(ratings), *([] if pairs else [_ERRORS_IN_WORDS])],
-        warnings=[*file.warnings, *prior_warnings(file, ratings, choice), *warnings],
+        warnings=[
+            *file.warnings,
+            *file.ties,
+            *prior_warnings(file, ratings, choice),
+            *warnings,
+        ],
         data=_how(ratings, choice),
     )
 
@@ -88,7 +92,7 @@ def _players_table(ratings: Ratings) -> Table:
         Column("component", "group" if ratings.component.max() > 1 else None),
         Column("scale"),
     ]
-    order = by_strength(ratings, range(len(ratings.players)))
+    order = ratings.strongest_first()
     order.sort(key=lambda k: ratings.component[k])
     values = [np.asarray(getattr(ratings, str(one.name)))[order].tolist() for one in columns[1:-1]]
     values.append([ratings.scale.text] * len(order))
@@ -127,9 +131,7 @@ def _pair_in_words(row: Sequence[Any]) -> str:
 
 
 def _highest_in_words(ratings: Ratings) -> str:
-    best = next(
-        k for k in by_strength(ratings, range(len(ratings.players))) if ratings.component[k] == 1
-    )
+    best = next(k for k in ratings.strongest_first() if ratings.component[k] == 1)
     where = " in the largest group" if ratings.component.max() > 1 else ""
     return (
         f"{ratings.players[best]} is rated highest{where}: {_ONE(ratings.rating[best])}, give or "

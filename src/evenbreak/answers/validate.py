@@ -40,7 +40,7 @@ def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed:
         _heading(file, found),
         parts,
         details=list(details(found, scale)),
-        warnings=file.warnings,
+        warnings=[*file.warnings, *file.ties],
         data={"verdict": text, **_figures(found, scale), "seed": seed},
         csv=findings_table(found),
     )

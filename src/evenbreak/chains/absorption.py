@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.factorisation import Factorisation
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     >>> absorption(chain, "play")[chain.structure.label].round(3).tolist()
     [0.0, 0.333, 0.667]
     """
+    check_chain(chain)
     structure = chain.structure
     v = chain.density(start)
     arrivals = _arrivals(chain, v)
@@ -68,6 +70,7 @@ def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     >>> expected_visits(chain_of([("miss", "miss", 0.75), ("miss", "in", 0.25)]), "miss")
     array([ 4., inf])
     """
+    check_chain(chain)
     v = chain.density(start)
     states = chain.transient.states
     visits = np.zeros(len(chain))

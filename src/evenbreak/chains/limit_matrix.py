@@ -8,6 +8,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.arcs import sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.stationary import stationary_laws
 from evenbreak.errors import InputError
 
@@ -43,6 +44,7 @@ def limit_matrix(chain: Chain) -> csc_array:
     ([1, 0, 2, 3], array([[0.57142857, 1.        , 0.14285714, 0.        ],
                           [0.42857143, 0.        , 0.85714286, 1.        ]]))
     """
+    check_chain(chain)
     n, structure = len(chain), chain.structure
     law = stationary_laws(chain)
     inside = np.flatnonzero(structure.recurrent)

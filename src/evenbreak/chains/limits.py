@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, overload
 import numpy as np
 
 from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
-from evenbreak.chains.chain import labels
+from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.stationary import laws_of
 from evenbreak.checks import one_of
 from evenbreak.errors import AccuracyError, ChainError
@@ -192,6 +192,7 @@ def stochastic_limit(chain: Chain, start: Any = None, *, via: Way | None = None)
     >>> limit.to_dict(), limit.period, limit.is_cesaro
     ({'S1': 0.5, 'S2': 0.5}, 2, True)
     """
+    check_chain(chain)
     if via is not None:
         one_of(via, "via", WAYS)
     if via == "eigen":

@@ -24,6 +24,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.powers import evened
 from evenbreak.chains.transient import TransientPart
 from evenbreak.checks import number_probability, one_of, whole
@@ -183,6 +184,7 @@ def steps_to_absorption(
     >>> racks.mean, racks.variance, racks.quantile(0.9), racks.p_never
     (4.0, 8.0, 8, 0.0)
     """
+    check_chain(chain)
     one_of(into, "into", ("absorbing", "closed"))
     structure = chain.structure
     ends = structure.recurrent
@@ -214,6 +216,7 @@ def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
     >>> walk_to_0.p_reached, walk_to_0.mean
     (1.0, 8.0)
     """
+    check_chain(chain)
     return _passage(chain, chain.density(start), target_of(chain, target))
 
 

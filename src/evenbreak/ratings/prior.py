@@ -14,6 +14,7 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.stretches import StretchLosses, stretch_losses
@@ -106,6 +107,7 @@ def best_prior(
     >>> choice.prior_sd, choice.predicted
     (0.5, 33)
     """
+    check_results(results)
     if not len(widths):
         raise InputError("widths is empty; give at least one standard deviation")
     tried = np.sort(np.asarray(widths, dtype=float))

@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from evenbreak.checks import seed_of
 from evenbreak.ratings.advantages import (
     FirstBreaks,
     FirstColumn,
@@ -18,6 +19,7 @@ from evenbreak.ratings.advantages import (
     side_advantage,
 )
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
 from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
@@ -106,7 +108,7 @@ def validate(
     *,
     prior_sd: float | None = None,
     half_life: float | None = None,
-    seed: int = 1,
+    seed: int | np.random.Generator = 1,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Validation:
     """Predict a season date by date, and return how good the predictions were.
@@ -122,7 +124,7 @@ def validate(
         days after which a game counts half; None: games never age, and it is tested whether
         that is right.
     seed
-        of the bootstrap and of the simulated seasons.
+        of the bootstrap and of the simulated seasons: a whole number, or a generator.
     progress
         called with how much is done, and of how much.
 
@@ -142,6 +144,8 @@ def validate(
     >>> [(row.of, row.how, round(row.log_loss.value, 3)) for row in found.scored[:2]]
     [('game', 'plug-in', 0.654), ('game', 'integrated', 0.655)]
     """
+    check_results(results)
+    seed = seed_of(seed)
     parts = _parts(progress, 1 + 2 * (prior_sd is None) + (half_life is None))
     walk = walk_forward(
         results,

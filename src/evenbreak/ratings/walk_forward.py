@@ -20,6 +20,7 @@ from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.daily_refit import DailyRefit
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
 from evenbreak.ratings.results import Results
 
@@ -137,6 +138,7 @@ def walk_forward(
     >>> forecasts.p_game.round(3), forecasts.p_game_integrated.round(3)
     (array([0.5  , 0.687]), array([0.5  , 0.675]))
     """
+    check_results(results)
     precision = checked_prior(prior_sd) ** -2
     if half_life is not None:
         wanted = "a number from 0.01 to 1,000,000, in days"

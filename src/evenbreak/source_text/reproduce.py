@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from evenbreak.plots.diagram import image_bytes
+from evenbreak.plots.picture import image_bytes
 from evenbreak.source_text.answers import physics_findings, section_5_findings
 from evenbreak.source_text.cells import Rows, Tables, csv_bytes
 from evenbreak.source_text.figures import figures
