@@ -76,7 +76,7 @@ def test_section_5_has_at_least_the_names_whose_docstrings_name_the_problem() ->
     for room in ROOMS:
         for problem, name in named_in_docstrings(room):
             if problem in listed:
-                assert f"{room}.{name}" in listed[problem], problem
+                assert f"{room}.{name}" in listed[problem], f"add it to {problem} in {PAGE.name}"
 
 
 def test_every_public_name_of_the_table_side_is_on_the_page() -> None:
