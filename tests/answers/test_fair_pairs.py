@@ -6,7 +6,6 @@ import pytest
 
 from evenbreak.answers.fair_pairs import matchups_frame
 from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.answers.report_frames import ratings_frame
 from evenbreak.answers.roster_matchups import NOT_LINKED, all_pairs, roster_matchups
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.files.results import read_results
@@ -70,7 +69,7 @@ def test_a_report_and_the_list_that_it_writes_give_each_pair_the_same_race(resul
     rated = fit(read_results(results).results)
     here = matchups_frame(rated, range(len(rated.players)), offered)
     path = tmp_path / "ratings.csv"
-    path.write_bytes(to_csv(ratings_frame(rated)))
+    path.write_bytes(to_csv(rated.to_frame()))
     club = read_roster(path).roster
     there = roster_matchups(club, all_pairs(club), scale=rated.scale, offered=offered).frame
     pairs = ["player_a", "player_b"]

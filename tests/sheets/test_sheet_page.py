@@ -189,7 +189,8 @@ def test_any_name_stays_one_name(name):
 
 def test_a_large_league_is_cut_and_the_page_says_so(monkeypatch):
     monkeypatch.setattr("evenbreak.sheets.sheet_page.MOST_LISTED", 51)
-    monkeypatch.setattr("evenbreak.sheets.sheet_page.MOST_ON_SHEET", 48)
+    for module in ("sheets.sheet_page", "answers.report"):
+        monkeypatch.setattr(f"evenbreak.{module}.MOST_ON_SHEET", 48)
     page, _ = page_of(league(52))
     assert len(page.all("details")) == 48
     (ratings,) = page.all("table", class_="ratings")

@@ -227,7 +227,7 @@ def test_a_person_at_a_terminal_reads_text():
         ("612,5 521 --race 7", "612.5"),
         ("612 521 --race 7:", "such as 7:5"),
         ("612 521 --race 7 --score 3", "such as 3:0"),
-        ("612 521 --race 7-5", "such as 7:5"),
+        ("612 521 --race 7_5", "such as 7:5"),
         ("612 521 --race 0:5", "from 1 to 1000"),
         ("612 521 --race 9999:5", "from 1 to 1000"),
         ("612 521 --race 7:5 --score -1:0", "from 0 to 1000"),
