@@ -26,7 +26,22 @@ def filled(section: str, blocks: Blocks) -> str:
     template = files(f"evenbreak.source_text.{section}").joinpath("page.md").read_text("utf-8")
     page = _PLACE.sub(lambda place: blocks[place[1]](place[2] or ""), template)
     # A problem without slips leaves an empty paragraph.
-    return re.sub(r"\n{3,}", "\n\n", page)
+    return re.sub(r"\n{3,}", "\n\n", page.replace("[contents]", contents(page)))
+
+
+def contents(page: str) -> str:
+    r"""Return links to the sections of a page.
+
+    >>> print(contents("# Top\n\n## Was it luck? P5.19\n\n### Not this\n\n## Runs\n"))
+    - [Was it luck? P5.19](#was-it-luck-p519)
+    - [Runs](#runs)
+    """
+    headings = re.findall(r"^## (.+)$", page, re.MULTILINE)
+    return "\n".join(f"- [{heading}](#{_anchor(heading)})" for heading in headings)
+
+
+def _anchor(heading: str) -> str:
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
 
 def verdicts_table(found: Iterable[Finding]) -> str:
