@@ -98,7 +98,7 @@ def test_a_chart(checkout: Checkout) -> None:
     checkout.follow("Add a chart")
     *rooms, _ = RUN.findall(SECTIONS["Add a chart"])[0].split()
     assert checkout.passes(*rooms, "-k", "example_7") > 2
-    assert "example_7,An example of races to 7,difference,3,13" in checkout.asks("chart list")
+    assert "example_7,An example of races to 7,difference,7,7,13,3" in checkout.asks("chart list")
     assert '"example_7"' in checkout.asks("ladder --chart example_7 --json")
 
 

@@ -14,8 +14,9 @@ from evenbreak.games import Ahead, OneBall, Race, Rack
 from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling
 from evenbreak.physics import PoolTable, aimed_shot, pockets, strike_for_speed
 from evenbreak.physics.units import INCH
-from evenbreak.plots.diagram import draw, image_bytes
+from evenbreak.plots.diagram import draw
 from evenbreak.plots.ladders import ladder_figure
+from evenbreak.plots.picture import image_bytes
 from evenbreak.plots.traced_shot import shot_on_table
 from evenbreak.ratings import fit
 from evenbreak.sheets import sheet_pages

@@ -2,8 +2,9 @@ from dataclasses import asdict
 
 import pytest
 
-from evenbreak.answers.chart_audit import LATEST, TILTS, chart_audit_answer, level_audit_answer
+from evenbreak.answers.chart_audit import chart_audit_answer, level_audit_answer
 from evenbreak.handicaps import (
+    CHARTS,
     ChartDraft,
     ChartRow,
     LevelChart,
@@ -14,6 +15,16 @@ from evenbreak.handicaps import (
     design,
     level_chart,
 )
+from evenbreak.matches import race_win_probability
+
+ROUGH = [
+    (0, 5, 5, 5),
+    (6, 15, 5, 4),
+    (16, 24, 6, 4),
+    (25, 29, 5, 3),
+    (30, 45, 7, 5),
+    (46, None, 7, 3),
+]
 
 
 def words(answer):
@@ -41,18 +52,44 @@ def test_the_least_fair_race_with_the_end_of_its_band_that_is_worse():
     assert "7:3 at a difference of 46" in words(chart_audit_answer(audit(chart("npl_10"))))
 
 
-@pytest.mark.parametrize(
-    ("tilt", "phrase"), [(0.0, TILTS[0][1]), (0.25, TILTS[1][1]), (0.5, TILTS[2][1]), (1.0, LATEST)]
-)
-def test_the_tilt_in_words(tilt, phrase):
+@pytest.mark.parametrize(("tilt", "who"), [(0.0, "stronger"), (0.5, "neither"), (1.0, "weaker")])
+def test_whom_a_chart_favours(tilt, who):
     made = design("npl", RaceLimits((9, 11), weaker_least=2), tilt=tilt)
-    assert phrase in words(chart_audit_answer(audit(made)))
+    assert f"favours {'the ' * (who != 'neither')}{who} player" in words(
+        chart_audit_answer(audit(made))
+    )
+
+
+@pytest.mark.parametrize("name", CHARTS)
+def test_whom_it_favours_is_counted_over_its_differences(name):
+    report = audit(name)
+    chances = [
+        race_win_probability(report.scale.win_probability(d), *chart(name).race(d))
+        for d in range(1, chart(name).rows[-1].difference_from)
+    ]
+    assert report.p_win.tolist() == pytest.approx(chances, rel=1e-12)
+    mean = chart_audit_answer(report).to_dict()["mean_p_win"]
+    assert mean == pytest.approx(sum(chances) / len(chances))
+
+
+def test_beyond_the_chart_the_last_race_gets_easier():
+    report = audit("npl_10", scale="npl")
+    wins = race_win_probability(report.scale.win_probability(90), 7, 2)
+    assert f"difference of 90 the stronger player wins {100 * wins:.0f}%" in words(
+        chart_audit_answer(report)
+    )
 
 
 def test_a_scale_that_the_chart_was_not_made_for_is_named_with_the_one_it_fits():
     found = words(chart_audit_answer(audit(chart("fargo_r6_hot"), scale=150)))
     assert "100.2 points" in found
-    assert "100" not in words(chart_audit_answer(audit(chart("fargo_r6_hot"), scale="fargo")))
+    assert "other ratings" in found
+    assert "other ratings" not in words(chart_audit_answer(audit("fargo_r6_hot", scale="fargo")))
+
+
+def test_a_chart_that_fits_no_ratings_is_not_said_to_fit_some():
+    rough = ChartDraft("rough", tuple(ChartRow(*row) for row in ROUGH))
+    assert "does not fit any" in words(chart_audit_answer(audit(rough, scale="npl")))
 
 
 def test_gaps_overlaps_and_easier_races_are_said_once_each():

@@ -33,8 +33,8 @@ def test_the_list_after_the_night_with_its_reasons(answer_of):
     assert "".join(to_csv(answer_of())).splitlines() == [
         "player,rating,standard_error,games,component,matches,rating_before,change,matches_won,"
         "matches_lost,why,scale",
-        "Ann,94,,156,,,92,2,2,0,beat Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4),",
-        "Bo,80,,135,,,80,0,1,1,lost to Ann 3-5 (race 4:5); beat =cmd() 6-1 (race 6:4),",
+        'Ann,94,,156,,,92,2,2,0,"beat Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)",',
+        'Bo,80,,135,,,80,0,1,1,"lost to Ann 3-5 (race 4:5); beat =cmd() 6-1 (race 6:4)",',
         "Cy,70,,,,,71,-1,0,1,lost to Ann 2-6 (race 4:6),",
         "'=cmd(),59,,7,,,60,-1,0,1,lost to Bo 1-6 (race 4:6),",
         "New,,,0,,,,,0,0,,",

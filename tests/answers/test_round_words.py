@@ -7,6 +7,7 @@ from evenbreak.answers.round_words import (
     about_method,
     about_pairs,
     about_players,
+    about_time,
     doubtful,
     evening_words,
     game_model,
@@ -14,6 +15,7 @@ from evenbreak.answers.round_words import (
     races_of,
     which_races,
 )
+from evenbreak.matches.pace import PACES, Turnover, own_pace
 from evenbreak.ratings.roster import Roster
 from leagues import round_of
 
@@ -34,9 +36,19 @@ def test_races_say_where_they_come_from():
 
 
 def test_an_evening_is_counted_and_timed():
-    text = evening_words(EveningEnd("best", 1, 1, 65.0, 80.0, True, 0, 0.0))
+    text = evening_words(EveningEnd("best", 1, 1, 65.0, 80.0, True, 0, 0.0, 0.0))
     assert "1 match on 1 table takes 1 h 05" in text
     assert "1 h 20" in text
+
+
+def test_what_the_minutes_assume_is_said():
+    assert about_time(round_of()) == ""
+    timed = about_time(round_of(pace=PACES["9-ball"]))
+    assert "9-ball: 5.6 minutes" in timed
+    assert "table" not in timed
+    own = about_time(round_of(pace=own_pace(8.0), tables=2, turnover=Turnover(5)))
+    assert "8 minutes a game on average" in own
+    assert "5 minutes pass between" in own
 
 
 def test_pairs_that_cannot_be_compared_or_made_even_are_named():
@@ -85,7 +97,6 @@ def test_the_method_is_said_as_far_as_it_was_used():
     plain = [remark.what for remark in about_method(round_of())]
     assert plain[0] == "Chart npl_10"
     assert any("standard error" in what for what in plain)
-    timed = [str(remark) for remark in about_method(round_of(minutes_per_game=8.0, tables=2))]
-    assert any(text.startswith("8 minutes a game") for text in timed)
+    timed = [str(remark) for remark in about_method(round_of(pace=own_pace(8.0), tables=2))]
     assert any("50,000 simulated evenings" in text for text in timed)
     assert "d/30" in game_model(round_of())

@@ -81,8 +81,10 @@ def test_how_it_was_rated():
     season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2026-01-31"])
     sheet = sheet_of(season, scale="fargo", prior_sd=0.5)
     assert "500, give or take 72.13" in how_rated(sheet)
-    choice = PriorChoice(sheet.ratings.prior_sd, (0.1, 0.5, 0.9), (0.7, 0.6, 0.7), 1234)
-    assert "of 3 values tried, this one predicted 1,234" in how_rated(replace(sheet, choice=choice))
+    tried = (sheet.ratings.prior_sd, (0.1, 0.5, 0.9), (0.7, 0.6, 0.7), 1234, 0.4, 0.6)
+    learnt, not_learnt = PriorChoice(*tried, True, 0.61), PriorChoice(*tried, False, 0.61)
+    assert "of 3 values tried, this one predicted 1,234" in how_rated(replace(sheet, choice=learnt))
+    assert how_rated(replace(sheet, choice=not_learnt)) == how_rated(sheet)
     aged = sheet_of(season, half_life=90, as_of="2026-02-01")
     assert "half after 90 days, as of 2026-02-01" in how_rated(aged)
 

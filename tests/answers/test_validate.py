@@ -62,6 +62,7 @@ def test_scores_that_vary_more_are_explained_and_others_are_not(demo_answer, dem
     (text,) = [one for one in demo_answer.sentences if one.startswith("Match scores")]
     assert f"{more:.0f}%" in text
     assert "winner breaks" in text
+    assert "races" not in text  # under handicaps favourites of matches say nothing
     file = ResultsFile(chosen.forecasts.results, "r.csv", (), (), "")
     sentences = validate_answer(file, chosen, NPL).sentences
     assert not any(one.startswith("Match scores") for one in sentences)

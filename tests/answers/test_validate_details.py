@@ -32,7 +32,7 @@ def test_every_kind_of_prediction_has_its_losses(chosen):
 
 
 def test_the_tests_stand_beside_what_was_expected(demo):
-    _, tests, _, _ = parts_of(demo)[0]
+    _, _, tests, _, _ = parts_of(demo)[0]
     rows = {row[0]: row[1:] for row in tests.rows}
     spread, first = demo.dispersion, demo.first_breaks
     assert rows["spread of scores"] == (
@@ -47,7 +47,7 @@ def test_the_tests_stand_beside_what_was_expected(demo):
 
 
 def test_matches_and_spots_have_a_row_a_bin(demo):
-    _, _, matches, spots = parts_of(demo)[0]
+    _, _, _, matches, spots = parts_of(demo)[0]
     assert [row[1] for row in matches.rows] == [one.matches for one in demo.matches]
     assert [row[0] for row in spots.rows] == [1, 2, 3, 4, 5, "all"]
 
@@ -56,14 +56,14 @@ def test_a_chosen_prior_is_given_in_points_beside_the_default(chosen):
     text = parts_of(chosen, FARGO)[1]
     assert f"{FARGO.points(chosen.prior_sd):.3g} points" in text
     assert "default of 100 points" in text
-    assert f"{scored_of(chosen, 'game').as_it_went:.4f}" in text
+    assert f"{chosen.choice.as_it_went:.4f}" in text
 
 
-def test_a_prior_at_the_edge_is_not_recommended():
+def test_two_matches_choose_no_prior():
     results = Results.from_names(
         ["A", "A"], ["B", "B"], [7, 7], [5, 0], date=["2024-09-03", "2024-09-04"]
     )
-    assert "none can be recommended" in parts_of(validate(results))[1]
+    assert "too few results to choose a prior" in parts_of(validate(results))[1]
 
 
 def test_a_given_prior_has_no_cost(demo):

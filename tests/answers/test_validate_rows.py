@@ -15,7 +15,16 @@ def rows_of(found):
 def test_every_figure_has_its_row(demo):
     rows = rows_of(demo)
     assert {row["part"] for row in rows} == {
-        *("prior", "prior_sd", "log_loss", "brier", "slope", "gain", "calibration"),
+        *(
+            "half_life",
+            "first_column",
+            "prior_sd",
+            "log_loss",
+            "brier",
+            "slope",
+            "gain",
+            "calibration",
+        ),
         *("calibration_plug_in", "no_favourite", "dispersion", "first_break", "side", "spot"),
     }
     (row,) = [r for r in rows if (r["part"], r["of"], r["item"]) == ("slope", "game", "integrated")]
@@ -25,10 +34,12 @@ def test_every_figure_has_its_row(demo):
 
 def test_the_prior_that_was_chosen_has_its_loss_as_it_went(chosen):
     rows = rows_of(chosen)
-    losses = [row for row in rows if row["part"] == "log_loss_as_it_went"]
-    assert [row["value"] for row in losses] == [row.as_it_went for row in chosen.scored]
+    (went,) = [row["value"] for row in rows if row["part"] == "log_loss_as_it_went"]
+    assert went == chosen.choice.as_it_went
+    (ends,) = [(row["low"], row["high"]) for row in rows if row["part"] == "prior_range"]
+    assert ends == (chosen.choice.low, chosen.choice.high)
     tried = [float(row["item"]) for row in rows if row["part"] == "prior"]
-    assert tried == pytest.approx([sd for sd, _ in chosen.priors], abs=1e-6)
+    assert tried == pytest.approx(list(chosen.choice.tried), abs=1e-6)
 
 
 def test_a_coin_is_beside_each_loss(demo):

@@ -19,13 +19,8 @@ def test_leagues_of_the_model_are_sound(play_season):
     assert sum(text.startswith("You can trust these ratings:") for text in verdicts) >= 8
 
 
-def test_a_first_column_that_matters_is_found(play_season):
-    text = said(play_season(1, side=0.15), prior_sd=0.5)
-    assert text.startswith("You can trust")
-    assert "first column" in text
-    text = said(play_season(1, side=0.3), prior_sd=0.5)
-    assert text.startswith("Do not")
-    assert "first column" in text
+def test_the_order_of_the_columns_is_no_fault_of_the_ratings(play_season):
+    assert "column" not in said(play_season(1, side=0.15), prior_sd=0.5)
 
 
 def test_a_chart_that_gives_too_much_is_found(play_season):

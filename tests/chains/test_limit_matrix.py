@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from evenbreak.chains import chain_of, limit_matrix, stochastic_limit
+from evenbreak.chains import chain_from_arrays, chain_of, limit_matrix, stochastic_limit
+from evenbreak.errors import InputError
 
 RUIN = chain_of([(1, 0, 0.5), (1, 2, 0.5), (2, 1, 0.25), (2, 3, 0.75)])
 ROUND = chain_of([("S", "A", 0.25), ("S", "end", 0.75), ("A", "B", 1.0), ("B", "A", 1.0)])
@@ -25,3 +26,13 @@ def test_it_is_a_projection_that_the_chain_leaves_alone():
 def test_only_closed_classes_have_entries():
     table = limit_matrix(RUIN)
     assert table.nnz == 6  # 0 and 3 from themselves, and both from 1 and 2
+
+
+def test_a_matrix_that_would_fill_the_memory_is_refused():
+    states = np.arange(8_000)
+    chain = chain_from_arrays(
+        states.tolist(), np.tile(states, 2), np.append((states + 1) % 8_000, (states + 7) % 8_000),
+        np.full(16_000, 0.5),
+    )  # fmt: skip
+    with pytest.raises(InputError, match="64,000,000"):
+        limit_matrix(chain)

@@ -141,3 +141,26 @@ def test_a_limit_as_numbers_and_as_a_series() -> None:
     np.array(limit)[0] = 9.0
     assert limit["end"] == pytest.approx(0.4)
     assert limit[0, 0] == pytest.approx(0.4)
+
+
+THREE = [[0, 1, 0], [0, 0, 1], [0.5, 0.5, 0]]
+
+
+@pytest.mark.parametrize("kind", [list, tuple])
+@pytest.mark.parametrize("P", [[[1.0]], [[0, 1], [0.5, 0.5]], THREE])
+def test_square_lists_are_a_matrix(P, kind):
+    found = chain_of(kind(kind(row) for row in P))
+    np.testing.assert_array_equal(found.matrix.toarray(), np.array(P).T)
+
+
+def test_three_arcs_between_numbers_are_not_a_matrix():
+    around = chain_of([(0, 1, 1.0), (1, 2, 1.0), (2, 0, 1.0)])
+    assert around.matrix.toarray()[1, 0] == 1.0
+    assert chain_of([[0, 1, 1.0], [1, 0, 0.5], [1, 1, 0.5]]).states == [0, 1]
+
+
+def test_square_lists_that_are_not_stochastic_are_refused():
+    with pytest.raises(ChainError, match="neither the rows nor the columns"):
+        chain_of([[0.5, 0.4], [0.5, 0.4]])
+    with pytest.raises(ChainError):
+        chain_of([[0.5, 0.4, 0.3], [0.5, 0.4, 0.3], [0.5, 0.4, 0.3]])

@@ -262,3 +262,14 @@ def test_output_is_utf_8_in_any_locale():
         env={**os.environ, "PYTHONIOENCODING": "ascii", "LC_ALL": "C"},
     )
     assert done.stdout == "state,probability\nS,0.0\nÆrø,0.6\nL,0.4\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "same"), [(["help"], ["--help"]), (["help", "odds"], ["odds", "--help"])]
+)
+def test_help_needs_no_dashes(run, words, same):
+    assert run(*words).stdout == run(*same).stdout
+
+
+def test_version_needs_no_dashes(run):
+    assert run("version").stdout == run("--version").stdout

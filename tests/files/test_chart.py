@@ -67,7 +67,7 @@ def test_cells_that_are_no_whole_numbers(write):
     assert problems_of(path, read_chart_file) == [
         "F:2: difference_to 'four' is not a whole number from 0 to 1,000,000",
         "F:3: difference_from '-5' is not a whole number from 0 to 1,000,000",
-        "F:3: stronger_needs '0' is not a whole number from 1 to 1,000,000",
+        "F:3: stronger_needs '0' is not a whole number from 1 to 1,000",
         "F:4: difference_from '5.5' is not a whole number from 0 to 1,000,000",
         "F:4: weaker_needs is empty",
     ]
@@ -166,3 +166,10 @@ def test_no_bytes_make_another_error(tmp_path_factory, header, body):
     path.write_bytes(header + body)
     with contextlib.suppress(DataError):
         assert read_chart(path).name == "ours"
+
+
+def test_a_race_to_a_million_is_refused(tmp_path):
+    path = tmp_path / "long.csv"
+    path.write_text("from,to,stronger,weaker\n0,9,1000,1000\n10,,1000000,5\n")
+    with pytest.raises(DataError, match=r"long.csv:3: stronger.*1,000"):
+        read_chart(path)

@@ -255,3 +255,10 @@ def test_rows_without_dates_may_be_alike(tmp_path):
     path = tmp_path / "r.csv"
     path.write_text("player_a,player_b,score_a,score_b\nAnn,Bo,5,3\nAnn,Bo,5,3\n")
     assert read_results(path).warnings == ()
+
+
+def test_a_cell_with_half_a_file_in_it_is_no_name(read):
+    content = "player_a,player_b,score_a,score_b\nAnn," + 130_000 * "a" + ",7,3\n"
+    (problem,) = problems(read, content)
+    assert ":2: player_b" in problem
+    assert "200 letters" in problem

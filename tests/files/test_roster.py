@@ -193,3 +193,8 @@ def test_an_unknown_or_a_second_scale_is_refused(read, scale, named):
     (problem,) = problems_of(read, f"player,rating,scale\nAnn,612,fargo\nBo,521,{scale}\n")
     assert problem.startswith(":3: scale ")
     assert named in problem
+
+
+def test_a_cell_with_half_a_file_in_it_is_no_name(read):
+    with pytest.raises(DataError, match=r":3: .*130,000 letters"):
+        read("player,rating\nAnn,80\n" + 130_000 * "a" + ",70\n")

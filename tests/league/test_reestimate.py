@@ -60,7 +60,7 @@ def test_with_an_odd_number_one_rests():
     [
         ([1.0], HOT, {}, "skill is not a list of two"),
         ([1.0, math.nan], HOT, {}, "skill is not a list of two"),
-        (EQUAL, "fargo_r6_hot", {}, "give a Chart"),
+        (EQUAL, "nobody", {}, "chart is 'nobody'"),
         (EQUAL, HOT, {"weeks": 1}, "weeks is 1"),
         (EQUAL, HOT, {"leagues": 1}, "leagues is 1"),
         (EQUAL, HOT, {"half_life": 0.0}, "half_life is 0.0; give weeks above 0"),

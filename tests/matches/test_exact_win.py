@@ -7,7 +7,7 @@ import pytest
 
 from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.errors import InputError
-from evenbreak.games import Ahead, Race, Rack, alternate_breaks, loser_breaks, winner_breaks
+from evenbreak.games import Ahead, OneBall, Race, Rack, alternate_breaks, loser_breaks, winner_breaks
 from evenbreak.matches import win_probability
 
 BY_BREAK = Rack(0.6, 0.45)
@@ -56,3 +56,10 @@ def test_a_decided_match_and_a_chance_near_1():
 def test_arrays_are_refused():
     with pytest.raises(InputError, match="array"):
         win_probability(Race(2, 2, Rack([0.5, 0.6])), exact=True)
+
+
+def test_games_of_your_own():
+    alone = win_probability(OneBall(0.5, 0.25), exact=True)
+    assert alone == Fraction(4, 5)
+    race = win_probability(Race(2, 2, OneBall(0.5, 0.25)), player=2, exact=True)
+    assert race == win_probability(Race(2, 2, Rack(0.8)), player=2, exact=True)

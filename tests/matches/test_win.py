@@ -246,10 +246,16 @@ def test_wrong_needs_are_refused(p: Any, m: Any, n: Any, message: str) -> None:
 
 
 @pytest.mark.parametrize("ask", [win_probability, match_length, final_scores, match_odds])
-@pytest.mark.parametrize("game", [Rack(0.5), OneBall(0.4, 0.8), 0.5])
-def test_other_games_are_for_the_chains(ask: Any, game: Any) -> None:
-    with pytest.raises(InputError, match=r"give a Race or an Ahead, or solve chain_of"):
-        ask(game)
+@pytest.mark.parametrize("wrong", [Rack(0.5), 0.5])
+def test_what_is_not_a_match_is_refused(ask: Any, wrong: Any) -> None:
+    with pytest.raises(InputError, match=r"give a Race or an Ahead, or ask game_odds"):
+        ask(wrong)
+
+
+@pytest.mark.parametrize("ask", [final_scores, match_odds])
+def test_other_games_have_no_score(ask: Any) -> None:
+    with pytest.raises(InputError, match=r"give a Race or an Ahead, or ask game_odds"):
+        ask(OneBall(0.4, 0.8))
 
 
 @pytest.mark.parametrize("p", [1e-12, 1e-3, 0.999, 1 - 1e-12])

@@ -3,7 +3,7 @@ import pytest
 
 from evenbreak.handicaps import ChartDraft, ChartRow, audit, chart
 from evenbreak.plots.charts import chart_figure
-from evenbreak.plots.diagram import image_bytes
+from evenbreak.plots.picture import image_bytes
 
 
 def curve(figure, name):

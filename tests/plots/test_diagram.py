@@ -24,7 +24,8 @@ from evenbreak.games import (
     Series,
     winner_breaks,
 )
-from evenbreak.plots.diagram import draw, image_bytes
+from evenbreak.plots.diagram import draw
+from evenbreak.plots.picture import image_bytes
 
 READABLE = {name: game for name, game in CATALOGUE.items() if len(graph_of(game)) <= 60}
 
@@ -116,7 +117,7 @@ def test_numbers_do_not_cover_each_other_or_leave_the_picture(game: Game) -> Non
 def test_files_are_the_same_to_the_byte() -> None:
     code = (
         "import sys\nfrom evenbreak.games import OneBallLookAhead\n"
-        "from evenbreak.plots.diagram import draw, image_bytes\n"
+        "from evenbreak.plots import draw, image_bytes\n"
         "figure = draw(OneBallLookAhead([0.4, 0.8]), title='Two shots')\n"
         "for kind in ('png', 'svg', 'png', 'svg'):\n"
         "    sys.stdout.buffer.write(image_bytes(figure, kind))"

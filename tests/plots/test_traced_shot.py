@@ -5,7 +5,7 @@ import pytest
 
 from evenbreak.physics import PoolTable, aimed_shot, pockets, shot, strike, strike_for_speed
 from evenbreak.physics.units import INCH
-from evenbreak.plots.diagram import image_bytes
+from evenbreak.plots.picture import image_bytes
 from evenbreak.plots.traced_shot import shot_on_table
 
 FOUND = shot(strike_for_speed(60 * INCH, -0.3), math.radians(30), 24 * INCH)

@@ -20,3 +20,10 @@ def test_sums_count_each_pair_for_both_players():
     each = np.array([1.0, 10.0, 100.0])
     assert sums_by_player(4, low, high, each).tolist() == [11, 101, 110, 0]
     assert sums_by_player(4, low, high, each, -each).tolist() == [11, 99, -110, 0]
+
+
+def test_a_sum_over_many_opponents_is_right_to_a_rounding():
+    many = 50_000
+    low, high = np.zeros(many, dtype=int), np.arange(1, many + 1)
+    each = np.full(many, 2.999999)
+    assert sums_by_player(many + 1, low, high, each)[0] == 2.999999 * many

@@ -40,3 +40,16 @@ def test_a_league_without_games_stays_at_the_prior():
 def test_a_whitewash_has_a_finite_rating():
     mode = find_mode(two_players(1000, 0), 1.0)
     assert 0 < mode.point[0] < math.log(1000)
+
+
+@pytest.mark.parametrize("opponents", [10, 15_000, 20_000, 50_000])
+def test_a_player_with_very_many_opponents_is_rated(opponents):
+    one, others = np.zeros(opponents, dtype=int), np.arange(1, opponents + 1)
+    seven, three = np.full(opponents, 7), np.full(opponents, 3)
+    mode = find_mode(count_pairs(opponents + 1, one, others, three, seven), 1.0)
+    # Every opponent is at -x/n where the one player, who lost to all of them, is at x.
+    x = brentq(
+        lambda x: opponents * (10 * expit(x * (1 + 1 / opponents)) - 3) + x, -5, 0, xtol=1e-14
+    )
+    np.testing.assert_allclose(mode.point[:2], [x, -x / opponents], atol=1e-9)
+    assert mode.iterations < 10

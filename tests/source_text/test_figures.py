@@ -8,7 +8,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from drawings import figure
-from evenbreak.plots.diagram import image_bytes
+from evenbreak.plots.picture import image_bytes
 from evenbreak.source_text.figures import figures
 from places import SHARED
 

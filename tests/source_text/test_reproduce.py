@@ -3,7 +3,7 @@ import io
 
 import pytest
 
-from evenbreak.plots.diagram import image_bytes
+from evenbreak.plots.picture import image_bytes
 from evenbreak.source_text.cells import csv_bytes
 from evenbreak.source_text.figures import figures
 from evenbreak.source_text.reproduce import all_findings, physics_tables, section_5_tables

@@ -4,11 +4,16 @@ from .fair_pairs import matchups_frame as matchups_frame
 from .matchups import matchups_answer as matchups_answer
 from .night_results import rating_changes_of_files as rating_changes_of_files
 from .offered_races import OfferedRaces as OfferedRaces
+from .one_season_tables import matches_frame as matches_frame
+from .one_season_tables import truth_frame as truth_frame
 from .rate import rate_answer as rate_answer
 from .rating_changes import rating_changes_answer as rating_changes_answer
 from .report import report_answer as report_answer
-from .report_frames import ratings_frame as ratings_frame
 from .report_frames import summary_frame as summary_frame
 from .round import Round as Round
+from .season_tables import fairness_frame as fairness_frame
+from .season_tables import standings_frame as standings_frame
+from .season_tables import weeks_frame as weeks_frame
 from .sheet import Sheet as Sheet
 from .validate import validate_answer as validate_answer
+from .why import why_answer as why_answer

@@ -66,6 +66,9 @@ class Answer:
     csv: Quantities | Table | None = None
     schema_version: int = SCHEMA_VERSION
 
+    def __repr__(self) -> str:
+        return f"<Answer: {self.heading.partition(chr(10))[0]}>"
+
     @property
     def sentences(self) -> list[str]:
         """The paragraphs, those of the details left out."""

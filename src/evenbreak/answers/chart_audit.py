@@ -6,22 +6,21 @@ from typing import Any
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.scale_words import NAMES
 from evenbreak.answers.wording import decimals, listed, percent, race, range_words
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit, ChartFit
 from evenbreak.handicaps.charts.level_audit import LevelAudit, LevelCell
+from evenbreak.matches.win import race_win_probability
+from evenbreak.ratings.scale import SCALES
 
 SAME_SCALE = 0.05
 """Scales that differ by a smaller share are the same scale to a reader."""
 
-TILTS = (
-    (0.15, "at the start of its band, so the stronger player is nearly always the favourite"),
-    (0.35, "early in its band, so the stronger player is the favourite more often"),
-    (0.65, "near the middle of its band, so neither player is favoured overall"),
-    (0.85, "late in its band, so the weaker player is the favourite more often"),
-)
-"""Where a race is even, up to each tilt."""
+SAME_CHANCE = 0.02
+"""A chart favours neither player if the mean chance is nearer to 1/2 than this."""
 
-LATEST = "at the end of its band, so the weaker player is nearly always the favourite"
+ROUGH = 0.25
+"""A fit that is off by more than this share of a band, on average, is none to a reader."""
 
 _CHANCES = (
     Column("p_win_low", "start", decimals(3)),
@@ -35,11 +34,10 @@ _MONOTONE = Column("monotone")
 def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> Answer:
     """Return how fair a chart by rating difference is, and the scale and tilt that fit it.
 
-    >>> from evenbreak.handicaps import audit, chart
-    >>> print(chart_audit_answer(audit(chart("npl_10"))).sentences[0])
-    Up to a difference of 57 points, the stronger player wins between 44% and 58% of the matches.
-    The least fair race is 7:3 at a difference of 46, where the stronger player wins 58% of the
-    time.
+    >>> from evenbreak.handicaps import audit
+    >>> print(chart_audit_answer(audit("npl_10")).sentences[0].partition(". ")[0])
+    At differences of 1 to 56 points, the stronger player wins 50% of the matches on average, so the
+    chart favours neither player
     """
     points = report.scale.points_per_doubling
     fitted = report.fit is not None and report.fit is report.best_fit
@@ -61,8 +59,8 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
     return Answer(
         f"Chart {report.name}, {where}{points:.4g} points double the odds of winning a game",
         [
-            _least_fair(report),
-            " ".join((*_order(report), *_made_for(report, fitted=fitted))),
+            " ".join((*_favoured(report), *_least_fair(report), *_beyond(report))),
+            " ".join((*_order(report), *_made_for(report))),
             Table(
                 "rows",
                 columns,
@@ -80,11 +78,48 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
             "best_fit": report.best_fit and asdict(report.best_fit),
             "gaps": report.gaps,
             "overlaps": report.overlaps,
+            "mean_p_win": float(report.p_win.mean()) if report.p_win.size else None,
         },
     )
 
 
-def _least_fair(report: ChartAudit) -> str:
+def _favoured(report: ChartAudit) -> Iterator[str]:
+    """Yield whom the chart favours as a whole, if any row has an end."""
+    chances = report.p_win
+    if not chances.size:
+        return
+    last = max(row.difference_to for row in report.rows if row.difference_to is not None)
+    mean = float(chances.mean())
+    if abs(mean - 0.5) < SAME_CHANCE:
+        so = "so the chart favours neither player"
+    else:
+        who, often = ("stronger", chances > 0.5) if mean > 0.5 else ("weaker", chances < 0.5)
+        so = (
+            f"so the chart favours the {who} player, who is the favourite at {int(often.sum())} of "
+            f"{chances.size} differences"
+        )
+    yield (
+        f"At differences of 1 to {last} points, the stronger player wins {percent(mean)} of the "
+        f"matches on average, {so}."
+    )
+
+
+def _beyond(report: ChartAudit) -> Iterator[str]:
+    """Yield how the stronger player does where the chart has no harder race."""
+    last = report.rows[-1]
+    if last.difference_to is not None:
+        return
+    even = max(last.even_difference, last.difference_from)
+    further = round(even + report.scale.points_per_doubling)
+    needs = last.stronger_needs, last.weaker_needs
+    wins = race_win_probability(report.scale.win_probability(float(further)), *needs)
+    yield (
+        f"The last race, {race(needs)}, stays the same however far apart two players are: at a "
+        f"difference of {further} the stronger player wins {percent(wins)}."
+    )
+
+
+def _least_fair(report: ChartAudit) -> Iterator[str]:
     ends = [
         (row, difference, chance)
         for row in report.rows
@@ -96,11 +131,11 @@ def _least_fair(report: ChartAudit) -> str:
     ]
     chances = [chance for _, _, chance in ends]
     worst, difference, chance = max(ends, key=lambda end: abs(end[2] - 0.5))
-    return (
-        f"Up to a difference of {max(end[1] for end in ends)} points, the stronger player wins "
-        f"between {percent(min(chances))} and {percent(max(chances))} of the matches. The least "
-        f"fair race is {worst.stronger_needs}:{worst.weaker_needs} at a difference of "
-        f"{difference}, where the stronger player wins {percent(chance)} of the time."
+    yield (
+        f"Up to {max(end[1] for end in ends)} points, their chance is never below "
+        f"{percent(min(chances))} or above {percent(max(chances))}; the least fair race is "
+        f"{worst.stronger_needs}:{worst.weaker_needs} at a difference of {difference}, which they "
+        f"win {percent(chance)} of the time."
     )
 
 
@@ -125,23 +160,44 @@ def _order(report: ChartAudit) -> Iterator[str]:
         )
 
 
-def _made_for(report: ChartAudit, *, fitted: bool) -> Iterator[str]:
+def _made_for(report: ChartAudit) -> Iterator[str]:
+    """Yield the ratings that the chart was made for."""
     best, points = report.best_fit, report.scale.points_per_doubling
-    if best is None or report.fit is None:
+    if best is None:
         return
-    if fitted:
-        yield f"Each race is even {_where_even(report.fit)}."
-    elif abs(best.points_per_doubling / points - 1.0) < SAME_SCALE:
-        yield f"The chart fits these ratings: each race is even {_where_even(report.fit)}."
+    fitting = best.points_per_doubling
+    if _rough(report, best):
+        yield (
+            "The chart does not fit any ratings well: on the scale that comes nearest, "
+            f"{fitting:.4g} points double the odds."
+        )
+        return
+    known = next(
+        (
+            NAMES[name]
+            for name, scale in SCALES.items()
+            if abs(fitting / scale.points_per_doubling - 1.0) < SAME_SCALE
+        ),
+        "",
+    )
+    those = f", as with {known} ratings" if known else ""
+    if abs(fitting / points - 1.0) < SAME_SCALE:
+        yield f"The chart fits ratings on which about {fitting:.0f} points double the odds{those}."
     else:
         yield (
-            f"The chart fits another scale better: if {best.points_per_doubling:.4g} points double "
-            f"the odds, each race is even {_where_even(best)}."
+            f"The chart was made for other ratings: about {fitting:.4g} points double the odds on "
+            f"the scale that it fits best{those}."
         )
 
 
-def _where_even(fit: ChartFit) -> str:
-    return next((words for tilt, words in TILTS if fit.tilt < tilt), LATEST)
+def _rough(report: ChartAudit, fit: ChartFit) -> bool:
+    """Return whether the bands of a chart begin far from where a fit would put them."""
+    widths = [
+        row.difference_to - row.difference_from + 1
+        for row in report.rows
+        if row.difference_to is not None
+    ]
+    return fit.misfit > ROUGH * sum(widths) / len(widths)
 
 
 def _tilt(report: ChartAudit, *, fitted: bool) -> Iterator[str]:

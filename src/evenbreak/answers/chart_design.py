@@ -7,10 +7,12 @@ from typing import Any, NamedTuple
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.chart_show import chart_rows
+from evenbreak.answers.design_prices import design_prices
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.wording import count_of, decimals, percent, race, range_words
 from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.design import races_to_try
 from evenbreak.handicaps.charts.match_rules import MatchRules
 from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
 from evenbreak.handicaps.charts.race_limits import RaceLimits
@@ -32,7 +34,7 @@ class DesignTask:
 
     Parameters
     ----------
-    rules, limits, target, tilt, up_to, mean_games, rows
+    rules, limits, target, tilt, up_to, mean_games, rows, spread
         as for `evenbreak.handicaps.design`.
     rule
         'mean' or 'worst', the criterion; or 'nearest', for `nearest_chart`.
@@ -53,6 +55,7 @@ class DesignTask:
     up_to: int | None = None
     mean_games: float | None = None
     rows: int | None = None
+    spread: int | None = None
     beside: tuple[Chart, ...] = ()
 
     def design(self) -> tuple[Chart, int]:
@@ -60,8 +63,8 @@ class DesignTask:
         up_to = self.up_to
         if up_to is None and self.beside:
             up_to = min(last_difference(chart, self.rules) for chart in self.beside)
-        candidates = Candidates(self.rules, self.limits, up_to)
-        if self.rule == "nearest":
+        candidates = races_to_try(self.rules, self.limits, self.spread, up_to)
+        if isinstance(candidates, Candidates) and self.rule == "nearest":
             made = candidates.nearest("design")
         else:
             made = candidates.fairest(
@@ -85,6 +88,9 @@ class DesignTask:
             words.append(f"9 out of 10 matches within {self.limits.games_p90} games")
         if self.rows is not None:
             words.append(f"at most {count_of(self.rows, 'row')}")
+        if self.spread is not None and high - low > self.spread:
+            apart = f"at most {count_of(self.spread, 'game')} apart" if self.spread else "the same"
+            words.append(f"longest matches {apart}")
         if self.mean_games is not None:
             words.append(f"at most {self.mean_games:g} games on average")
         goal = GOALS[self.rule]
@@ -116,6 +122,9 @@ def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
     for chart, one, spans in zip(task.beside, theirs, differing, strict=True):
         parts.append(_compared(chart, one, spans))
     parts.append(_rows(task, made, up_to))
+    prices = design_prices(task, made, up_to)
+    if prices is not None:
+        parts.append(prices)
     for chart, spans in zip(task.beside, differing, strict=True):
         if spans:
             parts.append(_other_races(chart, spans))

@@ -8,9 +8,12 @@ from evenbreak.answers.wording import race, range_words
 from evenbreak.files.chart import chart_table
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.points_chart import PointsChart
 
 
-def chart_show_answer(chart: Chart | LevelChart, *, warnings: Sequence[str] = ()) -> Answer:
+def chart_show_answer(
+    chart: Chart | LevelChart | PointsChart, *, warnings: Sequence[str] = ()
+) -> Answer:
     """Return the races of a chart; as CSV it is a chart file.
 
     >>> from evenbreak.handicaps import chart
@@ -20,14 +23,20 @@ def chart_show_answer(chart: Chart | LevelChart, *, warnings: Sequence[str] = ()
     """
     return Answer(
         f"Chart {chart.name}",
-        _by_difference(chart) if isinstance(chart, Chart) else _by_level(chart),
+        _parts(chart),
         warnings=warnings,
         data={"chart": chart.name},
         csv=chart_rows(chart),
     )
 
 
-def chart_rows(chart: Chart | LevelChart) -> Table:
+def _parts(chart: Chart | LevelChart | PointsChart) -> list[Part]:
+    if isinstance(chart, PointsChart):
+        return _of_points(chart)
+    return _by_difference(chart) if isinstance(chart, Chart) else _by_level(chart)
+
+
+def chart_rows(chart: Chart | LevelChart | PointsChart) -> Table:
     """Return the rows of a chart as a file holds them, and as JSON does under `rows`."""
     columns, rows = chart_table(chart)
     return Table("rows", [Column(name) for name in columns], rows)
@@ -48,6 +57,15 @@ def _by_difference(chart: Chart) -> list[Part]:
     ]
     rows = [(range_words(*row[:2]), row[2:]) for row in chart.rows]
     return [text, Table("", columns, rows)]
+
+
+def _of_points(chart: PointsChart) -> list[Part]:
+    columns = [Column("level", "level", left=True), Column("points", "points to win")]
+    rows = list(zip(chart.levels, chart.points, strict=True))
+    return [
+        "Each player plays to the points of their own level, whoever the opponent is.",
+        Table("", columns, rows),
+    ]
 
 
 def _by_level(chart: LevelChart) -> list[Part]:

@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match
-from evenbreak.games.rack import Rack
 from evenbreak.matches.live import LiveOdds
 
 Score = tuple[int, int]
@@ -25,7 +24,7 @@ def comeback_tables(match: Match, odds: LiveOdds, names: tuple[str, str]) -> Ite
         score, *inner = odds.now.scores if (odds.now.breaker or 0) == breaker else ((-1, -1),)
         here = [moment for moment in moments if (moment.breaker or 0) == breaker]
         breaks = f", {names[breaker - 1]} to break" if breaker else ""
-        if isinstance(match.rack, Rack):
+        if not isinstance(match.rack, Match):
             cells = {moment.scores[0]: moment.p_win_1 for moment in here}
             yield _matrix(f"by score{breaks}", cells, isinstance(match, Ahead), score, names)
             continue

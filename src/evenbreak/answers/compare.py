@@ -59,11 +59,14 @@ def compare_answer(
     if len(compared) > 1:
         parts.append(_turns(names, pairs, players, _stays(axis, hold)))
     formats = Table("", [Column(name) for name in _COLUMNS], [_row(one) for one in compared])
+    if players.taken_as_right:
+        parts.append(players.taken_as_right)
     return Answer(
         players.description,
         parts,
         warnings=players.doubts,
         data={
+            **players.named,
             "formats": [
                 {
                     **dict(zip(_COLUMNS, _row(one), strict=True)),

@@ -8,6 +8,8 @@ from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, percent
 from evenbreak.handicaps.charts.fair import FairRace
 
+_AVERAGED = "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
+
 
 def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float = 0.5) -> Answer:
     """Return races as found by `fair_races`, the nearest to the target first.
@@ -33,15 +35,16 @@ def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float
             Table(
                 "races",
                 [
-                    Column("race_a", f"{a} needs"),
-                    Column("race_b", f"{b} needs"),
-                    Column("p_win_a", f"{a} wins", chance),
-                    Column("mean_games", "games, on average", games),
-                    Column("games_p90", "9 of 10 end within"),
+                    Column("race_a", f"{a}\nneeds"),
+                    Column("race_b", f"{b}\nneeds"),
+                    Column("p_win_a", f"{a}\nwins", chance),
+                    Column("mean_games", "games, on\naverage", games),
+                    Column("games_p90", "9 of 10\nend within"),
                 ],
                 rows,
             ),
+            *([_AVERAGED] if players.error else []),
         ],
         warnings=players.doubts,
-        data={"target": target},
+        data={"target": target, **players.named},
     )

@@ -10,6 +10,8 @@ from evenbreak.answers.sheet import Sheet
 from evenbreak.answers.wording import count_of
 from evenbreak.ratings.fitted import Ratings
 
+NOTHING_LEFT_OUT = "Nothing: every match in the file was used, and every player is on this sheet."
+
 
 def left_out(
     sheet: Sheet, *, listed: int | None = None, in_table: int | None = None

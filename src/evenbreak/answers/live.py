@@ -50,12 +50,13 @@ def live_answer(
     *_, last = course.records()
     return Answer(
         f"{players.description}\n{_standing_words(match, now, players)}",
-        [part for part in parts if part],
+        [part for part in [*parts, players.taken_as_right] if part],
         warnings=players.doubts,
         data={
             "now": dict(zip(course.names, last, strict=True)),
             course.name: course.to_dicts(),
             to_come.name: to_come.to_dicts(),
+            **players.named,
         },
         csv=to_come if comebacks else course,
     )

@@ -10,7 +10,6 @@ from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match
-from evenbreak.games.rack import Rack
 from evenbreak.matches.odds import MatchOdds, match_odds
 
 if TYPE_CHECKING:
@@ -21,27 +20,29 @@ if TYPE_CHECKING:
 def odds_answer(players: TwoPlayers, match: Match, *, exact: bool = False) -> Answer:
     """Return the chances of a match between two players, and its length.
 
+    They are averaged over how far ratings from a list may be off.
+
     Parameters
     ----------
     players, match
         who plays what.
     exact
-        whether to add the chances of winning as fractions.
+        whether to add the chances of winning as fractions, of players without ratings.
 
     >>> from evenbreak.answers.two_players import TwoPlayers
-    >>> from evenbreak.games import Race
+    >>> from evenbreak.games import Race, Rack
     >>> answer = odds_answer(TwoPlayers(Rack(0.6)), Race(7, 5, Rack(0.6)))
     >>> print(answer.sentences[0])
     A wins the match 53% of the time.
     It lasts 9.3 games on average, and 9 out of 10 such matches end within 11.
     """
-    odds = match_odds(match)
+    odds = _odds(players, match)
     p_win = _exact_wins(match) if exact else ()
     a, b = players.names
     from_now = " from now on" if any(match.score) else ""
     by_break = players.p_game_a is None
     quantities = [
-        Quantity("p_game_a", players.p_game_a, f"{a} wins a game", chance),
+        Quantity("p_game_a", _p_game(players), f"{a} wins a game", chance),
         Quantity("p1", players.rack.p1 if by_break else None),
         Quantity("p2", players.rack.p2),
         Quantity("p_win_a", odds.p_win_1, f"{a} wins the match", chance),
@@ -77,8 +78,10 @@ def odds_answer(players: TwoPlayers, match: Match, *, exact: bool = False) -> An
             _in_words(odds, match, players),
             *([_exact_words(p_win, players.names)] if exact else []),
             Quantities(quantities),
+            *([_AVERAGED] if players.error else []),
         ],
         warnings=players.doubts,
+        data=players.named,
     )
 
 
@@ -112,6 +115,26 @@ def fraction_words(p: Fraction) -> str:
     return f"{p} = {decimal:f}" + ("..." if context.flags[Inexact] else "")
 
 
+_AVERAGED = "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
+
+
+def _odds(players: TwoPlayers, match: Match) -> MatchOdds:
+    if not players.error or players.scale is None:
+        return match_odds(match)
+    from evenbreak.handicaps.charts.odds_given_ratings import odds_given_ratings
+
+    return odds_given_ratings(match, players.difference, players.error, scale=players.scale)
+
+
+def _p_game(players: TwoPlayers) -> float | None:
+    """Return P(A wins a game), averaged as the odds are, None where it depends on who breaks."""
+    if not players.error or players.scale is None:
+        return players.p_game_a
+    from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+
+    return win_given_ratings(players.difference, players.error, 1, 1, scale=players.scale)
+
+
 def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
     a, b = players.names
     if (winner := match.decided(*match.score)) is not None:
@@ -135,7 +158,7 @@ def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
 def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
     """Return what is played.
 
-    >>> from evenbreak.games import Race
+    >>> from evenbreak.games import Race, Rack
     >>> match_words(Race(3, 1, Race(3, 3, Rack(0.6)), score=(1, 0)))
     'Race 3:1 in sets of 3:3, score 1:0'
     """
@@ -147,7 +170,7 @@ def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
         text = f"Race {match.m}:{match.n}"
     if (win_by := getattr(match, "win_by", 1)) > 1:
         text += f", win by {win_by}"
-    if not isinstance(match.rack, Rack):
+    if isinstance(match.rack, Match):
         text += f" in sets of {match.rack.m}:{match.rack.n}"
     if any(match.score):
         text += f", score {match.score[0]}:{match.score[1]}"

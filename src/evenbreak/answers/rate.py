@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.chosen_players import by_strength
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
+from evenbreak.ratings.scale import Scale
 
 NOT_LINKED = "no chain of opponents links the two"
 
@@ -60,7 +60,12 @@ def rate_answer(
         f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
         [first, *_fit_in_words(ratings, choice), *unlinked_words(ratings), table],
         details=[prior_words(ratings), *([] if pairs else [_ERRORS_IN_WORDS])],
-        warnings=[*file.warnings, *warnings],
+        warnings=[
+            *file.warnings,
+            *file.ties,
+            *prior_warnings(file, ratings, choice),
+            *warnings,
+        ],
         data=_how(ratings, choice),
     )
 
@@ -87,7 +92,7 @@ def _players_table(ratings: Ratings) -> Table:
         Column("component", "group" if ratings.component.max() > 1 else None),
         Column("scale"),
     ]
-    order = by_strength(ratings, range(len(ratings.players)))
+    order = ratings.strongest_first()
     order.sort(key=lambda k: ratings.component[k])
     values = [np.asarray(getattr(ratings, str(one.name)))[order].tolist() for one in columns[1:-1]]
     values.append([ratings.scale.text] * len(order))
@@ -126,9 +131,7 @@ def _pair_in_words(row: Sequence[Any]) -> str:
 
 
 def _highest_in_words(ratings: Ratings) -> str:
-    best = next(
-        k for k in by_strength(ratings, range(len(ratings.players))) if ratings.component[k] == 1
-    )
+    best = next(k for k in ratings.strongest_first() if ratings.component[k] == 1)
     where = " in the largest group" if ratings.component.max() > 1 else ""
     return (
         f"{ratings.players[best]} is rated highest{where}: {_ONE(ratings.rating[best])}, give or "
@@ -156,7 +159,7 @@ def _counted(ratings: Ratings) -> str:
 
 def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     """Yield what the ratings rest on besides the results, where something was asked for."""
-    if choice is not None:
+    if choice is not None and choice.learnt:
         yield choice_words(ratings, choice)
     if ratings.named:
         names = [f"{name} has {points:g}" for name, points in ratings.named]
@@ -198,6 +201,29 @@ def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
         end = "smallest" if choice.prior_sd == choice.tried[0] else "largest"
         text += f" It is the {end} one tried, so one beyond it may be better still."
     return text
+
+
+def prior_warnings(
+    file: ResultsFile, ratings: Ratings, choice: PriorChoice | None
+) -> Iterator[str]:
+    """Yield a warning where the prior was to be chosen by too few results."""
+    if choice is not None and not choice.learnt:
+        yield f"{file.source}: {too_few_for_prior_words(choice, ratings.scale)}"
+
+
+def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
+    """Return that the results cannot choose a prior, and which one is used.
+
+    >>> from evenbreak.ratings import scale_of
+    >>> few = PriorChoice(0.693, (0.1, 0.693), (0.6, 0.6), 22, 0.1, 0.693, False, 0.6)
+    >>> print(too_few_for_prior_words(few, scale_of("npl")))
+    22 later results are too few to choose a prior by; the default of 30.0 points is used.
+    """
+    few = "is too little" if choice.predicted == 1 else "are too few"
+    return (
+        f"{count_of(choice.predicted, 'later result')} {few} to choose a prior by; the default of "
+        f"{_ONE(scale.points(choice.prior_sd))} points is used."
+    )
 
 
 def unlinked_words(ratings: Ratings) -> Iterator[str]:
@@ -243,6 +269,7 @@ def _how(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
             {"prior_sd_points": scale.points(width), "log_loss": loss}
             for width, loss in zip(choice.tried, choice.log_loss, strict=True)
         ],
+        "prior_learnt": None if choice is None else choice.learnt,
         "half_life_days": ratings.half_life,
         "played_by_weight": ratings.weight,
         "as_of": None if ratings.as_of is None else str(ratings.as_of),

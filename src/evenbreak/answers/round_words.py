@@ -7,13 +7,13 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from evenbreak.answers.fair_pairs import NOT_LINKED
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.remarks import Remark
-from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR
+from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR, NOT_LINKED
 from evenbreak.answers.round import EveningEnd, Round
-from evenbreak.answers.scale_words import game_chance
+from evenbreak.answers.scale_words import game_chance, scale_words
 from evenbreak.answers.wording import clock, count_of, percent, race
+from evenbreak.matches.pace import Pace
 
 FEW_GAMES = 20
 """A rating that rests on fewer games is no more than a guess."""
@@ -62,7 +62,7 @@ def least_even(paired: pd.DataFrame) -> str:
 def evening_words(end: EveningEnd) -> str:
     """Return when an evening ends.
 
-    >>> print(evening_words(EveningEnd("chart", 4, 2, 110.2, 120.0, True, 0, 0.0)))
+    >>> print(evening_words(EveningEnd("chart", 4, 2, 110.2, 120.0, True, 0, 0.0, 0.0)))
     By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 out of 10 evenings end within
     2 h 00.
     """
@@ -72,6 +72,33 @@ def evening_words(end: EveningEnd) -> str:
         f"{clock(end.mean_minutes)} on average; 9 out of 10 evenings end within "
         f"{clock(end.minutes_p90)}."
     )
+
+
+def about_time(tonight: Round) -> str:
+    """Return what the minutes assume, in a sentence; empty if there are none.
+
+    >>> from evenbreak.matches import PACES
+    >>> print(time_words(PACES["9-ball"]))
+    Times assume 9-ball: 5.6 minutes a game and 3.8 more a match on average; two matches of
+    three come within 29% of that.
+    """
+    if tonight.pace is None:
+        return ""
+    between = tonight.turnover.mean if tonight.evening else None
+    return time_words(tonight.pace, between)
+
+
+def time_words(pace: Pace, turnover: float | None = None) -> str:
+    """Return what a pace and a turnover assume."""
+    which = f"{pace.discipline}: " if pace.discipline else ""
+    more = f" and {pace.overhead:.2g} more a match" if pace.overhead else ""
+    text = (
+        f"Times assume {which}{pace.per_game:.2g} minutes a game{more} on average; two matches of "
+        f"three come within {percent(pace.log_sd)} of that"
+    )
+    if turnover is None:
+        return f"{text}."
+    return f"{text}, and {turnover:.3g} minutes pass between two matches on a table."
 
 
 def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
@@ -138,14 +165,13 @@ def about_method(tonight: Round) -> Iterator[Remark]:
             "each chance and each length is averaged over it, with the errors of two players taken "
             "as independent and normal",
         )
-    if tonight.minutes_per_game is not None:
-        yield Remark(f"{tonight.minutes_per_game:g} minutes a game", "without pauses")
     for end in tonight.evening:
         if not end.exact:
             yield Remark(
                 f"When it ends {KINDS[end.races][:1].lower()}{KINDS[end.races][1:]}",
                 f"from {end.runs:,} simulated evenings; the standard error of the average is "
-                f"{end.mean_minutes_error:.2g} minutes",
+                f"{end.mean_minutes_error:.2g} minutes, that of the 90% point "
+                f"{end.minutes_p90_error:.2g}",
             )
 
 
@@ -154,7 +180,41 @@ def doubtful(tonight: Round) -> bool:
     return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
 
 
+def ratings_words(tonight: Round) -> str:
+    """Return what the ratings are, in a few words."""
+    if tonight.levels is not None:
+        return f"Ratings are skill levels of {tonight.levels.chart}"
+    return f"Ratings {scale_words(tonight.scale)}"
+
+
+def about_levels(tonight: Round) -> Iterator[str]:
+    """Yield how strong skill levels are taken to be, and what that means for the chances."""
+    if tonight.levels is None:
+        return
+    name, times = tonight.levels.chart, tonight.levels.odds_of_a_level
+    yield (
+        f"How strong a level is comes from the chart itself (`evenbreak chart audit {name}`): with "
+        f"the strengths that make its races as even as possible, one level more multiplies the "
+        f"odds of winning a game by {times:.2f} on average. All players are taken to be average "
+        "for their level."
+    )
+    yield (
+        "So the chances show which races favour a player by the chart's own measure, not whether "
+        "your players have the right levels."
+    )
+
+
 def game_model(tonight: Round) -> str:
     """Return how a game's chance follows from two ratings, in a sentence."""
+    if tonight.levels is not None:
+        placed = ", ".join(
+            f"{level} at {strength:.2f}"
+            for level, strength in zip(tonight.levels.levels, tonight.levels.strengths, strict=True)
+        )
+        return (
+            f"Levels lie at these strengths: {placed}; a player d stronger wins a game with "
+            f"probability 1/(1 + 2^(\N{MINUS SIGN}d/{tonight.scale.points_per_doubling:.3g})), "
+            "independently of every other game, whoever breaks."
+        )
     text = game_chance(tonight.scale)
     return f"{text[:1].upper()}{text[1:]}, independently of every other game, whoever breaks."

@@ -48,7 +48,7 @@ def how_even(paired: pd.DataFrame) -> Iterator[str]:
     if len(offered):
         low, high = percent(offered["p_win_a"].min()), percent(offered["p_win_a"].max())
         wins = f"{low} of the time" if low == high else f"between {low} and {high} of the time"
-        yield f"The stronger player wins {wins}."
+        yield (f"The stronger player wins {wins}, averaged over how far the ratings may be off.")
         which = "The longest of these races" if len(offered) > 1 else "The race"
         yield (
             f"{which} lasts {offered['mean_games'].max():.1f} games on average; 9 out of 10 such "
@@ -90,7 +90,7 @@ def how_rated(sheet: Sheet) -> str:
     ratings = sheet.ratings
     prior = float(ratings.scale.points(ratings.prior_sd))
     text = f"Every player starts at {ratings.anchor:g}, give or take {prior:.4g}"
-    if sheet.choice is not None:
+    if sheet.choice is not None and sheet.choice.learnt:
         text += (
             f": of {len(sheet.choice.tried)} values tried, this one predicted "
             f"{sheet.choice.predicted:,} later results best"

@@ -5,25 +5,13 @@ from typing import Any
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.validate_details import details
-from evenbreak.answers.validate_judgement import (
-    UNLIKELY,
-    any_winner_breaks,
-    at_the_edge,
-    clearly_off,
-    points_text,
-    share_of,
-    wrong_chances,
-)
+from evenbreak.answers.validate_remarks import percents, remarks
 from evenbreak.answers.validate_rows import findings_table
 from evenbreak.answers.validate_verdict import verdict
-from evenbreak.answers.wording import count_of, listed, percent
+from evenbreak.answers.wording import count_of, percent
 from evenbreak.files.results import ResultsFile
-from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validate import Validation
-
-WIDE = 0.4
-"""The width from which the range of a share says nothing about it."""
 
 
 def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed: int = 1) -> Answer:
@@ -47,13 +35,12 @@ def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed:
     There are too few matches to say whether these ratings can be trusted.
     """
     text = verdict(found, scale)
-    remarks = [_handicaps(found), _spread(found), _prior(found, scale)]
-    parts: list[Part] = [text, _games(found), *filter(None, remarks)]
+    parts: list[Part] = [text, _games(found), *remarks(found, scale)]
     return Answer(
         _heading(file, found),
         parts,
         details=list(details(found, scale)),
-        warnings=file.warnings,
+        warnings=[*file.warnings, *file.ties],
         data={"verdict": text, **_figures(found, scale), "seed": seed},
         csv=findings_table(found),
     )
@@ -85,7 +72,7 @@ def _games(found: Validation) -> Table:
         Column("predicted", "predicted", percent),
         Column("games", "games"),
         Column("seen", "won", percent),
-        Column("range", "95% range", _percents),
+        Column("range", "95% range", percents),
     ]
     rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
     title = (
@@ -93,75 +80,6 @@ def _games(found: Validation) -> Table:
         "the range."
     )
     return Table("", columns, rows, title)
-
-
-def _percents(ends: tuple[float, float]) -> str:
-    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f}%"
-
-
-def _handicaps(found: Validation) -> str:
-    """Return whether handicaps were fair, '' where there were none."""
-    if not found.spots:
-        return ""
-    every = found.spots[-1]
-    figures = (
-        f"Players who gave games won {every.won:,} of {count_of(every.matches, 'match', 'matches')}"
-        f" ({percent(every.share)}; {_percents((every.low, every.high))} allowing for luck)"
-    )
-    off = clearly_off(share_of(every), 0.5)
-    if off > 0:
-        return f"The handicaps give too little. {figures}; fair is 50%."
-    if off < 0:
-        return f"The handicaps give too much. {figures}; fair is 50%."
-    if every.high - every.low > WIDE:
-        return (
-            f"There are too few handicap matches to say whether the handicaps are fair. {figures}."
-        )
-    if not every.low <= 0.5 <= every.high:
-        more = "little" if every.low > 0.5 else "much"
-        return (
-            f"The handicaps may give too {more}. {figures}; fair is 50%, just outside that range."
-        )
-    way = clearly_off(share_of(every), every.expected)
-    if way:
-        under = "under" if way > 0 else "over"
-        return (
-            f"The handicaps look fair. {figures}. The ratings predicted {percent(every.expected)}: "
-            f"they {under}rate players who give games, so do not use them to predict handicap "
-            "matches."
-        )
-    return f"The handicaps look fair. {figures}."
-
-
-def _spread(found: Validation) -> str:
-    """Return why scores vary more than they should, '' where they do not."""
-    test = found.dispersion
-    if test is None or test.p_value >= UNLIKELY or test.seen <= test.by_chance:
-        return ""
-    more = 100.0 * (test.seen / test.by_chance - 1.0)
-    others = []
-    if any_winner_breaks(found):
-        others.append("a strong break under winner breaks")
-    if found.spots:
-        others.append("handicaps based on more than these ratings know")
-    also = listed(others, "or")
-    return (
-        f"Match scores vary {more:.0f}% more than expected, so favourites win fewer long races "
-        "than predicted. Perhaps players have good and bad days, or the ratings lag behind."
-        + (f" {also[0].upper()}{also[1:]} would have the same effect." if also else "")
-    )
-
-
-def _prior(found: Validation, scale: Scale) -> str:
-    """Return whether the default prior will do, where the verdict does not say which to use."""
-    if len(found.priors) == 1 or found.skill.low <= 0.0 or at_the_edge(found.prior_sd, found):
-        return ""
-    if wrong_chances(found.usual, found) or wrong_chances(found.scored, found):
-        return ""
-    return (
-        f"A --prior of {points_text(found.prior_sd, scale)} would suit this league best; the "
-        f"default of {points_text(PRIOR_SD, scale)} points will do too."
-    )
 
 
 def _figures(found: Validation, scale: Scale) -> dict[str, Any]:
@@ -175,13 +93,28 @@ def _figures(found: Validation, scale: Scale) -> dict[str, Any]:
         "prior_sd": found.prior_sd,
         "prior_points": found.prior_sd * scale.points_per_log_odds,
         "half_life": forecasts.half_life,
-        "priors": [{"prior_sd": sd, "log_loss": loss} for sd, loss in found.priors],
+        **_choice(found),
         **{name: getattr(found, name) for name in _AS_FOUND},
     }
 
 
+def _choice(found: Validation) -> dict[str, Any]:
+    """Return how the prior was chosen, None for each figure where it was given."""
+    choice = found.choice
+    if choice is None:
+        return {"priors": [], **dict.fromkeys(_OF_CHOICE)}
+    tried = zip(choice.tried, choice.log_loss, strict=True)
+    figures = choice.learnt, [choice.low, choice.high], choice.as_it_went
+    return {
+        "priors": [{"prior_sd": sd, "log_loss": loss} for sd, loss in tried],
+        **dict(zip(_OF_CHOICE, figures, strict=True)),
+    }
+
+
+_OF_CHOICE = ("prior_learnt", "prior_range", "log_loss_as_it_went")
 _LEFT_OUT = ("undated", "forfeits", "empty", "unscored")
 _AS_FOUND = (
     *("scored", "usual", "games", "matches", "matches_plug_in", "spots", "gain", "toss_ups"),
-    *("skill", "dispersion", "streaks", "side", "breaker", "first_breaks", "drawn"),
+    *("skill", "dispersion", "streaks", "side", "first_column", "breaker", "first_breaks"),
+    *("half_lives", "lengths", "drawn"),
 )

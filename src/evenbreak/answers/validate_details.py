@@ -5,11 +5,12 @@ from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.parts import Column, Part, Table
-from evenbreak.answers.validate_judgement import at_the_edge, points_text, scored_of
+from evenbreak.answers.validate_judgement import points_text
 from evenbreak.answers.wording import count_of, decimals
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.stretches import STRETCHES
 from evenbreak.ratings.validate import Validation
 
 _EXPLAINED = (
@@ -35,6 +36,8 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
     yield _scored(found, scale)
     yield _prior(found, scale)
     yield _integrated(found)
+    if found.half_lives:
+        yield _half_lives(found)
     tests = list(_tests(found))
     if tests:
         yield _TESTS_EXPLAINED
@@ -79,18 +82,30 @@ def _span(estimate: Estimate, digits: int, to: str) -> str:
 
 def _prior(found: Validation, scale: Scale) -> str:
     points = f"{points_text(found.prior_sd, scale)} points ({found.prior_sd:.2g} in log-odds)"
-    if len(found.priors) == 1:
+    choice = found.choice
+    if choice is None:
         return f"The prior was given: {points}."
-    best = scored_of(found, "game")
-    text = f"Single games are predicted best with a prior of {points}"
-    if at_the_edge(found.prior_sd, found):
-        return f"{text}. It is the last one tried, so none can be recommended."
-    cost = dict(found.priors)[PRIOR_SD] - best.log_loss.value
+    if not choice.learnt:
+        return f"There are too few results to choose a prior, so the default is used: {points}."
+    least = min(choice.log_loss)
+    cost = choice.log_loss[choice.tried.index(PRIOR_SD)] - least
     return (
-        f"{text}; the default of {points_text(PRIOR_SD, scale)} points costs {cost:.4f} more "
-        "log-loss a game. With the prior chosen anew for each date, log-loss would have been "
-        f"{best.as_it_went:.4f}."
+        f"The prior of {points} predicts later games best, as rate --prior best finds: by ratings "
+        f"at face value, in up to {STRETCHES} stretches of the season, its log-loss is "
+        f"{least:.4f} a game. The default of {points_text(PRIOR_SD, scale)} points costs "
+        f"{cost:.4f} more; with the prior chosen anew for each stretch, log-loss would have been "
+        f"{choice.as_it_went:.4f}."
     )
+
+
+def _half_lives(found: Validation) -> Table:
+    """Return what it gains to let old games count less."""
+    columns = [
+        Column("half_life", "half-life", lambda days: f"{days:g} days"),
+        Column("gain", "log-loss saved a game", lambda one: _span(one, 4, " to ")),
+    ]
+    title = "What it would gain to let old games count less; below 0, it predicts worse:"
+    return Table("", columns, found.half_lives, title)
 
 
 def _integrated(found: Validation) -> str:

@@ -2,7 +2,7 @@
 
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.handicap_fairness import HandicapFairness
-from evenbreak.ratings.results import FORMATS
+from evenbreak.ratings.results_frame import FORMATS
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.scored import Of, Scored
 from evenbreak.ratings.validate import Validation
@@ -48,9 +48,18 @@ def share_of(spot: HandicapFairness) -> Estimate:
     return Estimate(spot.share, spot.low, spot.high)
 
 
-def at_the_edge(prior_sd: float, found: Validation) -> bool:
-    """Return whether a prior is the first or the last of those that were tried."""
-    return prior_sd in (found.priors[0][0], found.priors[-1][0])
+def at_the_edge(found: Validation) -> bool:
+    """Return whether the prior that was chosen is the first or the last of those tried."""
+    tried = () if found.choice is None or not found.choice.learnt else found.choice.tried
+    return bool(tried) and found.prior_sd in (tried[0], tried[-1])
+
+
+def best_half_life(found: Validation) -> float | None:
+    """Return the half-life that predicts best, None where none clearly helps."""
+    if not found.half_lives:
+        return None
+    best = max(found.half_lives, key=lambda one: one.gain.value)
+    return best.half_life if clearly_off(best.gain, 0.0) > 0 else None
 
 
 def any_winner_breaks(found: Validation) -> bool:

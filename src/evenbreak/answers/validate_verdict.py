@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
     VAGUE,
-    at_the_edge,
     clearly_off,
     more_or_less,
     points_text,
@@ -40,7 +39,7 @@ def verdict(found: Validation, scale: Scale) -> str:
     if spread is not None and spread.p_value < UNLIKELY:
         times = spread.seen / spread.by_chance
         if times > TOO_SPREAD:
-            return _good_and_bad_days(found, times, scale)
+            return _good_and_bad_days(times)
     default = _default_is_wrong(found, scale)
     if faults:
         held = f"You can trust the ratings for single games, but {listed(faults)}."
@@ -57,7 +56,7 @@ def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
     games_each = 2.0 * float(found.forecasts.games.sum()) / len(players)
     turned = slope is not None and clearly_off(slope, 0.0) < 0
     plenty = games_each >= PLENTY and found.skill.low <= 0.0 and not turned
-    if plenty and len(found.priors) == 1:
+    if plenty and found.choice is None:
         return (
             f"With a prior of {points_text(found.prior_sd, scale)} points the ratings predict no "
             "better than a coin; leave --prior out to find the best."
@@ -88,45 +87,34 @@ def _too_sure(wrong: Mapping[str, int]) -> str:
 
 
 def _do_not(found: Validation, wrong: Mapping[str, int], scale: Scale) -> str:
-    if len(found.priors) == 1:
+    if found.choice is None:
         size = "smaller" if -1 in wrong.values() else "larger"
         return (
             f"Do not use a prior of {points_text(found.prior_sd, scale)} points: "
             f"{_too_sure(wrong)}. Use a {size} --prior, or leave the option out to find the best."
         )
-    fade = ""
-    if -1 in wrong.values() and found.forecasts.half_life is None:
-        fade = " Try --half-life 365, so that old games count less."
-    return (
-        f"Do not take the chances at face value: {_too_sure(wrong)}, even with the best "
-        f"prior.{fade}"
-    )
+    even = "even with the best prior"
+    if not found.choice.learnt:
+        even = "and there are too few results to choose a better prior"
+    return f"Do not take the chances at face value: {_too_sure(wrong)}, {even}."
 
 
-def _good_and_bad_days(found: Validation, times: float, scale: Scale) -> str:
-    best = scored_of(found, "match")
-    use = ""
-    if len(found.priors) > 1 and not found.spots and not at_the_edge(best.prior_sd, found):
-        use = f" To predict matches, use --prior {points_text(best.prior_sd, scale)}."
+def _good_and_bad_days(times: float) -> str:
     return (
         f"Do not rely on the chances of whole matches: scores vary {times:.1f} times as much as "
-        "expected, so favourites win fewer long races than predicted. Perhaps players have good "
-        f"and bad days, or the ratings lag behind.{use}"
+        "expected."
     )
 
 
 def _default_is_wrong(found: Validation, scale: Scale) -> str:
     """Return which prior to use where the default one is clearly wrong, '' where it is not."""
     wrong = wrong_chances(found.usual, found)
-    if not wrong:
+    if not wrong or found.prior_sd == PRIOR_SD:
         return ""
-    if at_the_edge(found.prior_sd, found):
-        use = f"a {'smaller' if -1 in wrong.values() else 'larger'} --prior"
-    else:
-        use = f"--prior {points_text(found.prior_sd, scale)}"
+    use, default = (points_text(sd, scale) for sd in (found.prior_sd, PRIOR_SD))
     return (
-        f"Use {use} with rate and report: with the default of {points_text(PRIOR_SD, scale)} "
-        f"points, {_too_sure(wrong)}."
+        f"Use --prior {use} with rate and report: with the default of {default} points, "
+        f"{_too_sure(wrong)}."
     )
 
 
@@ -144,8 +132,6 @@ def _faults(found: Validation) -> Iterator[str]:
         yield f"players who break first win {more} often than predicted"
     if found.breaker is not None and (way := clearly_off(found.breaker, 0.0)):
         yield f"the breaker has {'an advantage' if way > 0 else 'a disadvantage'}"
-    if found.side is not None and (way := clearly_off(found.side, 0.0)):
-        yield f"players in the first column win {more_or_less(way > 0)} often than predicted"
     if found.spots:
         share = share_of(found.spots[-1])
         if way := clearly_off(share, 0.5):

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 
 from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.exact import exact_absorption
 from evenbreak.chains.factorisation import Factorisation
 
@@ -61,6 +62,7 @@ def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> NDArr
     >>> absorption(chain, "play", exact=True)[1:].tolist()
     [Fraction(1, 3), Fraction(2, 3)]
     """
+    check_chain(chain)
     if exact:
         return exact_absorption(chain, start)
     structure = chain.structure
@@ -87,6 +89,7 @@ def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     >>> expected_visits(chain_of([("miss", "miss", 0.75), ("miss", "in", 0.25)]), "miss")
     array([ 4., inf])
     """
+    check_chain(chain)
     v = chain.density(start)
     states = chain.transient.states
     visits = np.zeros(len(chain))

@@ -275,6 +275,20 @@ class Chain:
         return ChainError(f"state {state!r} is not in the chain; its states begin {known}")
 
 
+def check_chain(chain: object) -> None:
+    """Refuse what is not a chain, at the door of every function that takes one.
+
+    >>> check_chain([("A", "B", 1.0)])
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.ChainError: this is list [('A', 'B', 1.0)], not a chain; make one with ...
+    """
+    if not isinstance(chain, Chain):
+        raise ChainError(
+            f"this is {type(chain).__name__} {chain!r:.60}, not a chain; make one with chain_of"
+        )
+
+
 def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:
     """Return the states as an index of pandas, in which tuples stay tuples."""
     import pandas as pd

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.explore import chain_from_arrays
 from evenbreak.chains.passage_times import target_of
 from evenbreak.chains.transient import TransientPart
@@ -54,6 +55,7 @@ def conditioned(chain: Chain, target: Any) -> Chain:
     >>> steps_to_absorption(race).mean, steps_to_absorption(comeback).mean
     (2.375, 2.6)
     """
+    check_chain(chain)
     ends = target_of(chain, target)
     arcs, n = chain.arcs, len(chain)
     before = ~ends[arcs.sources]

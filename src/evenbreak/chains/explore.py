@@ -45,6 +45,7 @@ if TYPE_CHECKING:
         | spmatrix
         | pd.DataFrame
         | Mapping[Any, Mapping[Any, float]]
+        | Sequence[Sequence[float]]
         | Iterable[tuple[Any, Any, float]]
     )
 
@@ -65,8 +66,8 @@ def chain_of(
 
         - a game (see `evenbreak.game`);
         - a `networkx.DiGraph` with the probabilities on its arcs;
-        - a square numpy array or scipy sparse matrix, whose states are 0, 1, 2, ..., or a
-          pandas DataFrame with the states as its index and its columns;
+        - a square numpy array, scipy sparse matrix or list of lists, whose states are 0, 1,
+          2, ..., or a pandas DataFrame with the states as its index and its columns;
         - a dict that has, for each state, a dict from the next states to their probabilities;
         - (source, target, probability) triples.
 

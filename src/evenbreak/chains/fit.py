@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
+from evenbreak.arrays import short_repr
 from evenbreak.chains.chain import Chain
 from evenbreak.errors import ChainError
 
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class FittedChain:
     """The most likely chain of observed sequences.

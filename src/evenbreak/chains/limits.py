@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, overload
 import numpy as np
 
 from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
-from evenbreak.chains.chain import labels
+from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.exact import exact_limit
 from evenbreak.chains.stationary import laws_of
 from evenbreak.checks import one_of
@@ -218,6 +218,7 @@ def stochastic_limit(
     >>> stochastic_limit(third, "rack", exact=True)["won"]
     Fraction(1, 3)
     """
+    check_chain(chain)
     if exact:
         if via is not None:
             raise InputError(f"via is {via!r}, but exact answers have one way; leave via out")

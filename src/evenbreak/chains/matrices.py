@@ -1,4 +1,4 @@
-"""Chains from square matrices: numpy arrays, scipy sparse arrays and pandas DataFrames.
+"""Chains from square matrices: numpy and scipy sparse arrays, DataFrames, lists of lists.
 
 Half of the literature puts the state that a step leaves in the row of a matrix and half in the
 column. A matrix whose rows and columns all sum to 1 reads either way, and the two chains differ.
@@ -7,6 +7,7 @@ So the reading must be given, unless one alone makes sense or the matrix is symm
 
 from __future__ import annotations
 
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
@@ -26,8 +27,9 @@ Rows: TypeAlias = Literal["from", "to"]
 
 
 def is_matrix(source: object) -> bool:
-    """Whether the source is a numpy array, a scipy sparse matrix or a pandas DataFrame."""
-    return isinstance(source, np.ndarray) or issparse(source) or _is_frame(source)
+    """Whether the source is a numpy array, a scipy sparse matrix, a DataFrame or square lists."""
+    known = isinstance(source, np.ndarray) or issparse(source) or _is_frame(source)
+    return known or _is_nested(source)
 
 
 def chain_of_matrix(source: Any, rows: Rows | None, start: Hashable | None) -> Chain:
@@ -76,6 +78,23 @@ def _only_reading(matrix: csc_array) -> Rows:
             "rows='from' if a row holds the chances out of its state, or rows='to' if into it"
         )
     return "from" if by_rows else "to"
+
+
+def _is_nested(source: object) -> bool:
+    """Whether the source is n lists of n numbers; 3 such may also be arcs between numbers."""
+    if not isinstance(source, list | tuple):
+        return False
+    n = len(source)
+    for row in source:
+        if not isinstance(row, list | tuple) or len(row) != n:
+            return False
+        if not all(isinstance(entry, Real) for entry in row):
+            return False
+    if n != 3:
+        return n > 0
+    matrix = csc_of(source)
+    # No three arcs between whole numbers sum to 1 like a matrix and also state by state.
+    return sums_to_1(matrix, axis=0) or sums_to_1(matrix, axis=1)
 
 
 def _is_frame(source: object) -> bool:

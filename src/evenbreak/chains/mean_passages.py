@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.chains.arcs import reachable
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.stationary import stationary_laws
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
@@ -51,6 +52,7 @@ def mean_first_passages(chain: Chain) -> NDArray[np.float64]:
            [ 7.,  0.,  8.],
            [inf, inf,  0.]])
     """
+    check_chain(chain)
     n = len(chain)
     if n > MOST_STATES:
         raise ChainError(
@@ -77,6 +79,7 @@ def kemeny_constant(chain: Chain) -> float:
     >>> kemeny_constant(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 0.25), (2, 2, 0.75)]))
     1.3333333333333333
     """
+    check_chain(chain)
     recurrent = np.flatnonzero(chain.structure.recurrent)
     if chain.structure.closed.sum() > 1:
         raise ChainError(

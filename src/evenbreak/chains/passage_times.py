@@ -24,6 +24,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.exact import ExactPassage, exact_passage
 from evenbreak.chains.powers import evened
 from evenbreak.chains.transient import TransientPart
@@ -204,6 +205,7 @@ def steps_to_absorption(
     >>> steps_to_absorption(two_ahead, 0, exact=True).mean_if_reached
     Fraction(4, 1)
     """
+    check_chain(chain)
     one_of(into, "into", ("absorbing", "closed"))
     structure = chain.structure
     ends = structure.recurrent
@@ -237,6 +239,7 @@ def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
     >>> walk_to_0.p_reached, walk_to_0.mean
     (1.0, 8.0)
     """
+    check_chain(chain)
     return _passage(chain, chain.density(start), target_of(chain, target))
 
 

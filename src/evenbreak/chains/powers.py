@@ -12,6 +12,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.arcs import sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 
@@ -75,6 +76,7 @@ def propagate(
            [0.  , 0.5 , 0.5 , 0.  ],
            [0.25, 0.5 , 0.  , 0.25]])
     """
+    check_chain(chain)
     steps = whole(steps, "steps")
     if steps > MOST_APPLIED:
         raise InputError(

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.limits import stochastic_limit
 from evenbreak.errors import ChainError
 
@@ -69,6 +70,7 @@ def long_run_reward(
     >>> round(long_run_reward(winner_breaks, 1, per_arc=stakes), 12)
     0.5
     """
+    check_chain(chain)
     reward = _expected_reward(chain, per_state, per_arc)
     return math.fsum(stochastic_limit(chain, start).probability * reward)
 
@@ -106,6 +108,7 @@ def total_reward(
     >>> total_reward(toss, "go", per_state={"go": -1}, per_arc={("go", "end"): 10})
     6.0
     """
+    check_chain(chain)
     reward = _expected_reward(chain, per_state, per_arc)
     v = chain.density(start)
     states = chain.transient.states

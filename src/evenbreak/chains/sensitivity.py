@@ -25,7 +25,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
+from evenbreak.arrays import short_repr
 from evenbreak.chains.arcs import sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.limits import largest, stochastic_limit
 from evenbreak.chains.stationary import stationary_laws
 from evenbreak.chains.transient import TransientPart
@@ -51,6 +53,7 @@ class _Slopes:
         return np.asarray(self.forward[j] * backward)
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Sensitivity:
     """The derivatives of a weighted sum of a stochastic limit.
@@ -169,6 +172,7 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     >>> round(share.value, 12), round(share[1, 1], 12)
     (0.666666666667, 0.888888888889)
     """
+    check_chain(chain)
     c = chain.vector(weights, "weights")
     structure, part = chain.structure, chain.transient
     recurrent = structure.recurrent

@@ -22,6 +22,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from evenbreak.arrays import short_repr
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.eigenpairs import DENSE, TOLERANCE, UnitPairs, leading_pairs, no_basis
 from evenbreak.chains.mixing import mixing_time, spectral_gap
 from evenbreak.chains.powers import evened
@@ -42,6 +44,7 @@ LEADING = 6
 """Beyond `DENSE` states, this many eigenvalues are found, or as many as are 1."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Spectrum:
     """Eigenvalues of a chain with their right and left vectors.
@@ -177,6 +180,7 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     >>> s.values.round(12), s.limit().round(12), round(s.gap, 12)
     (array([1.  , 0.25]), array([0.66666667, 0.33333333]), 0.75)
     """
+    check_chain(chain)
     n = len(chain)
     units = int(chain.structure.closed.sum())
     forms = reversible_classes(chain)

@@ -20,6 +20,7 @@ from scipy.sparse import csc_array
 
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.birth_death import birth_death_law
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.decimal_elimination import decimal_law
 from evenbreak.chains.dense_law import dense_law, is_small
 from evenbreak.chains.line_elimination import line_order
@@ -53,6 +54,7 @@ def stationary_laws(chain: Chain) -> NDArray[np.float64]:
     >>> stationary_laws(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 1.0), (0, 1, 1.0)]))
     array([0.66666667, 0.33333333, 0.        ])
     """
+    check_chain(chain)
     return laws_of(chain, chain.structure.closed)[0]
 
 

@@ -13,4 +13,5 @@ from .numbers import number_probabilities as number_probabilities
 from .numbers import number_probability as number_probability
 from .numbers import one_of as one_of
 from .numbers import positive as positive
+from .numbers import seed_of as seed_of
 from .numbers import whole as whole

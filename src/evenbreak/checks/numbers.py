@@ -144,6 +144,20 @@ def whole(
     return found
 
 
+def seed_of(value: Any, name: str = "seed") -> int:
+    """Return a seed: `value` if it is a whole number from 0, or one drawn from a generator.
+
+    >>> seed_of(7)
+    7
+    >>> import numpy as np
+    >>> seed_of(np.random.default_rng(1)) == seed_of(np.random.default_rng(1))
+    True
+    """
+    if hasattr(value, "integers"):
+        return int(value.integers(2**63))
+    return whole(value, name, wanted="a whole number, 0 or more, or a numpy.random.Generator")
+
+
 def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
     """Return the one of `choices` that `value` equals: 1 for 1.0 or True.
 

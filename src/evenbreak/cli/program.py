@@ -22,6 +22,7 @@ SECTIONS = {
     "Run a league": {
         "report": Entry("league.report", "The fair-race sheet of a league, from its results."),
         "rate": Entry("league.rate", "Ratings from results, and how certain each one is."),
+        "why": Entry("league.why", "Why two players have their ratings and their race."),
         "matchups": Entry("league.matchups", "Tonight's races for a list of rated players."),
         "validate": Entry("league.validate", "How well the ratings predict your own results."),
         "simulate": Entry("league.simulate", "A season played out many times: who benefits?"),
@@ -57,6 +58,14 @@ COMMANDS = {
 
 class Program(LazyGroup):
     """The group of all commands; it exits with the code of the command that ran."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the words; `help` and `version` may come without dashes, as elsewhere."""
+        if args[:1] == ["help"]:
+            args = [*args[1:], "--help"]
+        elif args == ["version"]:
+            args = ["--version"]
+        return super().parse_args(ctx, args)
 
     def main(
         self,

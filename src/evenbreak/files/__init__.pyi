@@ -7,8 +7,13 @@ from .chart import read_chart as read_chart
 from .csv_writer import to_csv as to_csv
 from .drill_log import DrillLogFile as DrillLogFile
 from .drill_log import read_drill_log as read_drill_log
+from .entrants import Entered as Entered
+from .entrants import entered as entered
+from .entrants import read_entrants as read_entrants
+from .entrants import roster_of_entrants as roster_of_entrants
 from .folder import write_files as write_files
 from .league import LeagueFile as LeagueFile
+from .league import league_of_entrants as league_of_entrants
 from .league import read_league as read_league
 from .problems import Problems as Problems
 from .results import ResultsFile as ResultsFile

@@ -1,4 +1,4 @@
-"""What the cells of a table mean: numbers, dates, and anything else that text can be read as.
+"""What the cells of a table mean: numbers, words, and anything else that text can be read as.
 
 Each reader adds the cells that it cannot read to the table's `problems` and goes on, so that
 everything wrong with a file is found at once.
@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from datetime import date
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,9 +21,6 @@ from evenbreak.files.text_table import TextTable
 # A comma or point before three zeros may group thousands.
 _WHOLE = re.compile(r"[+-]?[0-9]+(\.0{0,2}|\.0{4,}|,00?)?", re.ASCII)
 _GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}[.,][0-9]{3}", re.ASCII)
-_TIME = r"([T ]\d{1,2}:\d{2}\S*)?"
-_YEAR_FIRST = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})" + _TIME, re.ASCII)
-_DAY_FIRST = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})" + _TIME, re.ASCII)
 _IN_NUMBERS = "0123456789+-.eE"
 _DECIMAL_COMMA = re.compile(r"[^.,]*,[^.,]*")
 LARGEST_WHOLE = 1_000_000
@@ -177,24 +173,6 @@ def numbers(
     )
 
 
-def dates(table: TextTable, name: str) -> Values:
-    """Read a column of dates; a time after a date is ignored, empty cells are NaT.
-
-    With dots the day comes first, else the year. 9/3/2024 is refused: to some it is the 9th
-    of March and to others the 3rd of September.
-    """
-    return read_cells(
-        table,
-        name,
-        read_date,
-        wanted="a date",
-        remedy="write 2024-09-03 or 3.9.2024 (3/9/2024 is ambiguous), or leave it empty",
-        dtype="datetime64[D]",
-        empty=np.datetime64("NaT"),
-        may_be_empty=True,
-    )
-
-
 def words(
     table: TextTable, name: str, meanings: Mapping[str, Any], *, choices: str, empty: Any
 ) -> Values:
@@ -237,21 +215,6 @@ def letters(text: str) -> str:
     ('wo', 'playera')
     """
     return "".join(letter for letter in text.casefold() if letter.isalnum())
-
-
-def read_date(text: str) -> np.datetime64 | None:
-    """Return the date that a text states, read as in `dates`; None where it states none.
-
-    >>> read_date("3.9.2024"), read_date("3/9/2024")
-    (np.datetime64('2024-09-03'), None)
-    """
-    match, order = _YEAR_FIRST.fullmatch(text), (1, 2, 3)
-    if match is None:
-        match, order = _DAY_FIRST.fullmatch(text), (3, 2, 1)
-    try:
-        return np.datetime64(date(*map(int, match.group(*order)))) if match else None
-    except ValueError:
-        return None
 
 
 def _read_two_ways(texts: Sequence[str], at_most: int, *, points: bool) -> NDArray[np.bool_]:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
-from evenbreak.errors import DataError
-from evenbreak.files.cells import whole_numbers
+from evenbreak.errors import DataError, InputError
+from evenbreak.files.cells import LARGEST_WHOLE, whole_numbers
 from evenbreak.files.problems import Problems, printable, quoted
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
+from evenbreak.handicaps.charts.chart_of import catalogue_name
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
+from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS, PointsChart, points_chart
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow, row_faults
 
 DIFFERENCES = {
@@ -32,8 +33,14 @@ LEVELS = {
 }
 """The columns of a chart by skill level, with their other names; the last may be missing."""
 
+POINTS = {"level": LEVELS["level"], "points": ("points to win", "needs points")}
+"""The columns of a chart of points, with their other names."""
+
 MAY_BE_EMPTY = ("difference_to", "opponent_needs")
 """The columns whose cells may be empty."""
+
+MOST_GAMES = 1000
+"""Games in the longest race."""
 
 MOST_MISSING = 20
 """The most missing pairs of levels listed one by one."""
@@ -46,23 +53,23 @@ class ChartFile:
     Parameters
     ----------
     found
-        the rows of a chart by rating difference as they are, or a chart by skill level.
+        the rows of a chart by rating difference as they are, or another kind of chart.
     problems
         what keeps those rows from being a chart, such as gaps and overlaps.
     warnings
         what to check although the file can be used, a line each.
     """
 
-    found: ChartDraft | LevelChart
+    found: ChartDraft | LevelChart | PointsChart
     problems: tuple[str, ...]
     warnings: tuple[str, ...]
 
     @property
-    def chart(self) -> Chart | LevelChart:
+    def chart(self) -> Chart | LevelChart | PointsChart:
         """The chart; a DataError with all problems if it is not valid."""
         if self.problems:
             raise DataError(self.problems)
-        return self.found if isinstance(self.found, LevelChart) else Chart(*self.found)
+        return Chart(*self.found) if isinstance(self.found, ChartDraft) else self.found
 
 
 def read_chart_file(path: str | Path) -> ChartFile:
@@ -74,8 +81,11 @@ def read_chart_file(path: str | Path) -> ChartFile:
         if there is nothing to audit: missing columns, cells that are not whole numbers, rows
         that end before they begin, or an invalid chart by skill level.
     """
-    table = read_table(path, {}, {**DIFFERENCES, **LEVELS})
+    table = read_table(path, {}, {**DIFFERENCES, **LEVELS, **POINTS})
     name = "chart" if str(path) == "-" else printable(Path(path).stem)
+    if "points" in table:
+        _check_columns(table, POINTS)
+        return ChartFile(_points(table, name), (), table.warnings)
     by_level = sum(column in table for column in LEVELS) > sum(
         column in table for column in DIFFERENCES
     )
@@ -152,6 +162,18 @@ def _levels(table: TextTable, name: str) -> LevelChart:
     return LevelChart(name, levels, [[found[i, j][0] for j in levels] for i in levels])
 
 
+def _points(table: TextTable, name: str) -> PointsChart:
+    """Return a chart of points; a DataError with all problems where there is none."""
+    levels, points = _whole(table, "level"), _whole(table, "points")
+    table.problems.raise_any()
+    try:
+        return PointsChart(name, levels, points)
+    except InputError as error:
+        table.problems.add(None, f"is no chart of points: {error}")
+        table.problems.raise_any()
+        raise
+
+
 def _note(
     table: TextTable,
     found: dict[tuple[int, int], tuple[int, int]],
@@ -171,19 +193,20 @@ def _note(
 
 def _whole(table: TextTable, column: str) -> list[int]:
     """Return a column of whole numbers, 0 where a cell may be empty and is."""
-    games = column.endswith("needs")
+    games = column.endswith("needs") or column == "points"
     wanted = "points, such as 7" if column in DIFFERENCES else "a skill level, such as 4"
     found = whole_numbers(
         table,
         column,
         at_least=1 if games else 0,
+        at_most=MOST_GAMES if games else LARGEST_WHOLE,
         remedy=f"write {'a number of games, such as 5' if games else wanted}",
         may_be_empty=column in MAY_BE_EMPTY,
     )
     return list(map(int, found.values))
 
 
-def read_chart(path: str | Path) -> Chart | LevelChart:
+def read_chart(path: str | Path) -> Chart | LevelChart | PointsChart:
     r"""Read a chart by rating difference or by skill level from a CSV file; '-' is stdin.
 
     The columns decide which of the two it is; the chart is named after the file.
@@ -204,7 +227,7 @@ def read_chart(path: str | Path) -> Chart | LevelChart:
     return read_chart_file(path).chart
 
 
-def find_chart(name_or_path: str | Path) -> Chart | LevelChart:
+def find_chart(name_or_path: str | Path) -> Chart | LevelChart | PointsChart:
     """Return the chart of this name that comes with the package, or else the one in this file.
 
     Raises
@@ -220,17 +243,19 @@ def find_chart(name_or_path: str | Path) -> Chart | LevelChart:
 
 def find_chart_file(name_or_path: str | Path) -> ChartFile:
     """Return the chart of this name that comes with the package, or else the content of a file."""
-    key = re.sub(r"[-\s]+", "_", str(name_or_path).strip().lower())
+    key = catalogue_name(str(name_or_path))
     if key in CHARTS:
         return ChartFile(ChartDraft(key, tuple(chart(key).rows)), (), ())
     if key in LEVEL_CHARTS:
         return ChartFile(level_chart(key), (), ())
+    if key in POINTS_CHARTS:
+        return ChartFile(points_chart(key), (), ())
     try:
         return read_chart_file(name_or_path)
     except DataError as error:
         if str(name_or_path) == "-" or _exists(name_or_path):
             raise
-        known = ", ".join((*CHARTS, *LEVEL_CHARTS))
+        known = ", ".join((*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS))
         problem = error.problems[0].partition(";")[0]
         raise DataError(
             [f"{problem}, and no chart has this name; name a file, or {known}"]
@@ -244,7 +269,9 @@ def _exists(path: str | Path) -> bool:
         return False
 
 
-def chart_table(chart: Chart | LevelChart) -> tuple[list[str], list[tuple[int | None, ...]]]:
+def chart_table(
+    chart: Chart | LevelChart | PointsChart,
+) -> tuple[list[str], list[tuple[int | None, ...]]]:
     """Return a chart as the columns and rows of a file that `read_chart` reads.
 
     >>> chart_table(find_chart("npl_8"))[1][-1]
@@ -252,6 +279,8 @@ def chart_table(chart: Chart | LevelChart) -> tuple[list[str], list[tuple[int | 
     """
     if isinstance(chart, Chart):
         return list(DIFFERENCES), [tuple(row) for row in chart.rows]
+    if isinstance(chart, PointsChart):
+        return list(POINTS), list(zip(chart.levels, chart.points, strict=True))
     levels = chart.levels
     return list(LEVELS), [
         (own, other, *chart.race(own, other)) for own in levels for other in levels

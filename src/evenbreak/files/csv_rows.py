@@ -17,15 +17,11 @@ _DECLARED = re.compile(rb'(?:\xef\xbb\xbf)?"?sep=([^\w\s"\x80-\xff]|\t)"?[ \t]*(
 """A first line with which Excel declares the separator, such as sep=;"""
 
 
-def possible_headers(content: bytes, encoding: str) -> dict[str, list[str]]:
-    """Return the header that each separator makes; only one where a first line declares it."""
+def first_rows(content: bytes, encoding: str) -> dict[str, Rows]:
+    """Return the first rows by each separator; by one only where a first line declares it."""
     declared = _DECLARED.match(content)
     separators = (declared[1].decode(),) if declared else SEPARATORS
-    headers = {}
-    for separator in separators:
-        _, rows = next(csv_rows(content, encoding, separator, []))
-        headers[separator] = rows[0] if rows else []
-    return headers
+    return {separator: next(csv_rows(content, encoding, separator, [])) for separator in separators}
 
 
 def csv_rows(

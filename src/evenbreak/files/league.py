@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,12 +10,14 @@ import numpy as np
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.cells import numbers, whole_numbers
+from evenbreak.files.entrants import entered
 from evenbreak.files.roster import (
     FARTHEST,
     LEAGUE,
     OPTIONAL,
     REQUIRED,
     WRITTEN,
+    RosterFile,
     roster_of,
 )
 from evenbreak.files.schedule import LAST_WEEK
@@ -139,6 +141,62 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
         drawn=int((sd > 0).sum()),
         exact=int(np.isnan(sd).sum()),
         scale=file.scale,
+    )
+
+
+def league_of_entrants(
+    file: LeagueFile, entrants: RosterFile, *, starter: float, starter_sd: float
+) -> LeagueFile:
+    """Return the league of the entrants, with new players where they are not on its list.
+
+    Parameters
+    ----------
+    file
+        the league.
+    entrants
+        as `read_entrants` reads them.
+    starter, starter_sd
+        the rating of a new player for whom the entrants have none, and how far off it may be
+        (standard deviation); the skill is drawn from around it.
+
+    Raises
+    ------
+    DataError
+        if fewer than two players have entered.
+    """
+    if len(entrants.roster) < 2:
+        raise DataError([f"{entrants.source}: has 1 player; a league needs two or more"])
+    found = entered(entrants, file.roster.players, file.source)
+    at = np.array(found.places, dtype=np.int64)
+    new = at < 0
+    own = np.where(np.isnan(entrants.roster.rating), starter, entrants.roster.rating)
+    error = np.where(np.isnan(entrants.roster.rating), starter_sd, entrants.roster.standard_error)
+    known = file.players
+    players = LeaguePlayers.of(
+        np.where(new, np.floor(own + 0.5).astype(np.int64), known.rating[at]),
+        names=found.names,
+        skill=np.where(new, own, known.skill[at]),
+        skill_sd=np.where(new, np.nan_to_num(error), known.skill_sd[at]),
+        day_sd=np.where(new, np.median(known.day_sd), known.day_sd[at]),
+        drift=np.where(new, 0.0, known.drift[at]),
+        joins=np.where(new, 1, known.joins[at]),
+        leaves=np.where(new, 0, known.leaves[at]),
+        absence=np.where(new, 0.0, known.absence[at]),
+        played=np.where(new, 0, known.played[at]),
+    )
+    roster = Roster(
+        found.names,
+        np.where(new, own, file.roster.rating[at]),
+        np.where(new, error, file.roster.standard_error[at]),
+    )
+    exact = np.isnan(roster.standard_error) & (players.skill == roster.rating)
+    return replace(
+        file,
+        players=players,
+        roster=roster,
+        warnings=(*file.warnings, *found.warnings),
+        drawn=int((players.skill_sd > 0.0).sum()),
+        exact=int(exact.sum()),
     )
 
 

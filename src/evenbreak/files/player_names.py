@@ -17,7 +17,10 @@ from evenbreak.files.text_table import TextTable
 
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 
-NAME = "a name that can be printed"
+LONGEST_NAME = 200
+"""Letters of a name; where a quotation mark is missing, half a file may be in one cell."""
+
+NAME = f"a name of up to {LONGEST_NAME} letters that can be printed"
 WRITE_IT = "write the player's name"
 
 MOST_LISTED = 20
@@ -219,9 +222,11 @@ def _side(places: NDArray[np.int64], a: Values, b: Values) -> NDArray[np.int8]:
 
 
 def is_name(name: str) -> bool:
-    r"""Return whether a clean name can be printed: it is not empty and has no control characters.
+    r"""Return whether a clean name can be printed: not empty, nor too long, nor with control signs.
 
     >>> is_name("Zoë"), is_name("Bo\x07"), is_name("")
     (True, False, False)
     """
-    return name != "" and not any(unicodedata.category(letter) == "Cc" for letter in name)
+    return 0 < len(name) <= LONGEST_NAME and not any(
+        unicodedata.category(letter) == "Cc" for letter in name
+    )

@@ -6,17 +6,24 @@ Each step is taken once: bytes, encoding, rows, a table of texts, cells, columns
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evenbreak.arrays import short_repr
+from evenbreak.errors import InputError
 from evenbreak.files.aliases import AliasesFile, read_aliases
+from evenbreak.files.columns_hint import columns_hint
+from evenbreak.files.date_cells import DateOrder
 from evenbreak.files.doubtful_dates import date_warnings
+from evenbreak.files.exports import export_of
 from evenbreak.files.player_names import PlayerNames, hidden_letter_warnings
 from evenbreak.files.problems import quoted
 from evenbreak.files.results_columns import INSTEAD, NAMES, OPTIONAL, REQUIRED, results_columns
+from evenbreak.files.results_layout import one_layout
 from evenbreak.files.results_rows import results_rows
 from evenbreak.files.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.text_table import TextTable, read_table
@@ -29,6 +36,7 @@ MOST_RENAMED = 20
 """How many names are listed that aliases changed; the rest are counted."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class ResultsFile:
     """The contents of a results file.
@@ -47,6 +55,8 @@ class ResultsFile:
         fingerprint of the bytes that were read.
     lines
         the line in which each match begins; empty where the matches did not come from a file.
+    ties
+        a warning if matches have neither a winner nor a race; a chart may still say who won.
     """
 
     results: Results
@@ -57,12 +67,19 @@ class ResultsFile:
     lines: NDArray[np.int64] = field(
         default_factory=lambda: np.zeros(0, dtype=np.int64), repr=False
     )
+    ties: tuple[str, ...] = ()
 
 
-def read_results(path: str | Path, *, aliases: str | Path | None = None) -> ResultsFile:
-    r"""Read match results from a CSV file; '-' is standard input.
+def read_results(
+    path: str | Path,
+    *,
+    aliases: str | Path | None = None,
+    columns: Mapping[str, str] | None = None,
+    dates: DateOrder | None = None,
+) -> ResultsFile:
+    r"""Read match results from a CSV file or workbook; '-' is standard input.
 
-    Encoding, separator and header are read as in `evenbreak.files.text_table`; the columns
+    Format, separator and header are read as in `evenbreak.files.text_table`; the columns
     are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double blanks inside,
     and are put into Unicode's form NFC; those that differ in case or blanks alone are one
     player's. `winner` and `first_break` are a, b or the name of one of the two players. A
@@ -75,6 +92,10 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
         the file.
     aliases
         a file that says which names mean the same player (see `evenbreak.files.aliases`).
+    columns
+        for columns such as player_a the titles that they have in the file, if not known ones.
+    dates
+        'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
 
     Raises
     ------
@@ -91,9 +112,20 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
     (('Ann', 'Bo'), array([7]))
     """
     by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
-    table = read_table(path, REQUIRED, OPTIONAL, INSTEAD, rows="matches")
+    table = one_layout(
+        read_table(
+            path,
+            REQUIRED,
+            OPTIONAL,
+            INSTEAD,
+            rows="matches",
+            called=_checked(columns or {}),
+            hint=columns_hint,
+            exported=export_of,
+        )
+    )
     names = PlayerNames(table, NAMES, by_alias.means)
-    results = results_rows(table, names, results_columns(table, names))
+    results = results_rows(table, names, results_columns(table, names, dates))
     table.problems.raise_any()
     groups = tuple(similar_names(results.players, _met(results)))
     warnings = [
@@ -107,7 +139,19 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
         *similar_name_warnings(groups, table.source, "if so, use the same name throughout"),
     ]
     sha256 = hashlib.sha256(table.content).hexdigest()
-    return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines)
+    ties = _tied(results, table)
+    return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines, ties)
+
+
+def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
+    """Return which titles mean which columns, or refuse columns that there are none of."""
+    for name in columns:
+        if name not in {**REQUIRED, **OPTIONAL}:
+            known = ", ".join((*REQUIRED, *OPTIONAL))
+            raise InputError(
+                f"columns has {name!r}, which is not a column of results; give {known}"
+            )
+    return columns
 
 
 def _merged(names: dict[str, str], source: str) -> list[str]:
@@ -136,7 +180,8 @@ def _repeated_rows(table: TextTable) -> list[str]:
     """Return a warning if whole rows appear again: they may have been pasted twice."""
     if "date" not in table:
         return []  # the same two players often play to the same score on another day
-    again = np.flatnonzero(table.repeated())
+    # The sets of a match in another program's file stand in one line.
+    again = np.flatnonzero(table.repeated() & (np.diff(table.lines, prepend=-1) > 0))
     if not len(again):
         return []
     first, count = int(table.lines[again[0]]), len(again)
@@ -145,6 +190,23 @@ def _repeated_rows(table: TextTable) -> list[str]:
         f"{table.source}:{first}: {rows} the same as an earlier one, date included; "
         "all are counted, so delete what was entered twice"
     ]
+
+
+def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
+    """Return a warning if matches have no winner."""
+    played = (results.score_a > 0) & (results.score_a == results.score_b) & ~results.given_away
+    race_a, race_b = results.races
+    tied = np.flatnonzero(played & (race_a == 0) & (race_b == 0))
+    if not len(tied):
+        return ()
+    first, many = int(table.lines[tied[0]]), len(tied)
+    row = tied[0]
+    score = f"{results.score_a[row]}-{results.score_b[row]}"
+    matches = "this match is" if many == 1 else f"this and {many - 1:,} more are"
+    return (
+        f"{table.source}:{first}: the score is tied ({score}), and no race is given; {matches} "
+        "counted game by game, without a winner",
+    )
 
 
 def _met(results: Results) -> list[tuple[str, str]]:

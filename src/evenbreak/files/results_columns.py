@@ -5,10 +5,12 @@ from __future__ import annotations
 import unicodedata
 from functools import partial
 
-from evenbreak.files.cells import Values, dates, texts, whole_numbers, words
+from evenbreak.files.cells import Values, texts, whole_numbers, words
+from evenbreak.files.date_cells import DateOrder, dates
 from evenbreak.files.player_names import PlayerNames
+from evenbreak.files.results_layout import BY_WINNER
 from evenbreak.files.text_table import TextTable
-from evenbreak.ratings.results import FORMATS
+from evenbreak.ratings.results_frame import FORMATS
 
 NAMES = ("player_a", "player_b")
 
@@ -24,17 +26,30 @@ OPTIONAL = {
     "date": ("day", "match date", "played", "played on"),
     "race_a": ("race 1", "race to a", "needs a", "home race"),
     "race_b": ("race 2", "race to b", "needs b", "away race"),
-    "winner": ("won by", "match winner"),
+    "winner": ("won by", "match winner", "winning player", "winner name"),
     "first_break": ("first breaker", "breaks first", "lag won by"),
     "break_format": ("who breaks", "breaks next"),
     "racks": ("rack winners", "games in order"),
     "event": ("tournament", "competition", "league", "division"),
     "forfeit": ("walkover", "forfeited", "no show", "w/o"),
+    **BY_WINNER,
 }
 """The columns that a results file may have, with their other names."""
 
-INSTEAD = dict.fromkeys(("score_a", "score_b"), (("race_a", "race_b", "winner"), ("racks",)))
-"""What can take the place of a score: who won which race, or who won each rack."""
+_NO_SCORE = (
+    ("race_a", "race_b", "winner"),
+    ("race", "winner"),
+    ("racks",),
+    ("score",),
+    ("winner_score", "loser_score", "winner", "loser"),
+    ("winner_race", "loser_race", "winner", "loser"),
+)
+INSTEAD = {
+    **dict.fromkeys(("player_a", "player_b"), (("winner", "loser"),)),
+    **dict.fromkeys(("score_a", "score_b"), _NO_SCORE),
+}
+"""What can take the place of a column: winner and loser, a score in one cell, who won which
+race, or who won each rack."""
 
 _FORFEIT = {
     **dict.fromkeys(("yes", "y", "true", "t", "1", "x", "forfeit", "walkover", "wo"), True),
@@ -46,17 +61,20 @@ _FORMATS = {
 }
 
 
-def results_columns(table: TextTable, names: PlayerNames) -> dict[str, Values]:
+def results_columns(
+    table: TextTable, names: PlayerNames, order: DateOrder | None = None
+) -> dict[str, Values]:
     """Return what the cells of a results file mean, column by column.
 
     Cells without a meaning are added to the table's problems. A column that the file lacks
-    is empty throughout.
+    is empty throughout. `order` is that of day and month in dates such as 9/3/2024.
     """
-    a, b = (names.read(table, name) for name in NAMES)
+    sides = ("player_a", "loser") if "loser" in table else NAMES
+    a, b = (names.read(table, name) for name in sides)
     columns = {
         "player_a": a,
         "player_b": b,
-        "date": dates(table, "date"),
+        "date": dates(table, "date", order),
         "forfeit": words(table, "forfeit", _FORFEIT, choices="yes or no", empty=False),
     }
     for name in ("score_a", "score_b"):

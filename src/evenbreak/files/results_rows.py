@@ -81,6 +81,8 @@ def _with_scores(
     unknown = both & ~by_rack & ~unscored & ~unreadable
     if table.found.isdisjoint(SCORES):
         wrong, message = {"score_a": unknown}, _NOTHING_KNOWN
+    elif "score" in table:
+        wrong, message = {"score_a": unknown}, _EMPTY_SCORE.replace("{name}", "score")
     else:
         wrong, message = {name: unknown | (empty[name] & ~both) for name in SCORES}, _EMPTY_SCORE
     for name, rows in wrong.items():

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evenbreak.arrays import short_repr
 from evenbreak.errors import InputError
 from evenbreak.files.cells import numbers, read_cells, whole_numbers
 from evenbreak.files.player_names import (
+    LONGEST_NAME,
     NAME,
     WRITE_IT,
     clean_name,
@@ -40,13 +42,15 @@ OPTIONAL = {
     "games": ("games played", "racks", "robustness"),
     "component": ("group",),
     "matches": ("matches played",),
+    "races_won": (),
+    "races_lost": (),
     "scale": ("rating scale", "points that double the odds"),
 }
 """The columns that a roster may have, with their other names."""
 
 WRITTEN = dict.fromkeys(
     (
-        *("won", "lost", "races_won", "races_lost"),
+        *("won", "lost"),
         *("rating_before", "change", "matches_won", "matches_lost", "why"),
     ),
     (),
@@ -70,6 +74,7 @@ FARTHEST = 10_000
 """The largest rating or skill that can be simulated, in points."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class RosterFile:
     """What a list of rated players says.
@@ -157,6 +162,9 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
     error, quasi = (_error(table, name) for name in ("standard_error", "quasi_error"))
     error = np.where(np.isnan(quasi), error, quasi)
     games, matches = _counts(table, "games"), _counts(table, "matches")
+    # A rating can rest on matches of which only the winner is known.
+    races = np.maximum(_counts(table, "races_won"), 0) + np.maximum(_counts(table, "races_lost"), 0)
+    games = np.where(games == NOT_STATED, games, games + races)
     component = whole_numbers(table, "component", at_least=1, may_be_empty=True).values
     unrated = np.array([not text for text in table.cells("rating")], dtype=bool)
     if "rating" in table and not season:
@@ -185,7 +193,13 @@ def _names(table: TextTable) -> list[str]:
             if "player" in table:
                 table.problems.add(line, "player is empty; write a name")
             continue
-        if not is_name(name):
+        if len(name) > LONGEST_NAME:
+            table.problems.add(
+                line,
+                f"player {quoted(name)} has {len(name):,} letters; write a name of up to "
+                f"{LONGEST_NAME}, and look for a missing quotation mark",
+            )
+        elif not is_name(name):
             table.problems.add(line, f"player {quoted(name)} is not {NAME}; {WRITE_IT}")
         earlier, spelling = first.setdefault(same_name(name), (line, name))
         if earlier != line:

@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.cells import dates, numbers
+from evenbreak.files import date_cells
+from evenbreak.files.cells import numbers
 from evenbreak.files.drill_rows import DRILL, rows_of_drill, source_of
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.stats.confidence import LARGEST
@@ -29,7 +30,9 @@ class ScoresFile(NamedTuple):
     warnings: tuple[str, ...]
 
 
-def read_scores(path: str | Path, *, drill: str | None = None) -> ScoresFile:
+def read_scores(
+    path: str | Path, *, drill: str | None = None, dates: date_cells.DateOrder | None = None
+) -> ScoresFile:
     r"""Read practice scores from a CSV file, one score per row; '-' is standard input.
 
     Parameters
@@ -38,6 +41,8 @@ def read_scores(path: str | Path, *, drill: str | None = None) -> ScoresFile:
         the file.
     drill
         whose scores are read, if the file has several drills.
+    dates
+        'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
 
     Raises
     ------
@@ -57,7 +62,7 @@ def read_scores(path: str | Path, *, drill: str | None = None) -> ScoresFile:
     most = int(LARGEST)
     remedy = "write a score such as 48"
     scores = numbers(table, "score", at_least=-most, at_most=most, remedy=remedy).values
-    days = dates(table, "date").values
+    days = date_cells.dates(table, "date", dates).values
     rows = rows_of_drill(table, drill)
     table.problems.raise_any()
     undated = rows[np.isnat(days[rows])]

@@ -1,17 +1,16 @@
-"""A CSV file as columns of text, each row with the line it begins in.
+"""A table in a file as columns of text, each row with the line it begins in.
 
-Every table comes in through here: encoding, separator, names of columns and shape of the rows
-are settled. What the cells mean is for `evenbreak.files.cells` and the reader of each kind of
-file.
+Every table comes in through here: format, names of columns and shape of the rows are settled.
+What the cells mean is for `evenbreak.files.cells` and the reader of each kind of file.
 """
 
 from __future__ import annotations
 
 from array import array
 from collections import defaultdict
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain, compress, count
+from itertools import compress, count
 from operator import itemgetter
 from pathlib import Path
 from typing import NamedTuple
@@ -19,10 +18,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.csv_rows import Rows, csv_rows, possible_headers
-from evenbreak.files.encoding import content_of, encoding_of
-from evenbreak.files.header import Header, quoted_list
+from evenbreak.arrays import short_repr
+from evenbreak.files.csv_rows import Rows
+from evenbreak.files.encoding import content_of
+from evenbreak.files.header import Header, Hint, quoted_list
 from evenbreak.files.problems import Problems
+from evenbreak.files.table_rows import Export, table_rows
 
 
 class Texts(NamedTuple):
@@ -34,7 +35,19 @@ class Texts(NamedTuple):
     distinct: list[str]
     codes: NDArray[np.int64]
 
+    @classmethod
+    def of(cls, cells: Sequence[str]) -> Texts:
+        """Return the column with these cells, row by row.
 
+        >>> Texts.of(["7", "5", "7"])
+        Texts(distinct=['7', '5'], codes=array([0, 1, 0]))
+        """
+        numbers: defaultdict[str, int] = defaultdict(count().__next__)
+        codes = np.array([numbers[text] for text in cells], dtype=np.int64)
+        return cls(list(numbers), codes)
+
+
+@short_repr
 @dataclass(frozen=True, eq=False)
 class TextTable:
     """The rows of a file that have the shape of its header.
@@ -93,13 +106,18 @@ def read_table(
     instead: Mapping[str, Sequence[Collection[str]]] | None = None,
     *,
     rows: str = "",
+    called: Mapping[str, str] | None = None,
+    hint: Hint | None = None,
+    exported: Callable[[bytes, str], Export | None] | None = None,
 ) -> TextTable:
-    r"""Read a CSV file as columns of text.
+    r"""Read a CSV file, or a sheet of a workbook, as columns of text.
 
-    UTF-8 with or without BOM, else Windows-1252 with a warning; comma, semicolon or tab, or
-    what a first line such as `sep=|` declares; LF, CRLF or CR; quoted cells may contain line
-    ends. Names of columns are compared without regard to case, blanks and punctuation. Blank
-    rows are skipped, unknown columns are ignored with a warning.
+    A CSV file is UTF-8 or UTF-16 with a byte order mark, UTF-8 without, or else Windows-1252
+    with a warning; comma, semicolon or tab, or what a first line such as `sep=|` declares; LF,
+    CRLF or CR; quoted cells may contain line ends. Of a workbook (.xlsx, .ods) the first sheet
+    is read whose header fits. Names of columns are compared without regard to case, blanks and
+    punctuation. Lines above the header are skipped and unknown columns ignored with a warning,
+    blank rows without.
 
     Parameters
     ----------
@@ -112,6 +130,12 @@ def read_table(
     rows
         what its rows are, such as matches: a file without any has a problem; '' if that is
         checked elsewhere.
+    called
+        for some columns the title that they have in this file.
+    hint
+        what to do where required columns are missing (see `Header`).
+    exported
+        reads the exports of other programs, if they may be given too.
 
     Returns
     -------
@@ -133,22 +157,16 @@ def read_table(
     (['W', 'L'], array([3, 4]), 0)
     """
     source, content = content_of(path)
-    encoding, warnings = encoding_of(content, source)
     problems = Problems(source)
-    header = Header(required, optional or {}, instead or {})
-    separator = header.separator(possible_headers(content, encoding))
-    unreadable: list[int] = []
-    parts = csv_rows(content, encoding, separator, unreadable)
-    lines, first = next(parts)
-    if not first:
+    header = Header(required, optional or {}, instead or {}, called, hint)
+    titles, line, body, unreadable, warnings, sample = table_rows(content, source, header, exported)
+    if not titles:
         _add_unreadable(unreadable, problems)
         problems.add(None, "has no rows; write a header line, then one line for each row")
         problems.raise_any()
-    titles = first[0]
-    places, unused = header.places(titles, lines[0], problems)
+    places, unused = header.places(titles, line, problems, sample)
     if unused:
         warnings.append(f"{source}: columns not used: {quoted_list(unused)}")
-    body = chain([(lines[1:], first[1:])], parts)
     row_lines, columns = _columns(body, len(titles), places, problems)
     _add_unreadable(unreadable, problems)
     if rows and not len(row_lines) and not len(problems):
@@ -212,6 +230,5 @@ def _stripped(raw: list[str], codes: NDArray[np.int64]) -> Texts:
     bare = [text.strip() for text in raw]
     if bare == raw:  # as nearly always
         return Texts(raw, codes)
-    numbers: defaultdict[str, int] = defaultdict(count().__next__)
-    renumbered = np.array([numbers[text] for text in bare], dtype=np.int64)
-    return Texts(list(numbers), renumbered[codes])
+    distinct, renumbered = Texts.of(bare)
+    return Texts(distinct, renumbered[codes])

@@ -29,7 +29,7 @@ def played_nights(
     roster: Roster,
     results: Results,
     *,
-    chart: Chart | None = None,
+    chart: Chart | str | None = None,
     apply: Callable[[Roster, Ints], RatingChanges] | None = None,
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.

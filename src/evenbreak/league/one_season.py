@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Floats, Ints
-from evenbreak.checks import whole
+from evenbreak.arrays import Bools, Floats, Ints, short_repr
+from evenbreak.checks import seed_of
 from evenbreak.handicaps.systems.system import PlayedMatch, UpdateRule
 from evenbreak.league.schedule import RandomPairing, Round
 from evenbreak.league.season import Season
@@ -39,6 +39,7 @@ class _Match(NamedTuple):
     points: tuple[int, int]
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class PlayedSeason:
     """A season that was played, with the true skills that are unknown in a real one.
@@ -69,7 +70,7 @@ class PlayedSeason:
     skill_after: Floats
 
 
-def season_matches(season: Season, seed: int) -> PlayedSeason:
+def season_matches(season: Season, seed: int | np.random.Generator) -> PlayedSeason:
     """Play one season rack by rack and return its matches.
 
     In each week everybody who is present plays at their skill of the day. The ratings before the
@@ -81,7 +82,7 @@ def season_matches(season: Season, seed: int) -> PlayedSeason:
     season
         what is played.
     seed
-        a whole number from 0; the same seed gives the same season.
+        a whole number from 0, which always gives the same season, or a generator.
 
     Raises
     ------
@@ -96,7 +97,7 @@ def season_matches(season: Season, seed: int) -> PlayedSeason:
     >>> len(played.results), played.week.tolist(), played.results.date[0]
     (6, [1, 1, 2, 2, 3, 3], np.datetime64('2025-01-07'))
     """
-    rng = np.random.default_rng([_APART, whole(seed, "seed")])
+    rng = np.random.default_rng([_APART, seed_of(seed)])
     players = season.players
     rating = np.array(players.rating, dtype=np.int64)
     skill = rng.normal(players.skill, players.skill_sd)

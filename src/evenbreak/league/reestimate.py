@@ -15,10 +15,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import whole
+from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
 from evenbreak.matches.win import race_win_probability
@@ -33,6 +34,7 @@ _NEWCOMERS = (1, -1, 1, -1)
 """How many doublings of the odds each newcomer is better than the mean of the league."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Reestimated:
     """How far off refitted ratings are, by simulation, with Monte Carlo standard errors.
@@ -83,14 +85,14 @@ class _Course(NamedTuple):
 
 def reestimate(
     skill: ArrayLike,
-    chart: Chart,
+    chart: Chart | str,
     *,
     scale: Any = "fargo",
     weeks: int = 52,
     newcomer_weeks: int = 30,
     half_life: float | None = None,
     leagues: int = 4,
-    seed: int = 0,
+    seed: int | np.random.Generator = 0,
 ) -> Reestimated:
     """Return how far off ratings stay that are refitted to all results, with old ones fading.
 
@@ -117,7 +119,8 @@ def reestimate(
     leagues
         how many leagues are simulated, 2 or more.
     seed
-        of the random numbers: the same seed gives the same answer.
+        of the random numbers: a whole number, which always gives the same answer, or a
+        generator.
 
     Raises
     ------
@@ -140,14 +143,12 @@ def reestimate(
     skills = np.asarray(skill, dtype=float)
     if skills.ndim != 1 or len(skills) < 2 or not np.isfinite(skills).all():
         raise InputError("skill is not a list of two finite numbers or more; give one per player")
-    if not isinstance(chart, Chart):
-        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('fargo_r6_hot')")
     if half_life is not None and not half_life > 0.0:
         raise InputError(f"half_life is {half_life!r}; give weeks above 0, or None")
     plan = _Plan(
         skill=np.append(skills, skills.mean() + by.points_per_doubling * np.array(_NEWCOMERS)),
         begun_with=len(skills),
-        chart=chart,
+        chart=chart_of(chart),
         scale=by,
         weeks=(
             whole(weeks, "weeks", at_least=2),
@@ -155,7 +156,7 @@ def reestimate(
         ),
         half_life=None if half_life is None else 7.0 * half_life,
     )
-    seeds = np.random.SeedSequence(seed).spawn(whole(leagues, "leagues", at_least=2))
+    seeds = np.random.SeedSequence(seed_of(seed)).spawn(whole(leagues, "leagues", at_least=2))
     return _summed_up(plan, [_league(plan, np.random.default_rng(child)) for child in seeds])
 
 

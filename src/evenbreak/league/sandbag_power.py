@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from evenbreak.arrays import Bools, Floats, Ints
-from evenbreak.checks import number, number_probability, one_of, whole
+from evenbreak.checks import number, number_probability, one_of, seed_of, whole
 from evenbreak.handicaps.ladders.form import deviation_grid, difference_law
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.systems.match_table import match_table
@@ -76,7 +76,7 @@ def watch_power(
     marked: float | None = None,
     start: int | None = None,
     replicas: int = 1000,
-    seed: int = 1,
+    seed: int | np.random.Generator = 1,
 ) -> WatchPower:
     """Return how often players who sandbag in one way are flagged, match by match.
 
@@ -108,7 +108,7 @@ def watch_power(
     replicas
         players simulated.
     seed
-        of the simulation.
+        of the simulation: a whole number, or a generator.
 
     Raises
     ------
@@ -133,7 +133,9 @@ def watch_power(
     first = np.zeros(many, dtype=np.int64)
     error, earnest = np.zeros(many), np.zeros(2)
     sizes = [min(_CHUNK, players - done) for done in range(0, players, _CHUNK)]
-    for size, child in zip(sizes, np.random.SeedSequence(seed).spawn(len(sizes)), strict=True):
+    for size, child in zip(
+        sizes, np.random.SeedSequence(seed_of(seed)).spawn(len(sizes)), strict=True
+    ):
         rng = np.random.default_rng(child)
         begin = rng.choice(ladder.errors, size, p=np.asarray(_start(ladder, start)))
         shares = SHARES if part is None else SHARES_MARKED

@@ -11,8 +11,7 @@ import numpy as np
 from evenbreak.arrays import Ints
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.chart import chart as printed_chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.handicaps.systems.match_table import MatchTable, match_table
 from evenbreak.handicaps.systems.system import System
@@ -78,8 +77,8 @@ class Season:
             put(self, "system", system_of(self.system))
         if self.chart is None:
             put(self, "chart", self.system.usual_chart())
-        elif not isinstance(self.chart, Chart):
-            put(self, "chart", printed_chart(self.chart))
+        else:
+            put(self, "chart", chart_of(self.chart))
         if self.schedule is None:
             put(self, "schedule", RoundRobin(len(self.players)))
         put(self, "weeks", whole(self.weeks, "weeks", at_least=1))

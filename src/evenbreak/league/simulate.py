@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from evenbreak.checks import whole
+from evenbreak.checks import seed_of, whole
 from evenbreak.league.counting import ALONE
 from evenbreak.league.many_seasons import run_chunk
 from evenbreak.league.season import Season
@@ -123,7 +123,7 @@ def simulate(
     season: Season,
     *,
     replicas: int,
-    seed: int,
+    seed: int | np.random.Generator,
     executor: Executor | distributed.Client | None = None,
     jobs: int = 1,
     progress: Callable[[int, int], None] | None = None,
@@ -137,7 +137,7 @@ def simulate(
     replicas
         how many, 1 or more; 20 or more for good standard errors.
     seed
-        a whole number from 0; the same seed gives the same tally to the last bit.
+        a whole number from 0, which gives the same tally to the last bit, or a generator.
     executor
         who works: any executor of `concurrent.futures`, or a `distributed.Client` for a dask
         cluster; None: as many processes as `jobs` says.
@@ -165,7 +165,7 @@ def simulate(
     (1000, array([12000, 12000, 12000, 12000]))
     """
     replicas = whole(replicas, "replicas", at_least=1)
-    seed, jobs = whole(seed, "seed"), whole(jobs, "jobs", at_least=1)
+    seed, jobs = seed_of(seed), whole(jobs, "jobs", at_least=1)
 
     work = _Work(season, replicas, batching_of(season, replicas), seed)
     parcels = work.parcels()

@@ -24,6 +24,7 @@ from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack
 from evenbreak.matches.form_roots import form_roots, sign_at
 from evenbreak.matches.formats import MatchFormat, match_format
+from evenbreak.matches.parameters import rack_in
 from evenbreak.matches.win import win_probability
 from evenbreak.matches.win_forms import Form, degree_of, product, win_forms
 
@@ -246,7 +247,7 @@ class _Line:
 
     def point(self, played: MatchFormat, p1: float) -> Crossing:
         match = self.match(played, p1)
-        return Crossing(p1, match.innermost_rack.p2, win_probability(match))
+        return Crossing(p1, rack_in(match).p2, win_probability(match))
 
 
 @lru_cache(maxsize=64)

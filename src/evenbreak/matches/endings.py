@@ -15,8 +15,8 @@ from scipy.sparse import csr_array
 from evenbreak.arrays import Floats
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
-from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import Endings, race_endings
+from evenbreak.matches.parameters import rack_in
 from evenbreak.matches.rack_graph import rack_moves
 
 _LONGEST = 100_000
@@ -29,7 +29,7 @@ def is_bounded(match: Match) -> bool:
         return True
     if not isinstance(match, Race) or match.win_by > 1:
         return False
-    return isinstance(match.rack, Rack) or is_bounded(match.rack)
+    return not isinstance(match.rack, Match) or is_bounded(match.rack)
 
 
 def endings_of(match: Match, never: Any, tail: float) -> Endings:
@@ -47,7 +47,7 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
         would not fit in memory.
     """
     winner = match.decided(*match.score)
-    rack = match.innermost_rack
+    rack = rack_in(match)
     shape = rack.shape
     if winner is not None:
         return Endings(*(np.full((1, *shape), float(winner == player)) for player in (1, 2)))

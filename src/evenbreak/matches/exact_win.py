@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Hashable
 from fractions import Fraction
 
-from evenbreak.chains.exact import exact_chance
+from evenbreak.chains.exact import exact_chance, exact_limit
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
 from evenbreak.matches.outcomes import score_arcs
+from evenbreak.matches.own_games import Ends, ends_of_game, rack_of_game
 from evenbreak.matches.parameters import first_breaker
 from evenbreak.matches.score_chain import NEVER, ScoreChain
 
@@ -34,6 +35,17 @@ def exact_win(match: Match, player: int) -> Fraction:
     """
     outcomes = _outcomes(match, match.score, first_breaker(match))
     return sum((p for (winner, _), p in outcomes.items() if winner == player), Fraction(0))
+
+
+def exact_win_of_game(ends: Ends, player: int) -> Fraction:
+    """Return P(`player` wins the game) that ends like this, as a fraction.
+
+    >>> from evenbreak.games import OneBall
+    >>> exact_win_of_game(ends_of_game(OneBall(0.6, 0.6)), 1)
+    Fraction(5, 7)
+    """
+    limit = exact_limit(ends.chain, None)
+    return sum((limit[state] for state in ends.by_winner.get(player, [])), Fraction(0))
 
 
 def _outcomes(match: Match, score: Score, breaker: int) -> _Outcomes:
@@ -59,8 +71,12 @@ def _unit(match: Match, breaker: int) -> _Outcomes:
     if isinstance(rack, Rack):
         chance = _chance(rack, breaker)
         inside = {(breaker, breaker): chance, (3 - breaker, breaker): 1 - chance}
-    else:
+    elif isinstance(rack, Match):
         inside = _outcomes(rack, rack.score, breaker)
+    else:
+        rack_of_game(rack)  # refuses what player 1 or 2 need not win
+        ends = ends_of_game(rack)
+        inside = {(winner, breaker): exact_win_of_game(ends, winner) for winner in (1, 2)}
     grouped: _Outcomes = {}
     for (winner, carried), chance in inside.items():
         after = match.breaks(breaker, winner) if match.breaks is not None else carried

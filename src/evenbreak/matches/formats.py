@@ -13,6 +13,9 @@ from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 
+BETWEEN = r"[:/\-–—−]"
+"""What may stand between the two numbers of a race or a score, as a regular expression."""
+
 _LONGEST = 1000
 _WAYS = (
     "9:5, '7:7 win by 2', 'ahead 5:3', '3:1 of 3:3' or 'best of 9', "
@@ -137,8 +140,8 @@ def match_format(text: str) -> MatchFormat:
     text
         `9:5` (player 1, called A, needs 9 games, player 2, called B, needs 5), `7:7 win by 2`,
         `ahead 5:3`, or one of them `of` another, which is then the set: `3:1 of 3:3`.
-        `best of 9` means `5:5`. The break format may follow: `winner breaks`, or loser,
-        alternate, A or B. Each number is from 1 to 1000.
+        `best of 9` means `5:5`; `9-5` and `9/5` mean `9:5`. The break format may follow:
+        `winner breaks`, or loser, alternate, A or B. Each number is from 1 to 1000.
 
     Raises
     ------
@@ -153,6 +156,8 @@ def match_format(text: str) -> MatchFormat:
     27
     >>> str(match_format("ahead 5:3, A breaks"))
     'ahead 5:3 A breaks'
+    >>> str(match_format("9-5")), str(match_format("3/1 of 3/3"))
+    ('9:5', '3:1 of 3:3')
     >>> str(match_format("best of 5 of 3:3"))
     '3:3 of 3:3'
     >>> match_format("nine games")
@@ -160,7 +165,8 @@ def match_format(text: str) -> MatchFormat:
     ...
     evenbreak.errors.InputError: 'nine games' is not a match format; write 9:5, '7:7 win by 2', ...
     """
-    words = re.sub(r" ?: ?", ":", " ".join(str(text).lower().split()))
+    words = " ".join(str(text).lower().split())
+    words = re.sub(rf"(?<=\d) ?{BETWEEN} ?(?=\d)", ":", words)
     for most in map(int, _BEST_OF.findall(words)):
         if most % 2 == 0:
             raise InputError(

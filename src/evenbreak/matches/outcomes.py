@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import first_breaker
+from evenbreak.matches.parameters import first_breaker, unit_of
 from evenbreak.matches.score_chain import NEVER, ScoreChain, ratio
 
 
@@ -85,7 +85,7 @@ def unit_outcomes(match: Match, *, lengths: bool = True) -> dict[int, Outcomes]:
 
 
 def _unit(match: Match, breaker: int, *, lengths: bool) -> Outcomes:
-    rack = match.rack
+    rack = unit_of(match)
     if isinstance(rack, Rack):
         inside: dict[tuple[int, int], Outcome] = {
             (winner, breaker): Outcome(rack.chance(winner, breaker), 1.0, 0.0) for winner in (1, 2)

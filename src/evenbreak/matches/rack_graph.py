@@ -6,7 +6,7 @@ from typing import Any
 
 from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import with_rack
+from evenbreak.matches.parameters import rack_in, with_rack
 
 RackMoves = dict[Any, tuple[tuple[Any, Any], tuple[Any, Any]]]
 
@@ -28,7 +28,7 @@ def rack_moves(match: Match, start: Any = None) -> RackMoves:
     >>> rack_moves(Race(2, 1, Rack(0.75)))
     {(0, 0): (((1, 0), 0.75), ((0, 1), 0.25)), (1, 0): (((2, 0), 0.75), ((1, 1), 0.25))}
     """
-    rack = match.innermost_rack
+    rack = rack_in(match)
     template = with_rack(match, Rack(0.5, 0.5) if rack.break_matters else Rack(0.5))
     chances = {breaker: (rack.chance(1, breaker), rack.chance(2, breaker)) for breaker in (1, 2)}
     moves: RackMoves = {}

@@ -7,7 +7,7 @@ from typing import Any, Generic, overload
 
 import numpy as np
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, short_repr
 from evenbreak.checks import number_probability
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match, Score
@@ -20,6 +20,7 @@ from evenbreak.matches.parameters import at_score, first_breaker, in_shape
 _MOST_SETS = 10_000
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class FinalScores(Generic[ChanceT]):
     """The distribution of the final score of a match.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Literal, overload
 
@@ -9,22 +10,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import one_of, plain, probability, together, whole_numbers
+from evenbreak.checks import one_of, plain, probability, together, whole, whole_numbers
 from evenbreak.errors import InputError
+from evenbreak.game import Game
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
-from evenbreak.matches.exact_win import exact_win
+from evenbreak.matches.exact_win import exact_win, exact_win_of_game
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, in_shape
+from evenbreak.matches.own_games import ends_of_game
+from evenbreak.matches.parameters import at_score, in_shape, rack_in
 from evenbreak.stats.beta_tail import beta_tail
 
 
-@overload
-def win_probability(
-    match: Match[Any], score: Score | None = None, *, player: int = 1, exact: Literal[True]
-) -> Fraction: ...
 @overload
 def win_probability(
     match: Match[float],
@@ -34,25 +33,34 @@ def win_probability(
     exact: Literal[False] = False,
 ) -> float: ...
 @overload
-def win_probability(
+def win_probability(  # type: ignore[overload-overlap]  # a match is a game too
     match: Match[Any], score: Score | None = None, *, player: int = 1, exact: Literal[False] = False
 ) -> Floats: ...
+@overload
 def win_probability(
-    match: Match, score: Score | None = None, *, player: int = 1, exact: bool = False
-) -> Any:
+    match: Game, score: Any = None, *, player: int = 1, exact: Literal[True]
+) -> Fraction: ...
+@overload
+def win_probability(
+    match: Game, score: Any = None, *, player: int = 1, exact: Literal[False] = False
+) -> float: ...
+def win_probability(match: Game, score: Any = None, *, player: int = 1, exact: bool = False) -> Any:
     """Return P(`player` wins the match).
 
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks or of sets. The probabilities of its innermost
-        rack may be arrays; p1 and p2 are broadcast together.
+        a race or an n-ahead match, of racks, of sets or of a game of your own, or any other
+        game (see `evenbreak.game`). The probabilities of its innermost rack may be arrays; p1
+        and p2 are broadcast together.
     score
         the score now, in racks (in sets for a match of sets); the match's first breaker
-        breaks the next rack. None: the match's own start score.
+        breaks the next rack. None: the match's own start score. For any other game, the
+        state now.
     player
-        1 or 2. Each player's chance is worked out by itself, never as 1 minus the other's, so
-        both are accurate even if tiny. They add up to 1 minus P(the match never ends).
+        1 or 2, or any player of a game of your own. Each player's chance is worked out by
+        itself, never as 1 minus the others', so all are accurate even if tiny. They add up to
+        1 minus P(the match never ends).
     exact
         whether to calculate in fractions. A chance of the rack given as a `Fraction` is taken
         as it is, a float as the decimal that it prints: 0.6 is 3/5.
@@ -66,8 +74,11 @@ def win_probability(
     Raises
     ------
     InputError
-        if the score cannot be reached, `match` is another game, `player` is not 1 or 2, or an
+        if the score cannot be reached, `match` is not a game, `player` is not one, or an
         exact answer is asked for arrays.
+    GameError, ChainError
+        as `game_odds` does, for a game of your own; also, with `exact`, if the moves from a
+        state of it do not sum to exactly 1.
 
     Notes
     -----
@@ -81,11 +92,18 @@ def win_probability(
     array([0.25, 0.81])
     >>> win_probability(Race(3, 2, Rack(0.6)), exact=True)
     Fraction(297, 625)
+    >>> from evenbreak.games import OneBall
+    >>> win_probability(OneBall(0.5, 0.25)), win_probability(Race(2, 2, OneBall(0.5, 0.25)))
+    (0.8, 0.896)
     """
+    if not isinstance(match, Match) and isinstance(match, Game):
+        whole(player, "player", at_least=1)
+        ends = ends_of_game(match, score)
+        return exact_win_of_game(ends, player) if exact else ends.p_win(player)
     one_of(player, "player", (1, 2))
+    if exact and isinstance(match, Match):
+        return exact_win(match if score is None else replace(match, score=score), player)
     match, shape = at_score(match, score)
-    if exact:
-        return exact_win(match, player)
     return in_shape(_win(match, player), shape)
 
 
@@ -98,7 +116,7 @@ def _win(match: Match, player: int) -> Any:
     need = match.m - match.score[0], match.n - match.score[1]
     rack = match.rack
     if not match.break_matters:
-        one = rack.chance(player) if isinstance(rack, Rack) else _win(rack, player)
+        one = _win(rack, player) if isinstance(rack, Match) else rack_in(match).chance(player)
         mine, theirs = need if player == 1 else need[::-1]
         return beta_tail(mine, theirs, one)
     if isinstance(rack, Rack):

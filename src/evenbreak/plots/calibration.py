@@ -1,20 +1,28 @@
 """A picture of a validated season: the chances given, and how often favourites won."""
 
 from collections.abc import Sequence
+from typing import overload
 
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
 
-from evenbreak.plots.style import LINES, new_axes, our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, new_axes
 from evenbreak.ratings.calibration import CalibrationBin
 from evenbreak.ratings.validate import Validation
 
 
-@our_look()
-def calibration_figure(found: Validation) -> Figure:
+@overload
+def calibration_figure(found: Validation, *, ax: Axes) -> Axes: ...
+@overload
+def calibration_figure(found: Validation) -> Picture: ...
+@in_our_look
+def calibration_figure(found: Validation, *, ax: Axes | None = None) -> Picture | Axes:
     """Draw how often favourites won against the chance that they had been given.
 
     Points on the diagonal are right; below it the chances were too extreme. The bars are
     95% intervals.
+
+    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
 
     >>> from evenbreak.ratings import Results, validate
     >>> season = Results.from_names(["Ann"] * 3, ["Bo"] * 3, [7, 7, 3], [2, 4, 7],
@@ -28,6 +36,7 @@ def calibration_figure(found: Validation) -> Figure:
         "share that the favourite won",
         title="Chances given, and how often favourites won",
         size=(6.0, 5.4),
+        ax=ax,
     )
     axes.plot([0.5, 1.0], [0.5, 1.0], color="0.6", linewidth=1.0, zorder=0, label="right")
     groups: tuple[tuple[str, Sequence[CalibrationBin], str, float, str], ...] = (
@@ -56,4 +65,4 @@ def calibration_figure(found: Validation) -> Figure:
     axes.set_xlim(0.49, 1.01)
     axes.set_ylim(max(0.0, lowest - 0.02), 1.01)
     axes.legend(loc="upper left", frameon=False)
-    return figure
+    return figure if ax is None else ax

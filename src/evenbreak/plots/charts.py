@@ -1,20 +1,28 @@
 """The plot of an audit: the stronger player's chance over the rating difference."""
 
+from typing import overload
+
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit
 from evenbreak.matches.win import race_win_probability
-from evenbreak.plots.style import LINES, new_axes, our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, new_axes
 
 _STEPS = 25  # of the curve over one band
 _NARROW = 0.05
 """A race is written upright if its band takes up a smaller share of the width."""
 
 
-@our_look()
-def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Figure:
+@overload
+def chart_figure(report: ChartAudit, beside: ChartAudit | None = None, *, ax: Axes) -> Axes: ...
+@overload
+def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Picture: ...
+@in_our_look
+def chart_figure(
+    report: ChartAudit, beside: ChartAudit | None = None, *, ax: Axes | None = None
+) -> Picture | Axes:
     """Draw the stronger player's chance over the rating difference, race by race.
 
     The curve rises within each band and drops where the next race begins; it is broken where no
@@ -27,6 +35,8 @@ def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Figure
     beside
         the audit of another chart; if its scale differs, its points are converted to those of
         the first.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.handicaps import audit, chart
     >>> figure = chart_figure(audit(chart("npl_10")), audit(chart("npl_12")))
@@ -38,6 +48,7 @@ def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Figure
         f"rating difference ({points:.4g} points double the odds)",
         "chance of the stronger player",
         size=(7.6, 4.4),
+        ax=ax,
     )
     axes.axhline(0.5, color="0.5", lw=0.8)
     if beside is not None:
@@ -51,7 +62,7 @@ def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Figure
     if beside is not None:
         handles, names = axes.get_legend_handles_labels()
         axes.legend(handles[::-1], names[::-1], loc="lower right")
-    return figure
+    return figure if ax is None else ax
 
 
 def _draw(axes: Axes, report: ChartAudit, factor: float, line: int) -> None:

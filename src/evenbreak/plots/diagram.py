@@ -4,33 +4,46 @@ from __future__ import annotations
 
 import re
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, overload
 
-import matplotlib as mpl
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
 
 from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.plots.layout import Positions, positions_of
-from evenbreak.plots.strokes import FONT, Pen, is_words, longest_line
-from evenbreak.plots.style import our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.strokes import FONT, INCHES, Pen, is_words, longest_line
 
 if TYPE_CHECKING:
     import networkx as nx
 
 
 _MOST_STATES = 150
-_INCHES = 1.25
-"""The length of a unit, with labels of up to eight characters."""
 _MARGIN = 0.12
 _KNOWN_FILLS = 3
 """Of a terminal node: nobody has won, player 1, player 2; a legend names any more."""
 
 
-@our_look()
+@overload
+def draw(
+    game: Game | nx.DiGraph[Any],
+    *,
+    layout: Positions | None = None,
+    title: str | None = None,
+    ax: Axes,
+) -> Axes: ...
+@overload
 def draw(
     game: Game | nx.DiGraph[Any], *, layout: Positions | None = None, title: str | None = None
-) -> Figure:
+) -> Picture: ...
+@in_our_look
+def draw(
+    game: Game | nx.DiGraph[Any],
+    *,
+    layout: Positions | None = None,
+    title: str | None = None,
+    ax: Axes | None = None,
+) -> Picture | Axes:
     """Draw a game's diagram: states as circles, each arc with its probability.
 
     An arrow from outside marks the start. A terminal node is a double circle, light if player 1
@@ -50,11 +63,14 @@ def draw(
         a place (x, y) for every state, neighbours about 1 apart; None: find one.
     title
         text above the diagram.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     Returns
     -------
-    matplotlib.figure.Figure
-        about 1.25 inches for each unit of the layout; `image_bytes` turns it into a file.
+    Picture or matplotlib.axes.Axes
+        a matplotlib figure, about 1.25 inches for each unit of the layout, which a notebook
+        shows and `image_bytes` turns into a file; or the axes given.
 
     Raises
     ------
@@ -92,9 +108,11 @@ def draw(
     written = hook if callable(hook) else partial(_state_label, graph)
     labels = {state: str(written(state)) for state in graph}
     inside = [longest_line(text) for state, text in labels.items() if not is_words(graph, state)]
-    inches = _INCHES * max(1.0, max(inside, default=0) / 8)
-    figure = Figure()
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    inches = INCHES * max(1.0, max(inside, default=0) / 8)
+    if ax is not None:
+        inches = min(inches, _inches_in(ax, places))
+    figure = Picture()
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0)) if ax is None else ax
     pen = Pen(axes, graph, places, inches)
     pen.draw(start, labels)
     (left, right), (bottom, top) = (
@@ -104,32 +122,24 @@ def draw(
     below = 0.3 if len(pen.fills) > _KNOWN_FILLS else 0.0
     width, height = (right - left) * inches, (top - bottom) * inches
     whole = below + height + above
-    figure.set_size_inches(width, whole)
-    axes.set_position((0.0, below / whole, 1.0, height / whole))
+    if ax is None:
+        figure.set_size_inches(width, whole)
+        axes.set_position((0.0, below / whole, 1.0, height / whole))
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
     axes.set_axis_off()
     if below:
         pen.legend(width)
     if title:
         axes.set_title(title, fontsize=FONT + 2, pad=4)
-    return figure
+    return figure if ax is None else ax
 
 
-def image_bytes(figure: Figure, kind: Literal["png", "svg"] = "svg") -> bytes:
-    """Return a figure as the bytes of a PNG or SVG file, always the same bytes.
-
-    >>> from evenbreak.games import OneBall
-    >>> image_bytes(draw(OneBall(0.4, 0.8)), "png")[1:4]
-    b'PNG'
-    """
-    import io
-
-    out = io.BytesIO()
-    # A salt instead of random ids, and no date or program version.
-    metadata: dict[str, Any] = {"Date": None, "Creator": None} if kind == "svg" else {}
-    with our_look(), mpl.rc_context({"svg.hashsalt": "evenbreak"}):
-        figure.savefig(out, format=kind, dpi=150, metadata=metadata or {"Software": None})
-    return out.getvalue()
+def _inches_in(ax: Axes, places: Positions) -> float:
+    """Return about how long a unit can be for all places to fit into the axes given."""
+    box = ax.get_window_extent()
+    spans = (max(ends) - min(ends) + 1.5 for ends in zip(*places.values(), strict=True))
+    sides = zip((box.width, box.height), spans, strict=True)
+    return float(min(side / ax.figure.dpi / span for side, span in sides))
 
 
 def _start_of(graph: nx.DiGraph[Any]) -> Any:

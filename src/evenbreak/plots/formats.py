@@ -1,21 +1,28 @@
 """Match formats in one picture: the chance of winning against p, and where the curves cross."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
 
 from evenbreak.games.rack import Rack
 from evenbreak.matches.crossings import Crossings, rack_along
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.win import win_probability
-from evenbreak.plots.style import LINES, new_axes, our_look, unit_axis, write_title
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import (
+    LINES,
+    new_axes,
+    take_names_as_they_are,
+    unit_axis,
+    write_title,
+)
 
 _POINTS = 401
 
 
-@our_look()
+@overload
 def plot_formats(
     formats: Sequence[MatchFormat],
     line: Mapping[str, Any],
@@ -24,7 +31,29 @@ def plot_formats(
     p1: float,
     title: str = "",
     names: tuple[str, str] = ("A", "B"),
-) -> Figure:
+    ax: Axes,
+) -> Axes: ...
+@overload
+def plot_formats(
+    formats: Sequence[MatchFormat],
+    line: Mapping[str, Any],
+    pairs: Iterable[Crossings],
+    *,
+    p1: float,
+    title: str = "",
+    names: tuple[str, str] = ("A", "B"),
+) -> Picture: ...
+@in_our_look
+def plot_formats(
+    formats: Sequence[MatchFormat],
+    line: Mapping[str, Any],
+    pairs: Iterable[Crossings],
+    *,
+    p1: float,
+    title: str = "",
+    names: tuple[str, str] = ("A", "B"),
+    ax: Axes | None = None,
+) -> Picture | Axes:
     """Return a figure of player 1's chance in a match against that in a game, a curve per format.
 
     Parameters
@@ -41,6 +70,8 @@ def plot_formats(
         who plays, above the picture.
     names
         of player 1 and player 2.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.matches import crossings, match_format
     >>> two = [match_format("2:1"), match_format("4:2")]
@@ -52,7 +83,7 @@ def plot_formats(
     matters = any(value is not None for value in fixed.values())
     a, b = names
     x = f"p1 = P({a} wins a game | {a} breaks)" if matters else f"p = P({a} wins a game)"
-    figure, axes = new_axes(x, f"P({a} wins the match)", size=(6.4, 5.6))
+    figure, axes = new_axes(x, f"P({a} wins the match)", size=(6.4, 5.6), ax=ax)
     chances = np.linspace(0.0, 1.0, _POINTS)[1:-1]
     rack: Rack = rack_along(chances, **fixed)
     axes.axhline(0.5, color="0.7", linewidth=0.8)
@@ -81,7 +112,10 @@ def plot_formats(
         )
     axes.axvline(p1, color="0.5", linewidth=1.0, zorder=0, label=f"{a} against {b}")
     unit_axis(axes, "x", "y")
-    if title:
+    if title and ax is None:
         write_title(figure, title)
+    elif title:
+        axes.set_title(title)
     axes.legend(frameon=False, loc="best")
-    return figure
+    take_names_as_they_are(axes)
+    return figure if ax is None else ax

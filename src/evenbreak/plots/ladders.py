@@ -3,14 +3,14 @@
 import math
 from collections.abc import Iterable, Sequence
 from itertools import product
-from typing import NamedTuple
+from typing import NamedTuple, overload
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from evenbreak.handicaps.ladders.settling import Settling
-from evenbreak.plots.style import LINES, new_axes, our_look, unit_axis
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, new_axes, unit_axis
 from evenbreak.stats.summary import Distribution
 
 _SHOWN = 1e-3
@@ -48,7 +48,7 @@ class SystemPoint(NamedTuple):
     unbeaten: bool | None
 
 
-@our_look()
+@in_our_look
 def ladder_figure(
     law: Distribution,
     *,
@@ -56,7 +56,7 @@ def ladder_figure(
     within: int = 5,
     curve: Settling | None = None,
     title: str | None = None,
-) -> Figure:
+) -> Picture:
     """Draw the distribution of the rating error, and beside it how fast newcomers settle.
 
     The normal distribution with the same mean and standard deviation is drawn for comparison.
@@ -80,7 +80,7 @@ def ladder_figure(
     'rating error: rating less skill (points)'
     """
     width = 6.4 if curve is None else 10.6
-    figure = Figure(figsize=(width, 4.4), layout="constrained")
+    figure = Picture(figsize=(width, 4.4), layout="constrained")
     panels = figure.subplots(1, 1 if curve is None else 2, squeeze=False)[0]
     _draw_law(panels[0], law, natural, within)
     if curve is not None:
@@ -167,8 +167,14 @@ def _draw_settling(axes: Axes, curve: Settling) -> None:
     )
 
 
-@our_look()
-def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
+@overload
+def systems_figure(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes) -> Axes: ...
+@overload
+def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Picture: ...
+@in_our_look
+def systems_figure(
+    points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | None = None
+) -> Picture | Axes:
     """Draw how far off ratings stay over how long newcomers take, for several systems.
 
     The step sizes that no other step beats in both are filled and joined.
@@ -179,6 +185,8 @@ def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
         the systems.
     chart
         the chart of the step sizes.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> figure = systems_figure([SystemPoint("step 1", 15.4, 60.3, True),
     ...     SystemPoint("step 2", 20.8, 30.8, True)])
@@ -191,6 +199,7 @@ def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
         "sd of the rating error (% of the points that double the odds)",
         title=f"Systems and step sizes{on_chart}",
         size=(7.2, 5.0),
+        ax=ax,
     )
     listed = sorted(points, key=lambda point: point.matches)
     black, orange = LINES[0].color, LINES[2].color
@@ -224,7 +233,7 @@ def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
             parse_math=False,
         )
     axes.legend(frameon=False, fontsize=9, loc="upper right")
-    return figure
+    return figure if ax is None else ax
 
 
 def _free_offsets(

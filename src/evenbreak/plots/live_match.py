@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from evenbreak.matches.live import LiveOdds
-from evenbreak.plots.style import LINES, our_look, write_title
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, take_names_as_they_are, write_title
 
 _MOST_SCORES = 24
 """The most scores that fit below the picture; of more, only every second, third, ... is written."""
@@ -16,8 +16,8 @@ _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
 """Shares of the picture: the width and height of a label, and its distance from the line."""
 
 
-@our_look()
-def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A", "B")) -> Figure:
+@in_our_look
+def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A", "B")) -> Picture:
     """Return a figure of a match so far.
 
     The upper panel is player 1's chance of winning the match after each rack: a filled dot is a
@@ -40,7 +40,7 @@ def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A
     >>> [label.get_text() for label in figure.axes[1].get_xticklabels()]
     ['0:0', '1:0', '1:1', '2:1']
     """
-    figure = Figure(figsize=(7.2, 5.4), layout="constrained")
+    figure = Picture(figsize=(7.2, 5.4), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     wins = [moment.p_win_1 for moment in odds.course]
     racks = range(len(wins))
@@ -62,6 +62,7 @@ def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A
     label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.0})  # over the line of 1/2
     above.set(ylim=(-0.03, 1.03), ylabel=f"P({names[0]} wins the match)")
     above.legend(frameon=False, loc="best")
+    take_names_as_they_are(above)
     leverages = [moment.leverage or 0.0 for moment in odds.course[:-1]]
     below.bar([i + 0.5 for i in range(len(leverages))], leverages, width=0.7, color="0.6")
     below.set(ylabel="leverage", xlabel="score", ylim=(0.0, None))

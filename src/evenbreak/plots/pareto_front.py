@@ -1,15 +1,23 @@
 """The plot of what fairness costs in length."""
 
 from collections.abc import Sequence
+from typing import overload
 
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
 
 from evenbreak.handicaps.charts.pareto import ParetoChart
-from evenbreak.plots.style import LINES, new_axes, our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, new_axes
 
 
-@our_look()
-def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> Figure:
+@overload
+def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean", ax: Axes) -> Axes: ...
+@overload
+def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> Picture: ...
+@in_our_look
+def pareto_figure(
+    charts: Sequence[ParetoChart], *, criterion: str = "mean", ax: Axes | None = None
+) -> Picture | Axes:
     """Draw the unfairness of charts over their mean length.
 
     Dots are charts that no other beats; those with a limit on the 90% length are filled and
@@ -21,6 +29,8 @@ def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> 
         what `pareto` returned.
     criterion
         'mean' or 'worst': the unfairness to draw.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.handicaps import RaceLimits, chart, pareto
     >>> npl_8 = chart("npl_8")
@@ -31,6 +41,7 @@ def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> 
     figure, axes = new_axes(
         "games in a match, on average",
         f"unfairness {'on average' if criterion == 'mean' else 'at worst'}",
+        ax=ax,
     )
     black, orange = LINES[0].color, LINES[2].color
     kinds = (
@@ -61,7 +72,7 @@ def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> 
     axes.margins(0.06)
     axes.set_ylim(bottom=0.0)
     axes.legend(loc="upper right", fontsize=9)
-    return figure
+    return figure if ax is None else ax
 
 
 def _place(one: ParetoChart, criterion: str) -> tuple[float, float]:

@@ -2,14 +2,15 @@
 
 from collections import Counter
 from pathlib import Path
+from typing import overload
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from evenbreak.files.scores import ScoresFile
-from evenbreak.plots.style import LINES, new_axes, our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, legend_below, new_axes
 from evenbreak.stats.confidence import MeanInterval
 
 BAND = "0.85"
@@ -20,10 +21,22 @@ WIDEST = 0.3
 """The largest distance of a score from the middle of its list."""
 
 
-@our_look()
+@overload
+def plot_scores(
+    file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None, ax: Axes
+) -> Axes: ...
+@overload
 def plot_scores(
     file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None
-) -> Figure:
+) -> Picture: ...
+@in_our_look
+def plot_scores(
+    file: ScoresFile,
+    interval: MeanInterval | None,
+    *,
+    new: float | None = None,
+    ax: Axes | None = None,
+) -> Picture | Axes:
     """Return a figure of the scores of a file, their mean and the interval of the true mean.
 
     Parameters
@@ -34,6 +47,8 @@ def plot_scores(
         of the true mean; None draws no band.
     new
         one more score, drawn after the others.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> import numpy as np
     >>> from evenbreak.files.scores import ScoresFile
@@ -45,6 +60,7 @@ def plot_scores(
         "number of the score" if file.dates is None else "date",
         "score",
         title=f"Practice scores of {Path(file.source).name}",
+        ax=ax,
     )
     if file.dates is None:
         when: NDArray[np.float64] | NDArray[np.datetime64] = np.arange(1.0, len(file.scores) + 1)
@@ -55,7 +71,8 @@ def plot_scores(
         # After the last score by the usual distance between scores, or a day.
         apart = (when.max() - when.min()) // max(1, len(when) - 1)
         later = when.max() + max(apart, np.timedelta64(1, "D"))
-        figure.autofmt_xdate()
+        if ax is None:
+            figure.autofmt_xdate()
     mean = float(file.scores.mean())
     if interval is not None:
         share = f"{100 * interval.confidence:g}% interval of the true mean"
@@ -65,18 +82,38 @@ def plot_scores(
     if new is not None:
         label = f"new score {new:g}"
         axes.plot(np.array([later]), [new], "D", color=LINES[2].color, markersize=8, label=label)
-    figure.legend(frameon=False, loc="outside lower center", ncols=2)
-    return figure
+    legend_below(figure, ax)
+    return figure if ax is None else ax
 
 
-@our_look()
+@overload
 def plot_two_lists(
     before: NDArray[np.float64],
     after: NDArray[np.float64],
     names: tuple[str, str],
     intervals: tuple[MeanInterval | None, MeanInterval | None],
-) -> Figure:
+    *,
+    ax: Axes,
+) -> Axes: ...
+@overload
+def plot_two_lists(
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    names: tuple[str, str],
+    intervals: tuple[MeanInterval | None, MeanInterval | None],
+) -> Picture: ...
+@in_our_look
+def plot_two_lists(
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    names: tuple[str, str],
+    intervals: tuple[MeanInterval | None, MeanInterval | None],
+    *,
+    ax: Axes | None = None,
+) -> Picture | Axes:
     r"""Return a figure of two lists of scores side by side, each with its mean and interval.
+
+    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
 
     >>> import numpy as np
     >>> figure = plot_two_lists(
@@ -87,7 +124,9 @@ def plot_two_lists(
     """
     shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
     with_interval = f" with its {shares.pop()}% interval" if shares else ""
-    figure, axes = new_axes("", "score", title=f"Practice scores, and their mean{with_interval}")
+    figure, axes = new_axes(
+        "", "score", title=f"Practice scores, and their mean{with_interval}", ax=ax
+    )
     for place, (scores, interval) in enumerate(zip((before, after), intervals, strict=True)):
         _strip(axes, place, scores, interval)
     labels = [
@@ -96,7 +135,7 @@ def plot_two_lists(
     ]
     axes.set_xticks([0, 1], labels)
     axes.set_xlim(-0.5, 1.75)
-    return figure
+    return figure if ax is None else ax
 
 
 def _strip(

@@ -2,13 +2,15 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import overload
 
 import numpy as np
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
 
 from evenbreak.matches.straight_pool import StraightPool, straight_pool_odds
 from evenbreak.matches.straight_pool_spot import even_spot
-from evenbreak.plots.style import LINES, new_axes, our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, new_axes
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
 
@@ -23,13 +25,29 @@ _POINTS = 150
 """The most points that a curve is drawn through."""
 
 
-@our_look()
+@overload
 def plot_score(
     law: RunLength | InningsScore,
     innings: int = 1,
     *,
     asked: Sequence[tuple[str, int, int | None]] = (),
-) -> Figure:
+    ax: Axes,
+) -> Axes: ...
+@overload
+def plot_score(
+    law: RunLength | InningsScore,
+    innings: int = 1,
+    *,
+    asked: Sequence[tuple[str, int, int | None]] = (),
+) -> Picture: ...
+@in_our_look
+def plot_score(
+    law: RunLength | InningsScore,
+    innings: int = 1,
+    *,
+    asked: Sequence[tuple[str, int, int | None]] = (),
+    ax: Axes | None = None,
+) -> Picture | Axes:
     """Return a figure of the probability of each score, with its mean, median and mode.
 
     Parameters
@@ -40,6 +58,8 @@ def plot_score(
         the number of innings, for the label of the axis.
     asked
         spans of scores to shade, each with its name: the fewest balls, and the most or None.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.stats import RunLength
     >>> figure = plot_score(RunLength(0.9))
@@ -50,7 +70,7 @@ def plot_score(
     scores = np.arange(low, high + 1)
     chances = law.probability(scores)
     played = "an inning" if innings == 1 else f"{innings} innings"
-    figure, axes = new_axes(f"balls made in {played}", "probability")
+    figure, axes = new_axes(f"balls made in {played}", "probability", ax=ax)
     axes.fill_between(scores, chances, step="mid", color="0.85", linewidth=0)
     axes.step(scores, chances, where="mid", color="0.45", linewidth=1.0)
     for color, hatch, (name, least, most) in zip(_COLORS, _HATCHES, asked, strict=False):
@@ -71,11 +91,15 @@ def plot_score(
     axes.set_ylim(0.0)
     axes.margins(x=0.02)
     axes.legend(frameon=False)
-    return figure
+    return figure if ax is None else ax
 
 
-@our_look()
-def plot_spot(match: StraightPool) -> Figure:
+@overload
+def plot_spot(match: StraightPool, *, ax: Axes) -> Axes: ...
+@overload
+def plot_spot(match: StraightPool) -> Picture: ...
+@in_our_look
+def plot_spot(match: StraightPool, *, ax: Axes | None = None) -> Picture | Axes:
     """Return a figure of A's chance in straight pool against the weaker player's points.
 
     The match as it stands is a dot on the curve. If any number of points makes it even (see
@@ -85,6 +109,8 @@ def plot_spot(match: StraightPool) -> Figure:
     ----------
     match
         the match; player 1 is A.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.matches import StraightPool
     >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8))
@@ -99,7 +125,10 @@ def plot_spot(match: StraightPool) -> Figure:
     wins = [straight_pool_odds(replace(match, **{name: n})).p_win_1 for n in points]
     shots = f"A makes a shot with {float(match.p1):.4g}, B with {float(match.p2):.4g}"
     figure, axes = new_axes(
-        f"points that {' AB'[weaker]} needs", "P(A wins the match)", title=shots
+        f"points that {' AB'[weaker]} needs",
+        "P(A wins the match)",
+        title=shots,
+        ax=ax,
     )
     curve, half = LINES[:2]
     axes.plot(points, wins, **curve._asdict())
@@ -117,4 +146,4 @@ def plot_spot(match: StraightPool) -> Figure:
     axes.set_ylim(-0.02, 1.02)
     axes.margins(x=0.02)
     axes.legend(frameon=False)
-    return figure
+    return figure if ax is None else ax

@@ -2,25 +2,33 @@
 
 import math
 from collections.abc import Sequence
+from typing import overload
 
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
 
 from evenbreak.league.sandbag_pay import Sandbagging
 from evenbreak.league.sandbag_watch import Watched
-from evenbreak.plots.style import LINES, new_axes, our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, new_axes
 
 MOST_NAMED = 6
 """How many players of a league are named; the others are thin lines."""
 
 
-@our_look()
-def pay_figure(pays: Sandbagging) -> Figure:
+@overload
+def pay_figure(pays: Sandbagging, *, ax: Axes) -> Axes: ...
+@overload
+def pay_figure(pays: Sandbagging) -> Picture: ...
+@in_our_look
+def pay_figure(pays: Sandbagging, *, ax: Axes | None = None) -> Picture | Axes:
     """Draw the chance to win each match in earnest, for several numbers of dumped matches.
 
     Parameters
     ----------
     pays
         what `sandbagging` returned.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.handicaps import Ladder
     >>> from evenbreak.league import sandbagging
@@ -29,7 +37,10 @@ def pay_figure(pays: Sandbagging) -> Figure:
     ['honest', '2 dumped', '4 dumped', '6 dumped', '8 dumped']
     """
     figure, axes = new_axes(
-        "match in earnest", "chance to win it", title="What dumped matches bring"
+        "match in earnest",
+        "chance to win it",
+        title="What dumped matches bring",
+        ax=ax,
     )
     most, many = len(pays.rows) - 1, pays.p_win.shape[1]
     shown = sorted({round(most * part / 4) for part in range(5)})
@@ -43,11 +54,17 @@ def pay_figure(pays: Sandbagging) -> Figure:
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.25 * (high - low))
     axes.legend(loc="upper center", fontsize=9, ncols=3)
-    return figure
+    return figure if ax is None else ax
 
 
-@our_look()
-def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
+@overload
+def watch_figure(watched: Sequence[Watched], *, alpha: float, ax: Axes) -> Axes: ...
+@overload
+def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Picture: ...
+@in_our_look
+def watch_figure(
+    watched: Sequence[Watched], *, alpha: float, ax: Axes | None = None
+) -> Picture | Axes:
     """Draw the evidence against each player, match by match, on a logarithmic axis.
 
     Parameters
@@ -56,6 +73,8 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
         what `watch` returned.
     alpha
         the alarm is at 1 / alpha.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> import numpy as np
     >>> from evenbreak.league import Watched
@@ -69,6 +88,7 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
         "evidence",
         title="Evidence for sandbagging",
         size=(7.4, 4.2),
+        ax=ax,
     )
     named = sorted(watched, key=lambda one: -float(one.log_e.max()))[:MOST_NAMED]
     axes.axhline(1.0 / alpha, color="#555555", linewidth=0.8, linestyle=":", label="alarm")
@@ -83,7 +103,7 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
     legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize=9)
     for text in legend.get_texts():
         text.set_parse_math(False)
-    return figure
+    return figure if ax is None else ax
 
 
 def _curve(one: Watched) -> tuple[range, list[float]]:

@@ -1,24 +1,33 @@
 """Pictures of simulated seasons: ratings by week, wins by gap of skill, spread of the standings."""
 
+from typing import overload
+
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
 
 from evenbreak.files.problems import printable
-from evenbreak.plots.style import LINES, new_axes, our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, legend_below, new_axes
 
 MOST_PLAYERS = 40
 """How many players of the standings are drawn: the first half and the last half of them."""
 
 
-@our_look()
-def errors_figure(weeks: pd.DataFrame) -> Figure:
+@overload
+def errors_figure(weeks: pd.DataFrame, *, ax: Axes) -> Axes: ...
+@overload
+def errors_figure(weeks: pd.DataFrame) -> Picture: ...
+@in_our_look
+def errors_figure(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
     """Draw how far off the ratings are, week by week.
 
     Parameters
     ----------
     weeks
         as `weeks_frame` returns it.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.answers.season_tables import weeks_frame
     >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
@@ -28,7 +37,10 @@ def errors_figure(weeks: pd.DataFrame) -> Figure:
     'week'
     """
     figure, axes = new_axes(
-        "week", "rating less true skill (points)", title="How far off ratings are"
+        "week",
+        "rating less true skill (points)",
+        title="How far off ratings are",
+        ax=ax,
     )
     week = weeks["week"].to_numpy()
     for low, high, shade, part in (("05", "95", "0.88", 90), ("25", "75", "0.72", 50)):
@@ -49,11 +61,15 @@ def errors_figure(weeks: pd.DataFrame) -> Figure:
     axes.legend(loc="upper right", frameon=False, ncols=2)
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom, top + 0.25 * (top - bottom))  # room for the legend
-    return figure
+    return figure if ax is None else ax
 
 
-@our_look()
-def gaps_figure(fairness: pd.DataFrame) -> Figure:
+@overload
+def gaps_figure(fairness: pd.DataFrame, *, ax: Axes) -> Axes: ...
+@overload
+def gaps_figure(fairness: pd.DataFrame) -> Picture: ...
+@in_our_look
+def gaps_figure(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
     """Draw how often the stronger player wins, by the gap between the two skills.
 
     The bars are two standard errors of the simulation, up and down.
@@ -62,12 +78,15 @@ def gaps_figure(fairness: pd.DataFrame) -> Figure:
     ----------
     fairness
         as `fairness_frame` returns it.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
     """
     rows = fairness[fairness["group"] == "gap"]
     figure, axes = new_axes(
         "gap between the true skills of the day (points)",
         "share of matches won by the stronger player",
         title="How fair matches are",
+        ax=ax,
     )
     start = rows["from"].to_numpy(float)
     end = rows["to"].to_numpy(float, na_value=np.nan)
@@ -88,11 +107,15 @@ def gaps_figure(fairness: pd.DataFrame) -> Figure:
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, 0.4), max(high, 0.6))
     axes.annotate("even", (0.99, 0.5), xycoords=("axes fraction", "data"), ha="right", va="bottom")
-    return figure
+    return figure if ax is None else ax
 
 
-@our_look()
-def standings_figure(standings: pd.DataFrame) -> Figure:
+@overload
+def standings_figure(standings: pd.DataFrame, *, ax: Axes) -> Axes: ...
+@overload
+def standings_figure(standings: pd.DataFrame) -> Picture: ...
+@in_our_look
+def standings_figure(standings: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
     """Draw how many matches each player wins: the mean, and the range of 8 seasons in 10.
 
     Of more than 40 players the first 20 and the last 20 are drawn.
@@ -101,6 +124,8 @@ def standings_figure(standings: pd.DataFrame) -> Figure:
     ----------
     standings
         as `standings_frame` returns it.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
     """
     rows, many, half = standings, len(standings), MOST_PLAYERS // 2
     title = "Matches won in a season"
@@ -108,7 +133,7 @@ def standings_figure(standings: pd.DataFrame) -> Figure:
         rows = rows.iloc[[*range(half), *range(many - half, many)]]
         title += f": the first and the last {half} of {many:,}"
     size = (6.4, 1.4 + 0.22 * len(rows))
-    figure, axes = new_axes("matches won in a season", "", title=title, size=size)
+    figure, axes = new_axes("matches won in a season", "", title=title, size=size, ax=ax)
     place = np.arange(len(rows))[::-1]
     mean, sd = rows["points_mean"].to_numpy(), rows["points_sd"].to_numpy()
     low = rows["points_p10"].to_numpy(float, na_value=np.nan)
@@ -122,5 +147,5 @@ def standings_figure(standings: pd.DataFrame) -> Figure:
     axes.set_yticks(place, [printable(str(name))[:32] for name in rows["player"]])
     axes.set_ylim(-0.8, len(rows) - 0.2)
     axes.set_xlim(left=0.0)
-    figure.legend(loc="outside lower center", ncols=2, frameon=False)
-    return figure
+    legend_below(figure, ax)
+    return figure if ax is None else ax

@@ -23,6 +23,8 @@ _RADIUS = 0.27
 """Of a circle, in units of the distance between neighbours."""
 _RING = 0.82
 """The inner circle of a terminal node, as a fraction of the outer one."""
+INCHES = 1.25
+"""The length of a unit, with labels of up to eight characters."""
 FONT = 11.0
 _HEAD = "-|>,head_length=5,head_width=2.5"
 _BENDS = (0.0, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6)
@@ -101,6 +103,7 @@ class Pen:
         self.graph = graph
         self.places = places
         self.points_per_unit = 72 * inches
+        self.font = FONT * min(1.0, inches / INCHES)
         self.fills = fills(graph)
         self.used: dict[Any, list[float]] = {state: [] for state in graph}
         self.boxes = [(x, y, 0.8 * _RADIUS, 0.8 * _RADIUS) for x, y in places.values()]
@@ -201,7 +204,7 @@ class Pen:
         self, points: Sequence[Point], side: Point, label: str, own: tuple[Any, Any]
     ) -> None:
         """Write a label next to the first point of its own arc at which it covers nothing else."""
-        font = FONT - 1
+        font = self.font - 1
         wide = 0.3 * font * longest_line(label) / self.points_per_unit
         high = 0.6 * font / self.points_per_unit
         out = 0.02 + abs(side[0]) * wide + abs(side[1]) * high
@@ -273,13 +276,13 @@ class Pen:
             Circle(centre, radius, facecolor=fill, edgecolor="black", linewidth=1.2, zorder=3)
         )
         room = 2 * 0.85 * radius * self.points_per_unit
-        font = min(FONT, room / (0.6 * longest_line(label)))
+        font = min(self.font, room / (0.6 * longest_line(label)))
         self.axes.text(*centre, label, fontsize=font, color=ink, ha="center", va="center", zorder=4)
 
     def words(self, state: Any, label: str) -> None:
         """Write a node that is not a state."""
         x, y = self.places[state]
-        font = FONT + 2
+        font = self.font + 2
         wide = 0.3 * font * longest_line(label) / self.points_per_unit
         self.reach += [(x - wide, y), (x + wide, y)]
         self.axes.text(x, y, label, fontsize=font, ha="center", va="center", zorder=4)

@@ -1,14 +1,13 @@
 """One style for all plots: readable in black and white and for the colour-blind."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from textwrap import fill
 from typing import Any, Literal, NamedTuple
 
-import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+
+from evenbreak.plots.picture import Picture
 
 
 class LineStyle(NamedTuple):
@@ -43,23 +42,14 @@ _BESIDE = {
 }
 
 
-@contextmanager
-def our_look() -> Iterator[None]:
-    """Set the reader's own matplotlib settings aside, so that everybody gets the same picture.
-
-    >>> import matplotlib as mpl
-    >>> with mpl.rc_context({"font.size": 30}), our_look():
-    ...     mpl.rcParams["font.size"]
-    10.0
-    """
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        yield
-
-
 def new_axes(
-    x: str, y: str, *, title: str | None = None, size: tuple[float, float] = (6.0, 4.2)
-) -> tuple[Figure, Axes]:
+    x: str,
+    y: str,
+    *,
+    title: str | None = None,
+    size: tuple[float, float] = (6.0, 4.2),
+    ax: Axes | None = None,
+) -> tuple[Picture, Axes]:
     """Return a figure with one pair of axes, labelled.
 
     Parameters
@@ -69,19 +59,36 @@ def new_axes(
     title
         text above the axes.
     size
-        width and height in inches.
+        width and height of a new figure in inches.
+    ax
+        the axes to use; None: those of a new figure.
 
     >>> figure, axes = new_axes("level", "probability")
     >>> axes.get_xlabel()
     'level'
     """
-    figure = Figure(figsize=size, layout="constrained")
-    axes = figure.add_subplot()
+    figure: Any = Picture(figsize=size, layout="constrained") if ax is None else ax.figure
+    axes = figure.add_subplot() if ax is None else ax
     axes.set(xlabel=x, ylabel=y)
     axes.tick_params(direction="in", top=True, right=True)
     if title:
         axes.set_title(title)
     return figure, axes
+
+
+def legend_below(figure: Picture, ax: Axes | None) -> None:
+    """Write the legend below the axes of a new figure, or inside the axes given.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> _ = axes.plot([0, 1], label="3:3")
+    >>> legend_below(figure, None)
+    >>> len(figure.legends)
+    1
+    """
+    if ax is None:
+        figure.legend(frameon=False, loc="outside lower center", ncols=2)
+    else:
+        ax.legend(frameon=False)
 
 
 def write_title(figure: Figure, text: str) -> None:
@@ -94,7 +101,7 @@ def write_title(figure: Figure, text: str) -> None:
     """
     width = int(_LETTERS_AN_INCH * figure.get_figwidth())
     lines = [fill(line, width) for line in text.splitlines()]
-    figure.suptitle("\n".join(lines), fontsize=_LABEL)
+    figure.suptitle("\n".join(lines), fontsize=_LABEL, parse_math=False)
 
 
 def unit_axis(axes: Axes, *which: str) -> None:
@@ -147,3 +154,10 @@ def note(
     'even'
     """
     return axes.annotate(text, place, beside, textcoords="offset points", **style)
+
+
+def take_names_as_they_are(axes: Axes) -> None:
+    """Show labels and legend without reading a $ in a player's name as mathematics."""
+    legend = axes.get_legend()
+    for text in (axes.xaxis.label, axes.yaxis.label, *(legend.get_texts() if legend else ())):
+        text.set_parse_math(False)

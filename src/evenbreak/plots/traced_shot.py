@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerPatch
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Rectangle
@@ -14,7 +13,8 @@ from evenbreak.physics.leg import Leg
 from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.shot import Shot
 from evenbreak.physics.units import DEGREE, INCH
-from evenbreak.plots.style import LINES, our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES
 from evenbreak.plots.table_from_above import bare_axes, draw_ball, draw_table
 
 _SIZE = (9.0, 8.0)
@@ -38,8 +38,8 @@ _NEAR = 5.6
 """How much is shown on each side of the hit in the enlargement, in inches."""
 
 
-@our_look()
-def shot_on_table(traced: Shot | AimedShot) -> Figure:
+@in_our_look
+def shot_on_table(traced: Shot | AimedShot) -> Picture:
     """Draw a shot from above, to scale: where both balls go, and how they meet.
 
     A line is solid where a ball slides and dashed where it rolls. The ghost ball is where the
@@ -59,7 +59,7 @@ def shot_on_table(traced: Shot | AimedShot) -> Figure:
     """
     aimed = traced if isinstance(traced, AimedShot) else None
     found = traced.shot if isinstance(traced, AimedShot) else traced
-    figure = Figure(figsize=_SIZE)
+    figure = Picture(figsize=_SIZE)
     whole = bare_axes(figure, (0.02, 0.42, 0.96, 0.57))
     draw_table(whole, found.table)
     _draw_shot(whole, found, aimed)

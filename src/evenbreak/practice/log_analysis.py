@@ -131,7 +131,9 @@ class LogAnalysis:
         return max(self.levels, key=away) if self.model else None
 
 
-def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999) -> LogAnalysis:
+def analyse_log(
+    log: DrillLog, *, rng: np.random.Generator | int, replicas: int = 1999
+) -> LogAnalysis:
     """Return what a drill log says, and how certain that is.
 
     Statements about the long run assume that the chances stay as they are, and that untried
@@ -142,7 +144,7 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
     log
         the attempts.
     rng
-        the source of the random draws.
+        the source of the random draws: a generator or a seed.
     replicas
         how many logs to simulate for each test, and how many sets of chances to draw for the
         intervals of the lifts and of the mean.
@@ -173,6 +175,7 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
     attempts = log.attempts
     p_seen = chances_seen(attempts, log.successes)
     law = level_laws(p_seen)
+    rng = np.random.default_rng(rng)
     played = play_again(log, p_seen, replicas=replicas, rng=rng)
     mean_low, mean_high, lifts = _drawn_lifts(log, p_seen, rng, replicas)
     values = tuple(range(1, len(attempts) + 1))

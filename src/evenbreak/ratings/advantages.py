@@ -10,7 +10,7 @@ from scipy.special import expit, log_expit, logit, logsumexp
 
 from evenbreak.arrays import Floats
 from evenbreak.ratings.calibration import Estimate, logistic_coefficient, two_sided, with_error
-from evenbreak.ratings.results import FORMATS
+from evenbreak.ratings.results_frame import FORMATS
 from evenbreak.ratings.walk_forward import NODES, Forecasts
 from evenbreak.ratings.who_broke import breakers
 
@@ -35,6 +35,41 @@ class FirstBreaks(NamedTuple):
     expected: float
     p_value: float
     matches: int
+
+
+class FirstColumn(NamedTuple):
+    """How often the player in the first column won the match.
+
+    Parameters
+    ----------
+    matches, won
+        decided matches, and those that player a won.
+    expected
+        the sum of the predicted chances of player a.
+    """
+
+    matches: int
+    won: int
+    expected: float
+
+    @property
+    def winners_first(self) -> bool:
+        """Whether the file must list winners first: no home advantage is as large.
+
+        Player a won three quarters or more of at least ten matches, and a fifth of them more
+        than predicted.
+        """
+        share, predicted = self.won / self.matches, self.expected / self.matches
+        return self.matches >= 10 and share >= 0.75 and share - predicted >= 0.2
+
+
+def first_column(forecasts: Forecasts) -> FirstColumn | None:
+    """Return how often the player in the first column won; None where no match was decided."""
+    rows = forecasts.race_a > 0
+    if not rows.any():
+        return None
+    expected = float(forecasts.p_match_integrated[rows].sum())
+    return FirstColumn(int(rows.sum()), int(forecasts.won[rows].sum()), expected)
 
 
 def side_advantage(forecasts: Forecasts) -> Estimate | None:

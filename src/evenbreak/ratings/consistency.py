@@ -6,13 +6,16 @@ Every check is a mask over all rows; a message is made only for the rows that fa
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.arrays import Bools, Ints
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.doors import check_results
+
+if TYPE_CHECKING:
+    from evenbreak.ratings.results import Results
 
 _Finding = tuple[Bools, str, str]
 """The rows that fail a check, the column to blame, and a message for `_words` to fill in."""
@@ -34,12 +37,14 @@ def find_problems(results: Results) -> list[Problem]:
     and racks that fit none of these. Forfeits and 0-0 rows need not fit their race: they
     were not played out.
 
+    >>> from evenbreak.ratings import Results
     >>> season = Results.from_names(["Ann"], ["Bo"], [4], [5], race_a=[7], race_b=[5], winner=[1])
     >>> for problem in find_problems(season):
     ...     print(problem.row, problem.column, problem.message)
     0 winner winner is a, but b reached the race (4-5 in a race 7:5); write b, or correct the
     scores or the race
     """
+    check_results(results)
     found = [
         Problem(row, column, message.format(**_words(results, row)))
         for check in (_cells, _races, _winners, _racks)
@@ -122,6 +127,7 @@ def who_won(results: Results) -> NDArray[np.int8]:
     With a race that is the player who reached it, without one the player with more games.
     Forfeits and 0-0 have no winner.
 
+    >>> from evenbreak.ratings import Results
     >>> season = Results.from_names(["Ann"] * 2, ["Bo"] * 2, [4, 4], [3, 3], race_a=[5, 0],
     ...                             race_b=[3, 0])
     >>> who_won(season)

@@ -17,10 +17,14 @@ from scipy.special import expit
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.covariance import sums_by_player
-from evenbreak.ratings.newton import damped, find_zero, tolerance
+from evenbreak.ratings.newton import damped, find_zero, step_accuracy, tolerance
 
 GRADIENT = 1e-6
 """How small the gradient has to become, in games, times τ where that is below 1."""
+
+
+VARIANCE_ACCURACY = 1e-5
+"""How exactly to solve for a variance, which is off by the square of what its solution is."""
 
 
 class DailyRefit:
@@ -44,7 +48,7 @@ class DailyRefit:
         self._games = np.zeros(len(pairs))
         self._low_won = np.zeros(len(pairs))
         self._precision = precision
-        self._solve: Callable[[Floats], Floats] | None = None
+        self._solve: Callable[[Floats, float], Floats] | None = None
         self.skill = np.zeros(players)
 
     def learn(self, matches: slice, won_a: Ints, won_b: Ints) -> None:
@@ -69,46 +73,52 @@ class DailyRefit:
         right = np.zeros((len(self.skill), len(a)))
         right[a, which] += 1.0
         right[b, which] -= 1.0
-        solved = self._solve(right)
+        solved = self._solve(right, VARIANCE_ACCURACY)
         return np.asarray(solved[a, which] - solved[b, which])
 
     def _find_mode(self) -> None:
         def gradient_at(skill: Floats) -> tuple[Floats, Callable[[], Floats]]:
             p_low = expit(skill[self._low] - skill[self._high])
             surplus = self._games * p_low - self._low_won
-            gradient = self._ends(surplus, -surplus) + self._precision * skill
+            ends = sums_by_player(len(skill), self._low, self._high, surplus, -surplus)
+            gradient = ends + self._precision * skill
             solve = self._solver(self._games * p_low * (1.0 - p_low))
             self._solve = solve
-            return gradient, lambda: damped(-solve(gradient), self._low, self._high)
+            accuracy = step_accuracy(gradient)
+            return gradient, lambda: damped(-solve(gradient, accuracy), self._low, self._high)
 
         most = float(self._ends(self._games).max())
         enough = tolerance(self._precision, most, GRADIENT)
         self.skill = find_zero(self.skill, gradient_at, enough).point
 
-    def _ends(self, low: Floats, high: Floats | None = None) -> Floats:
-        return sums_by_player(len(self.skill), self._low, self._high, low, high)
+    def _ends(self, each: Floats) -> Floats:
+        """Return for each player the sum over their pairs, to a few roundings a pair."""
+        low, high = (np.bincount(ends, each, len(self.skill)) for ends in (self._low, self._high))
+        return np.asarray(low + high)
 
-    def _solver(self, weight: Floats) -> Callable[[Floats], Floats]:
-        """Return what solves Hx = b, H the Laplacian of `weight` plus τI."""
+    def _solver(self, weight: Floats) -> Callable[[Floats, float], Floats]:
+        """Return what solves Hx = b to an accuracy, H the Laplacian of `weight` plus τI."""
         players = len(self.skill)
         diagonal = self._ends(weight) + self._precision
         seen = weight > 0.0
         low, high = self._low[seen], self._high[seen]
         upper = sparse.csr_array((-weight[seen], (low, high)), shape=(players, players))
         whole = sparse.csr_array(upper + upper.T + sparse.diags_array(diagonal))
-        return lambda right: _conjugate_gradients(whole, diagonal, right)
+        return lambda right, accuracy: _conjugate_gradients(whole, diagonal, right, accuracy)
 
 
-def _conjugate_gradients(matrix: Any, diagonal: Floats, right: Floats) -> Floats:
-    """Return the solution of each column, the matrix scaled to a unit diagonal."""
+def _conjugate_gradients(matrix: Any, diagonal: Floats, right: Floats, accuracy: float) -> Floats:
+    """Return the solution of each column, the matrix scaled to a unit diagonal.
+
+    What is left over of each column is at most `accuracy` times it.
+    """
     columns = right[:, None] if right.ndim == 1 else right
     scale = 1.0 / np.sqrt(diagonal)[:, None]
     residual = scale * columns
     solution = np.zeros_like(residual)
     direction = residual.copy()
     square = (residual**2).sum(0)
-    # A variance is off by the square of what its solution is off by.
-    enough = 1e-12 * square
+    enough = accuracy**2 * square
     for _ in range(2 * len(diagonal) + 100):
         if (square <= enough).all():
             break

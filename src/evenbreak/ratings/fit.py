@@ -14,6 +14,7 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of, match_weights, until
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.mixed_posterior import find_mixed_mode
@@ -104,6 +105,7 @@ def fit(
     >>> fit(season, scale="fargo", anchor={"Ann": 600}).rating.round(1)
     array([600. , 539.7, 503.5])
     """
+    check_results(results)
     prior_sd = checked_prior(prior_sd)
     scale = scale_of(scale)
     centre, named = _anchors(anchor, scale, results.players)

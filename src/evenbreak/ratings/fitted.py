@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from evenbreak.ratings.covariance import Curvature
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
 from evenbreak.ratings.pairs import PairCounts
 from evenbreak.ratings.scale import Scale
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +91,43 @@ class Ratings:
         return (
             f"<Ratings of {len(self.players):,} players from {self.matches:,} matches, "
             f"{self.scale.name} scale>"
+        )
+
+    def strongest_first(self, players: Iterable[int] | None = None) -> list[int]:
+        """Return players (positions in `players`; None: all), the strongest first, then by name."""
+        # Rounded in log-odds, so that neither the scale nor the last bits decide.
+        strength = np.round(self.scale.log_odds(self.rating - self.anchor), 9)
+        chosen = range(len(self.players)) if players is None else players
+        return sorted(chosen, key=lambda k: (-strength[k], k))
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return every player's rating as a DataFrame, the strongest first.
+
+        Its columns are those of ratings.csv: player; rating, standard_error and quasi_error in
+        points of the scale; games, won and lost in the matches that were used; races_won and
+        races_lost, where there are matches of which only the winner is known; component: players
+        with the same number are linked by a chain of opponents, and only their ratings can be
+        compared; and scale, the same in each row: its name, or the points that double the odds.
+
+        >>> from evenbreak.ratings import Results, fit
+        >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [50], [70]), scale="fargo")
+        >>> ratings.to_frame()[["player", "rating", "games"]].round(1)
+          player  rating  games
+        0     Bo   523.4    120
+        1    Ann   476.6    120
+        """
+        import pandas as pd
+
+        order = self.strongest_first()
+        columns = ["rating", "standard_error", "quasi_error", "games", "won", "lost"]
+        columns += ["races_won", "races_lost"] if self.races_won.any() else []
+        columns.append("component")
+        return pd.DataFrame(
+            {
+                "player": [self.players[k] for k in order],
+                **{name: np.asarray(getattr(self, name))[order] for name in columns},
+                "scale": self.scale.text,
+            }
         )
 
     @property

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,9 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 from evenbreak.arrays import Bools, Ints
 from evenbreak.checks import column, names
 from evenbreak.errors import InputError
+from evenbreak.ratings.consistency import find_problems
+from evenbreak.ratings.results_frame import FORMATS, FrameReader, columns_of
 
-FORMATS = ("", "winner", "loser", "alternate", "a", "b")
-"""Break formats in the order of their codes in `Results.break_format`; 0 is not stated."""
+if TYPE_CHECKING:
+    import pandas as pd
 
 _TYPES: dict[str, Any] = {
     "player_a": np.int64,
@@ -160,6 +162,48 @@ class Results:
             **columns,
         )
 
+    @classmethod
+    def from_frame(cls, frame: pd.DataFrame) -> Results:
+        """Return the results in a DataFrame, a match a row.
+
+        Parameters
+        ----------
+        frame
+            with the columns of a results file: `player_a`, `player_b`, `score_a` and
+            `score_b`, and those of `date`, `race_a`, `race_b`, `winner`, `first_break`,
+            `break_format`, `racks`, `event` and `forfeit` that are known. `winner` and
+            `first_break` are a, b or a name. A forfeit may leave its scores empty, and so may a
+            match of which the races and the winner are known. Other columns are not used, which
+            a warning says.
+
+        Raises
+        ------
+        DataError
+            with every cell that has no meaning and every contradiction, a line each, which
+            names the row by its label in the index; and with names that differ in case or
+            spaces alone.
+
+        >>> import pandas as pd
+        >>> frame = pd.DataFrame({"player_a": ["Ann", "Bo"], "player_b": ["Bo", "Cy"],
+        ...                       "score_a": [7, 4], "score_b": [5, 7], "race_a": 7, "race_b": 7})
+        >>> Results.from_frame(frame)
+        <Results of 2 matches between 3 players>
+        >>> Results.from_frame(frame.assign(score_b=[5, 6.5]))
+        Traceback (most recent call last):
+        ...
+        evenbreak.errors.DataError: row 1: score_b is 6.5; give a whole number, 0 or more
+        """
+        if not all(hasattr(frame, name) for name in ("columns", "index", "iloc")):
+            raise InputError(f"frame is {type(frame).__name__} {frame!r:.60}; give a DataFrame")
+        reader = FrameReader(frame)
+        columns = columns_of(reader)
+        reader.raise_any()
+        results = cls.from_names(**columns)
+        for problem in find_problems(results):
+            reader.add(problem.row, problem.message)
+        reader.raise_any()
+        return results
+
     def __len__(self) -> int:
         return len(self.player_a)
 
@@ -187,6 +231,35 @@ class Results:
             name: None if values is None else values[rows] for name, values in columns.items()
         }
         return Results(self.players, **picked)
+
+    def with_match(
+        self, a: int, b: int, score_a: int, score_b: int, date: np.datetime64 | None = None
+    ) -> Results:
+        """Return the results with one more match at the end; what else they hold is not stated.
+
+        Parameters
+        ----------
+        a, b
+            who plays: positions in `players`.
+        score_a, score_b
+            the games that each wins.
+        date
+            the day, where the results have days.
+
+        >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[7])
+        >>> more = season.with_match(1, 0, 7, 2)
+        >>> more.player_a, more.score_b, more.race_a
+        (array([0, 1]), array([5, 2]), array([7, 0]))
+        """
+        given = {"player_a": a, "player_b": b, "score_a": score_a, "score_b": score_b}
+        given["date"] = np.datetime64("NaT", "D") if date is None else date  # type: ignore[assignment]
+        columns: dict[str, Any] = {}
+        for name, kind in _TYPES.items():
+            values = getattr(self, name)
+            unstated = "" if kind is object else 0
+            more = np.array([given.get(name, unstated)], dtype=kind)
+            columns[name] = None if values is None else np.concatenate([values, more])
+        return Results(self.players, **columns)
 
     def played(self) -> Played:
         """Return the matches with games in them, and how many rows were left out.

@@ -1,8 +1,7 @@
-"""How good the predictions of a season were, with the prior that suits each kind best."""
+"""How good one kind of prediction of a season was."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -17,16 +16,10 @@ from evenbreak.ratings.calibration import (
     logistic_coefficient,
     no_favourites,
 )
-from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.prior import WIDTHS
-from evenbreak.ratings.results import Results
-from evenbreak.ratings.walk_forward import Forecasts, walk_forward
+from evenbreak.ratings.walk_forward import Forecasts
 
 Of = Literal["game", "match"]
 How = Literal["plug-in", "integrated"]
-
-PRIORS = WIDTHS[:9]
-"""The prior standard deviations that are tried, in log-odds: 0.09 to 1.39, `PRIOR_SD` too."""
 
 FEWEST_MATCHES = 30
 """Matches with a favourite from which a slope is given."""
@@ -39,7 +32,7 @@ SUREST = 1e-12
 
 
 class Scored(NamedTuple):
-    """How good one kind of prediction was, with the prior that suits it best.
+    """How good one kind of prediction was.
 
     Parameters
     ----------
@@ -49,15 +42,12 @@ class Scored(NamedTuple):
         'plug-in': from the ratings at face value; 'integrated': averaged over their
         uncertainty.
     prior_sd
-        the prior with the least log-loss, or the one that was given.
+        the prior that the ratings had.
     log_loss, brier
         the mean over games (or matches), in nats; a toss-up has ln 2 and 1/4.
     slope
         the calibration slope: 1 is right, below 1 the predictions are too extreme. None
         with fewer than 30 matches with a favourite, or where its interval is wider than 4.
-    as_it_went
-        the log-loss where each date is predicted with the prior that did best before it;
-        None where the prior was given.
     """
 
     of: Of
@@ -66,7 +56,6 @@ class Scored(NamedTuple):
     log_loss: Estimate
     brier: Estimate
     slope: Estimate | None
-    as_it_went: float | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,12 +109,7 @@ class Predictions:
         """How many matches have no favourite."""
         return no_favourites(self.p, self.trials)
 
-    def scored(
-        self,
-        cluster: Ints,
-        rng: np.random.Generator,
-        as_it_went: float | None = None,
-    ) -> Scored:
+    def scored(self, cluster: Ints, rng: np.random.Generator) -> Scored:
         """Return how good they were; `rng` resamples matches by their `cluster`."""
         x = np.log(self.p) - np.log1p(-self.p)
         slope = logistic_coefficient(x, self.won, self.trials, cluster)
@@ -140,56 +124,4 @@ class Predictions:
             bootstrap_ratio(self.losses, self.trials, cluster, rng),
             bootstrap_ratio(squares, self.trials, cluster, rng),
             slope,
-            as_it_went,
         )
-
-
-def best_predictions(
-    walks: Sequence[Forecasts], of: Of, how: How, results: Results, half_life: float | None
-) -> Predictions:
-    """Return the predictions with the prior that suits them best, among `walks` or between them.
-
-    Parameters
-    ----------
-    walks
-        one for each of `PRIORS`, or a single one.
-    of, how
-        the kind of prediction.
-    results, half_life
-        what the walks were made of.
-    """
-    tried = [Predictions.of_walk(walk, of, how) for walk in walks]
-    losses = [one.mean_loss for one in tried]
-    least = int(np.argmin(losses))
-    if 0 < least < len(walks) - 1:
-        between = walk_forward(results, prior_sd=_vertex(losses, least), half_life=half_life)
-        refined = Predictions.of_walk(between, of, how)
-        if refined.mean_loss <= losses[least]:
-            return refined
-    return tried[least]
-
-
-def _vertex(losses: list[float], least: int) -> float:
-    """Return where the parabola through the least loss and its neighbours is lowest."""
-    x = np.log(PRIORS)
-    before, at, after = losses[least - 1 : least + 2]
-    shift = 0.5 * (before - after) / (before - 2.0 * at + after)
-    return float(np.exp(x[least] + shift * (x[1] - x[0])))
-
-
-def loss_as_it_went(walks: Sequence[Forecasts], of: Of, how: How) -> float | None:
-    """Return the log-loss where each date has the prior that did best on earlier dates.
-
-    None where there is only one prior.
-    """
-    if len(walks) == 1:
-        return None
-    tried = [Predictions.of_walk(walk, of, how) for walk in walks]
-    date_of = walks[0].date_of
-    many = int(date_of[-1]) + 1
-    by_date = np.array([np.bincount(date_of, one.losses, many) for one in tried])
-    before = np.cumsum(by_date, axis=1) - by_date
-    # Before the first date all are equal up to rounding: then the default is used.
-    equal = np.ptp(before, axis=0) < 1e-9
-    chosen = np.where(equal, PRIORS.index(PRIOR_SD), before.argmin(0))
-    return float(by_date[chosen, np.arange(many)].sum() / tried[0].trials.sum())

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
 
-from evenbreak.ratings.advantages import FirstBreaks, break_advantage, first_breaks, side_advantage
-from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
-from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
-from evenbreak.ratings.results import Results
-from evenbreak.ratings.scored import (
-    PRIORS,
-    How,
-    Of,
-    Predictions,
-    Scored,
-    best_predictions,
-    loss_as_it_went,
+from evenbreak.checks import seed_of
+from evenbreak.ratings.advantages import (
+    FirstBreaks,
+    FirstColumn,
+    break_advantage,
+    first_breaks,
+    first_column,
+    side_advantage,
 )
+from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
+from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
+from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
+from evenbreak.ratings.prior import PriorChoice, best_prior
+from evenbreak.ratings.race_lengths import RaceLengths, race_lengths
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.scored import How, Of, Predictions, Scored
 from evenbreak.ratings.walk_forward import Forecasts, walk_forward
 from evenbreak.ratings.within_matches import Dispersion, Streaks, dispersion, streaks
 
@@ -40,18 +45,20 @@ class Validation:
     forecasts
         the predictions with the prior `prior_sd`.
     prior_sd
-        the prior to use: the best for single games, uncertainty integrated out.
-    priors
-        each prior that was tried with its log-loss a game, integrated.
+        the prior that was given, or else the one that `best_prior` chooses.
+    choice
+        how it was chosen; None where it was given.
     scored
-        games and matches, plug-in and integrated, each with its own best prior; no matches
-        where there are no races.
+        games and matches, plug-in and integrated; no matches where there are no races.
     usual
         the integrated predictions with the default prior, `PRIOR_SD`; empty where a prior
         was given.
     gain
-        log-loss of plug-in less that of integrated, each with its own best prior, by what is
-        predicted: above 0, integrating out the uncertainty helps.
+        log-loss of plug-in less that of integrated, by what is predicted: above 0,
+        integrating out the uncertainty helps.
+    half_lives
+        what it gains to let old games count less; empty where a half-life was given, or the
+        season is too short to say.
     skill
         ln 2 less the log-loss a game, integrated: above 0, the ratings beat a coin.
     games, matches
@@ -60,8 +67,13 @@ class Validation:
         the same for matches, by the ratings at face value.
     toss_ups
         how many matches have no favourite and so are in no bin, by what is predicted.
-    dispersion, streaks, side, breaker, first_breaks
+    dispersion, streaks, breaker, first_breaks
         whether play inside matches agrees with the model; None where the file does not say.
+    side, first_column
+        how much stronger players in the first column are than their ratings, in log-odds, and
+        how many matches they won; None where nobody did, or nothing shows it.
+    lengths
+        how often favourites won short races and long ones, where there are both.
     spots
         how often the player with the longer race won.
     drawn
@@ -70,10 +82,11 @@ class Validation:
 
     forecasts: Forecasts
     prior_sd: float
-    priors: tuple[tuple[float, float], ...]
+    choice: PriorChoice | None
     scored: tuple[Scored, ...]
     usual: tuple[Scored, ...]
     gain: dict[str, Estimate]
+    half_lives: tuple[HalfLifeGain, ...]
     skill: Estimate
     games: tuple[CalibrationBin, ...]
     matches: tuple[CalibrationBin, ...]
@@ -82,9 +95,11 @@ class Validation:
     dispersion: Dispersion | None
     streaks: Streaks | None
     side: Estimate | None
+    first_column: FirstColumn | None
     breaker: Estimate | None
     first_breaks: FirstBreaks | None
     spots: tuple[HandicapFairness, ...]
+    lengths: tuple[RaceLengths, ...]
     drawn: Literal["dates", "matches"]
 
 
@@ -93,7 +108,7 @@ def validate(
     *,
     prior_sd: float | None = None,
     half_life: float | None = None,
-    seed: int = 1,
+    seed: int | np.random.Generator = 1,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Validation:
     """Predict a season date by date, and return how good the predictions were.
@@ -103,14 +118,15 @@ def validate(
     results
         the matches, with dates.
     prior_sd
-        standard deviation of the prior in natural log-odds; None: each kind of prediction
-        gets the one that suits it best, from `PRIORS` or between them.
+        standard deviation of the prior in natural log-odds; None: the one that `best_prior`
+        chooses from all matches with a date.
     half_life
-        days after which a game counts half; None: games never age.
+        days after which a game counts half; None: games never age, and it is tested whether
+        that is right.
     seed
-        of the bootstrap and of the simulated seasons.
+        of the bootstrap and of the simulated seasons: a whole number, or a generator.
     progress
-        called with how many steps are done, and of how many.
+        called with how much is done, and of how much.
 
     Raises
     ------
@@ -120,7 +136,7 @@ def validate(
     Notes
     -----
     A prior chosen on the season by which it is judged looks slightly better than it is;
-    `Scored.as_it_went` is free of that.
+    `PriorChoice.as_it_went` is free of that.
 
     >>> season = Results.from_names(["Ann", "Ann", "Bo"], ["Bo", "Bo", "Ann"], [7, 7, 3], [2, 4, 7],
     ...     date=["2024-09-03", "2024-09-10", "2024-09-17"])
@@ -128,69 +144,84 @@ def validate(
     >>> [(row.of, row.how, round(row.log_loss.value, 3)) for row in found.scored[:2]]
     [('game', 'plug-in', 0.654), ('game', 'integrated', 0.655)]
     """
-    tried = PRIORS if prior_sd is None else (prior_sd,)
-    steps = len(tried) + 5
-    walks = []
-    for done, sd in enumerate(tried, 1):
-        walks.append(walk_forward(results, prior_sd=sd, half_life=half_life))
-        progress(done, steps)
-    raced = bool(walks[0].race_a.any())
-    kinds: list[tuple[Of, How]] = [("game", "plug-in"), ("game", "integrated")]
-    kinds += [("match", "plug-in"), ("match", "integrated")] if raced else []
-    best = {}
-    for done, kind in enumerate(kinds, len(tried) + 1):
-        best[kind] = best_predictions(walks, *kind, results, half_life)
-        progress(done, steps)
-    used = best["game", "integrated"]
-    walk = used.walk
+    check_results(results)
+    seed = seed_of(seed)
+    parts = _parts(progress, 1 + 2 * (prior_sd is None) + (half_life is None))
+    walk = walk_forward(
+        results,
+        prior_sd=PRIOR_SD if prior_sd is None else prior_sd,
+        half_life=half_life,
+        progress=next(parts),
+    )
+    usual_walk, choice = walk, None
+    dated = results.select(~np.isnat(np.asarray(results.date)))
+    if prior_sd is None:
+        choice = best_prior(dated, half_life=half_life, progress=next(parts))
+        shown = next(parts)
+        if choice.prior_sd != PRIOR_SD:
+            walk = walk_forward(
+                results, prior_sd=choice.prior_sd, half_life=half_life, progress=shown
+            )
+    rng = np.random.default_rng(seed)
+    half_lives: tuple[HalfLifeGain, ...] = ()
+    if half_life is None:
+        half_lives = half_life_gains(dated, walk.prior_sd, rng, progress=next(parts))
+    raced = bool(walk.race_a.any())
+    of_all: tuple[Of, ...] = ("game", "match") if raced else ("game",)
+    hows: tuple[How, ...] = ("plug-in", "integrated")
+    made = {(of, how): Predictions.of_walk(walk, of, how) for of in of_all for how in hows}
+    used = made["game", "integrated"]
     by_dates = int(walk.date_of[-1]) + 1 >= FEWEST_DATES
     cluster = walk.date_of if by_dates else np.arange(len(walk))
-    rng = np.random.default_rng(seed)
     spread = dispersion(walk, rng)
-    progress(steps, steps)
-    scored = tuple(
-        one.scored(cluster, rng, loss_as_it_went(walks, *kind)) for kind, one in best.items()
-    )
-    of_all = tuple(dict.fromkeys(of for of, _ in best))
     usual: tuple[Scored, ...] = ()
     if prior_sd is None:
         own_rng = np.random.default_rng(seed)
-        default = walks[PRIORS.index(PRIOR_SD)]
         usual = tuple(
-            Predictions.of_walk(default, of, "integrated").scored(cluster, own_rng) for of in of_all
+            Predictions.of_walk(usual_walk, of, "integrated").scored(cluster, own_rng)
+            for of in of_all
         )
-    tried_walks = sorted({*walks, walk}, key=lambda one: one.prior_sd)
     return Validation(
         forecasts=walk,
         prior_sd=walk.prior_sd,
-        priors=tuple(
-            (one.prior_sd, Predictions.of_walk(one, "game", "integrated").mean_loss)
-            for one in tried_walks
-        ),
-        scored=scored,
+        choice=choice,
+        scored=tuple(one.scored(cluster, rng) for one in made.values()),
         usual=usual,
         gain={
             of: bootstrap_ratio(
-                best[of, "plug-in"].losses - best[of, "integrated"].losses,
-                best[of, "plug-in"].trials,
+                made[of, "plug-in"].losses - made[of, "integrated"].losses,
+                made[of, "plug-in"].trials,
                 cluster,
                 rng,
             )
             for of in of_all
         },
+        half_lives=half_lives,
         skill=bootstrap_ratio(np.log(2.0) * used.trials - used.losses, used.trials, cluster, rng),
         games=_calibrated(used, spread),
         matches=_calibrated(Predictions.of_walk(walk, "match", "integrated")),
         matches_plug_in=_calibrated(Predictions.of_walk(walk, "match", "plug-in")),
-        toss_ups={of: Predictions.of_walk(walk, of, "integrated").toss_ups for of in of_all},
+        toss_ups={of: made[of, "integrated"].toss_ups for of in of_all},
         dispersion=spread,
         streaks=streaks(walk),
         side=side_advantage(walk),
+        first_column=first_column(walk),
         breaker=break_advantage(walk),
         first_breaks=first_breaks(walk),
         spots=tuple(handicap_fairness(walk)),
+        lengths=tuple(race_lengths(walk)),
         drawn="dates" if by_dates else "matches",
     )
+
+
+def _parts(progress: Callable[[int, int], None], many: int) -> Iterator[Callable[[int, int], None]]:
+    """Yield for each part of the work what shows its progress, as hundredths of a part."""
+
+    def show(part: int, done: int, total: int) -> None:
+        progress(100 * part + 100 * done // total, 100 * many)
+
+    for part in range(many):
+        yield partial(show, part)
 
 
 def _calibrated(

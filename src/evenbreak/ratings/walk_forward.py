@@ -7,6 +7,7 @@ earlier dates predict every match of a date, and only then are refitted with its
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -19,6 +20,7 @@ from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.daily_refit import DailyRefit
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
 from evenbreak.ratings.results import Results
 
@@ -99,7 +101,11 @@ class Forecasts:
 
 
 def walk_forward(
-    results: Results, *, prior_sd: float = PRIOR_SD, half_life: float | None = None
+    results: Results,
+    *,
+    prior_sd: float = PRIOR_SD,
+    half_life: float | None = None,
+    progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Forecasts:
     """Predict every dated match of `results` from the matches of earlier dates alone.
 
@@ -111,6 +117,8 @@ def walk_forward(
         standard deviation of the prior in natural log-odds.
     half_life
         days after which a game counts half; None: games never age.
+    progress
+        called with how many dates are done, and of how many.
 
     Raises
     ------
@@ -130,6 +138,7 @@ def walk_forward(
     >>> forecasts.p_game.round(3), forecasts.p_game_integrated.round(3)
     (array([0.5  , 0.687]), array([0.5  , 0.675]))
     """
+    check_results(results)
     precision = checked_prior(prior_sd) ** -2
     if half_life is not None:
         wanted = "a number from 0.01 to 1,000,000, in days"
@@ -153,6 +162,7 @@ def walk_forward(
         difference[rows] = league.skill[a[rows]] - league.skill[b[rows]]
         variance[rows] = league.difference_variance(a[rows], b[rows])
         league.learn(rows, season.score_a[rows], season.score_b[rows])
+        progress(day + 1, len(days))
     return _forecasts(
         season,
         date_of,

@@ -20,6 +20,9 @@ from evenbreak.ratings.walk_forward import Forecasts
 REPLICAS = 300
 """Simulated seasons."""
 
+LONGEST_SIMULATED = 1000
+"""Games needed in the longest race that is simulated: each game of it takes memory."""
+
 
 class Dispersion(NamedTuple):
     """How far scores are from what was predicted, compared with simulated seasons.
@@ -67,11 +70,12 @@ class Streaks(NamedTuple):
 def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | None:
     """Compare the spread of scores about the predictions with that of simulated seasons.
 
-    None where there is no race with games after the first date. More spread than by chance
-    points to good and bad days, or to ratings that lag behind; less, to matches that are
-    kept close.
+    None where there is no race to 1,000 games or less after the first date. More spread than
+    by chance points to good and bad days, or to ratings that lag behind; less, to matches that
+    are kept close.
     """
-    rows = (forecasts.race_a > 0) & (forecasts.date_of > 0)
+    longest = np.maximum(forecasts.race_a, forecasts.race_b)
+    rows = (longest > 0) & (longest <= LONGEST_SIMULATED) & (forecasts.date_of > 0)
     if not rows.any():
         return None
     p = forecasts.p_game_integrated[rows]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from evenbreak.answers.chart_bands import Band
 from evenbreak.answers.sure_pairs import SurePair
-from evenbreak.matches.win import race_win_probability
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from evenbreak.ratings.scale import Scale
 from evenbreak.sheets.rating_bars import Tick, round_numbers
 
@@ -42,8 +42,13 @@ class Plot(NamedTuple):
     bottom: int = _BOTTOM
 
 
-def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale) -> Plot:
-    """Return P(the stronger wins) against the rating difference: the chart, and each pair."""
+def evenness_plot(
+    bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale, error: float = 0.0
+) -> Plot:
+    """Return P(the stronger wins) against the rating difference: the chart, and each pair.
+
+    `error` is the standard error of a difference over which the chart's chances are averaged.
+    """
     chances = [p for band in bands for p in (band.p_first, band.p_after)]
     chances += [pair.p_win for pair in pairs]
     away = max(0.2, *(abs(p - 0.5) for p in chances)) + 0.02
@@ -58,9 +63,7 @@ def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale
     curves, names = [], []
     for band in bands:
         places = [band.first + (band.after - band.first) * k / _STEPS for k in range(_STEPS + 1)]
-        curve = race_win_probability(
-            [scale.win_probability(d) for d in places], band.stronger, band.weaker
-        )
+        curve = win_given_ratings(places, error, band.stronger, band.weaker, scale=scale)
         points = zip(places, curve.tolist(), strict=True)
         curves.append(" ".join(f"{x(d):g},{y(p):g}" for d, p in points))
         if x(band.after) - x(band.first) >= _NAME:

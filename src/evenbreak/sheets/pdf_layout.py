@@ -21,20 +21,24 @@ HEADING, TICKS = 1.08, 0.45
 """Heights of what is above the slanted names and below the table."""
 
 SLANT = 45
+GROUP, NOTE = "group", 8.0
+"""What stands above the column of groups, and the size of notes, in points."""
 
 
 @dataclass(frozen=True)
 class PageSizes:
     """Sizes that all pages share: inches, and points for letters.
 
-    `place`, `name` and `rating` are the widths of those columns, `cell` and `row` the size of
-    a race's cell; `top` is where the table begins; `columns` is how many opponents a page has.
+    `place`, `name`, `rating` and `group` are the widths of those columns, the last 0 if all
+    players are of one group; `cell` and `row` are the size of a race's cell; `top` is where the
+    table begins; `columns` is how many opponents a page has.
     """
 
     columns: int
     place: float
     name: float
     rating: float
+    group: float
     cell: float
     row: float
     top: float
@@ -54,7 +58,7 @@ class PageSizes:
     def bars(self, across: int) -> tuple[float, float]:
         """Where the axis of the bars begins and ends."""
         start = self.right(across) + 3 * GAP + self.rating
-        return start, min(start + WIDEST_BARS, WIDTH - MARGIN)
+        return start, min(start + WIDEST_BARS, WIDTH - MARGIN - self.group)
 
 
 def page_sizes(lines: Sequence[PlayerLine], races: Races, room: float) -> PageSizes:
@@ -68,7 +72,10 @@ def page_sizes(lines: Sequence[PlayerLine], races: Races, room: float) -> PageSi
     place = widest([str(line.place) for line in lines], size)
     name = min(LONGEST_NAME, widest([line.name for line in lines], size))
     rating = min(LONGEST_RATING, widest([rating_text(line) for line in lines], size))
-    fixed = 2 * MARGIN + place + name + rating + NARROWEST_BARS + 5 * GAP
+    grouped = any(line.group is not None for line in lines)
+    group = GAP + max(width_of(GROUP, NOTE), widest(list(map(group_text, lines)), size))
+    group = group if grouped else 0.0
+    fixed = 2 * MARGIN + place + name + rating + group + NARROWEST_BARS + 5 * GAP
     letter = widest([NO_RACE, *set(races.values())], 1.0)
     fitting = int((WIDTH - fixed) / (letter * SMALLEST + CELL_EDGE))
     columns = len(parts_of(lines, min(MOST_ON_A_PAGE, fitting))[0])
@@ -81,6 +88,7 @@ def page_sizes(lines: Sequence[PlayerLine], races: Races, room: float) -> PageSi
         place=place,
         name=name,
         rating=rating,
+        group=group,
         cell=cell,
         row=min(HIGHEST_ROW, (room - height - TICKS) / rows),
         top=MARGIN + HEADING + height,
@@ -93,6 +101,11 @@ def page_sizes(lines: Sequence[PlayerLine], races: Races, room: float) -> PageSi
 def rating_text(line: PlayerLine) -> str:
     """Return a rating with its standard error."""
     return f"{line.rating} ± {line.error}"
+
+
+def group_text(line: PlayerLine) -> str:
+    """Return the group that a player's rating compares in; empty if that is not to be said."""
+    return str(line.group or "")
 
 
 def slanted_name(line: PlayerLine, size: float) -> str:

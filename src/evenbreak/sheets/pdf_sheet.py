@@ -9,8 +9,8 @@ import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from evenbreak.answers.left_out import left_out
-from evenbreak.answers.report_frames import file_name
-from evenbreak.answers.sheet import Sheet
+from evenbreak.answers.report_frames import count_groups, file_name
+from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
 from evenbreak.answers.sheet_words import (
     about_ratings,
     how_even,
@@ -22,11 +22,14 @@ from evenbreak.answers.sheet_words import (
 )
 from evenbreak.sheets.pdf_layout import (
     GAP,
+    GROUP,
     HEADING,
     LARGEST,
     MOST_ON_A_PAGE,
+    NOTE,
     SLANT,
     PageSizes,
+    group_text,
     page_sizes,
     rating_text,
     slanted_name,
@@ -45,9 +48,6 @@ from evenbreak.sheets.pdf_page import (
 from evenbreak.sheets.race_blocks import Block, parts_of, race_blocks
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, Tick, player_lines
 
-MOST_PAIRED = 48
-"""Players that are put on paper; the files hold all."""
-
 SMALL, LEADING = 8.0, 1.45
 """The size of notes, in points, and the height of a line of text for each point."""
 
@@ -64,8 +64,8 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
 
     Each line is a player: the fairest race against each opponent, the rating, and a bar of
     two standard errors of it either way. A league too large for a page is cut into blocks,
-    each a page; of more than 48 paired players the 48 strongest are on paper. White squares
-    stand for letters that the font lacks.
+    each a page; of more than `MOST_ON_SHEET` paired players the strongest are on paper. White
+    squares stand for letters that the font lacks.
 
     >>> from evenbreak.answers.offered_races import OfferedRaces
     >>> from evenbreak.files.results import ResultsFile
@@ -75,13 +75,14 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
     >>> len(sheet_pages(Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2])))
     1
     """
-    shown = sheet.strongest(MOST_PAIRED)
+    shown = sheet.strongest(MOST_ON_SHEET)
     bars = Bars(shown.listed)
-    lines = player_lines(shown.listed, sheet.ratings.scale, bars, grouped=False)
+    grouped = count_groups(sheet.ratings) > 1
+    lines = player_lines(shown.listed, sheet.ratings.scale, bars, grouped=grouped)
     notes = _broken(
         [*_notes(sheet, shown), *_about_names(lines, len(sheet.rated)), version_and_source(sheet)]
     )
-    room = HEIGHT - 2 * MARGIN - HEADING - len(notes) * LEADING * SMALL / POINTS
+    room = HEIGHT - 2 * MARGIN - HEADING - len(notes) * LEADING * NOTE / POINTS
     sizes = page_sizes(lines, shown.races, room)
     blocks = [
         (down, block)
@@ -96,7 +97,7 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
         _lines(page, bottom + 0.42, notes)
         if len(blocks) > 1:
             text = f"page {number} of {len(blocks)}"
-            page.text(WIDTH - MARGIN, HEIGHT - MARGIN, text, size=SMALL, ha="right")
+            page.text(WIDTH - MARGIN, HEIGHT - MARGIN, text, size=NOTE, ha="right")
         pages.append(page.figure)
     return pages
 
@@ -129,13 +130,13 @@ def _about_names(lines: Sequence[PlayerLine], rated: int) -> Iterator[str]:
 
 def _broken(notes: Sequence[str]) -> list[str]:
     """Return notes as lines, those that are wider than the page broken."""
-    letters = int((WIDTH - 2 * MARGIN) * POINTS / SMALL / 0.58)
+    letters = int((WIDTH - 2 * MARGIN) * POINTS / NOTE / 0.58)
     return [part for note in notes for part in textwrap.wrap(note, letters)]
 
 
 def _lines(page: Paper, y: float, lines: Sequence[str]) -> None:
     for k, line in enumerate(lines):
-        page.text(MARGIN, y + k * LEADING * SMALL / POINTS, line, size=SMALL)
+        page.text(MARGIN, y + k * LEADING * NOTE / POINTS, line, size=NOTE)
 
 
 @dataclass(frozen=True)
@@ -153,7 +154,7 @@ class _Table:
         sizes, end = self.sizes, self._bars[1]
         for k in range(0, len(self.down), 2):
             top = sizes.top + k * sizes.row
-            self.page.band(MARGIN, top, end - MARGIN, sizes.row, grey="0.945")
+            self.page.band(MARGIN, top, end + sizes.group - MARGIN, sizes.row, grey="0.945")
         self._draw_names()
         self._draw_races()
         self._draw_ratings()
@@ -211,7 +212,7 @@ class _Table:
 
         for tick in self.ticks:
             page.line([place(tick.at)] * 2, [sizes.top, self._bottom], color="0.75")
-            page.centred(place(tick.at), self._bottom + 0.1, tick.label, size=SMALL)
+            page.centred(place(tick.at), self._bottom + 0.1, tick.label, size=NOTE)
         for y, line in self._middles():
             size = sizes.text_size
             text = shortened(rating_text(line), size, sizes.rating)
@@ -219,5 +220,8 @@ class _Table:
             ends = [place(line.low), place(line.high)]
             page.line(ends, [y, y], color="0.45", lw=2.2, solid_capstyle="butt")
             page.line([place(line.middle)], [y], marker="o", ms=4.5)
+            page.centred(end + sizes.group, y, group_text(line), size=size, ha="right")
+        if sizes.group:
+            page.text(end + sizes.group, sizes.top - 0.06, GROUP, size=NOTE, ha="right")
         for k, text in enumerate(("bar: two of them either way", "rating ± standard error")):
-            page.text(end, sizes.top - 0.06 - 0.15 * k, text, size=SMALL, ha="right")
+            page.text(end, sizes.top - 0.06 - 0.15 * k, text, size=NOTE, ha="right")

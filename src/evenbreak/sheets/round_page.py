@@ -7,25 +7,16 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from evenbreak.answers.remarks import warnings_of
-from evenbreak.answers.report_frames import file_name
+from evenbreak.answers.matchups import matchups_answer
 from evenbreak.answers.round import Round
-from evenbreak.answers.round_words import (
-    about_method,
-    about_pairs,
-    about_players,
-    evening_words,
-    game_model,
-    races_of,
-    which_races,
-)
-from evenbreak.answers.scale_words import scale_words
+from evenbreak.answers.round_words import races_of
 from evenbreak.answers.sheet import NO_RACE, races_by_name
 from evenbreak.answers.sheet_words import how_even, how_to_read
 from evenbreak.answers.wording import race
 from evenbreak.errors import InputError
 from evenbreak.files.csv_writer import rows_of
-from evenbreak.sheets.html_page import html_page
+from evenbreak.sheets.answer_page import Section, drawn_page
+from evenbreak.sheets.html_page import drawn
 from evenbreak.sheets.race_blocks import race_blocks, race_cards
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, player_lines
 
@@ -36,12 +27,19 @@ MOST_MATCHES = 500
 """The most matches of a list on a page."""
 
 
-def round_html(tonight: Round) -> bytes:
+def round_html(tonight: Round, *, warnings: Sequence[str] = ()) -> bytes:
     """Return the races of a round as one HTML file that asks no other host for anything.
 
     A list of matches becomes a table with the races in large letters and room for the
     scores; all pairs of a roster become a table with names on both sides, on a narrow page
-    each player's races, and the ratings below it.
+    each player's races, and the ratings below it. All else is what `matchups_answer` says.
+
+    Parameters
+    ----------
+    tonight
+        the round.
+    warnings
+        as for `matchups_answer`.
 
     Returns
     -------
@@ -71,30 +69,17 @@ def round_html(tonight: Round) -> bytes:
     bars = Bars(rated)
     grouped = bool(rated["component"].max() > 1)
     lines = player_lines(rated, tonight.scale, bars, grouped=grouped)
-    kinds = [] if tonight.listed else [_kind(tonight, prefix, lines) for prefix in tonight.kinds]
-    links = [(kind["id"], kind["title"]) for kind in kinds]
-    links += [("ratings", "Ratings")] if kinds else [("matches", "Matches")]
-    return html_page(
-        "round.html",
-        title=f"Races of the round from {file_name(tonight.file)}",
-        source=file_name(tonight.file),
-        links=[*links, ("assumed", "What was assumed")],
-        evening=list(map(evening_words, tonight.evening)),
-        which_races=[which_races(tonight, prefix) for prefix in tonight.kinds],
-        matches=_matches(tonight, lines) if tonight.listed else [],
-        both=len(tonight.kinds) > 1,
-        minutes=tonight.minutes_per_game is not None,
-        about_pairs=list(about_pairs(tonight.matchups.frame)),
-        kinds=kinds,
-        about_ratings=[f"Ratings {scale_words(tonight.scale)}."],
-        lines=lines,
-        ticks=bars.ticks(),
-        assumed=[
-            *about_players(tonight),
-            *about_method(tonight),
-            *warnings_of(tonight.file),
-        ],
-        model=game_model(tonight),
+    if tonight.listed:
+        minutes, both = tonight.pace is not None, len(tonight.kinds) > 1
+        drawing = drawn("matches", _matches(tonight, lines), minutes, both)
+        sections = [Section("matches", "Matches", drawing)]
+    else:
+        sections = [_races(tonight, prefix, lines) for prefix in tonight.kinds]
+        sections.append(Section("ratings", "Ratings", drawn("ratings", lines, bars.ticks())))
+    return drawn_page(
+        matchups_answer(tonight, warnings=warnings),
+        [sections],
+        notes=("assumed", "What was assumed", ""),
         made_of="a list of players",
         file=tonight.file,
     )
@@ -128,19 +113,17 @@ def _rated(tonight: Round) -> pd.DataFrame:
     )
 
 
-def _kind(tonight: Round, prefix: str, lines: Sequence[PlayerLine]) -> dict[str, Any]:
+def _races(tonight: Round, prefix: str, lines: Sequence[PlayerLine]) -> Section:
     paired = races_of(tonight.matchups.frame, prefix)
     races = races_by_name(paired)
+    blocks, cards = race_blocks(lines, races), race_cards(lines, races, paired)
+    table = drawn("races", blocks, cards, how_to_read(paired))
     first = prefix == next(iter(tonight.kinds))
-    return {
-        "id": "races" if first else "fairest",
-        "title": "The races" if first else "The fairest races",
-        "which_races": which_races(tonight, prefix),
-        "how_to_read": how_to_read(paired),
-        "blocks": race_blocks(lines, races),
-        "cards": race_cards(lines, races, paired),
-        "remarks": list(how_even(paired)),
-    }
+    return Section(
+        "races" if first else "fairest",
+        "The races" if first else "The fairest races",
+        table + drawn("sentences", list(how_even(paired))),
+    )
 
 
 def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[dict[str, Any]]:
@@ -162,7 +145,7 @@ def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[dict[str, Any]
         match |= {"chance": f"{chance:.2f}", "chance_b": f"{1.0 - chance:.2f}"}
         match["games"] = f"{row[f'{main}mean_games']:.1f}"
         match["games_p90"] = str(row[f"{main}games_p90"])
-        if tonight.minutes_per_game is not None:
+        if tonight.pace is not None:
             match["minutes"] = f"{row[f'{main}mean_minutes']:.0f}"
             match["minutes_p90"] = f"{row[f'{main}minutes_p90']:.0f}"
         if others:

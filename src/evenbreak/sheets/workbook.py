@@ -11,8 +11,8 @@ from typing import Any
 
 import pandas as pd
 
+from evenbreak.answers.file_warnings import warnings_of
 from evenbreak.answers.left_out import left_out
-from evenbreak.answers.remarks import warnings_of
 from evenbreak.answers.sheet import NO_RACE, Sheet
 from evenbreak.errors import InputError
 
@@ -169,8 +169,6 @@ def _with_errors(sheet: Sheet) -> pd.DataFrame:
     paired = sheet.paired
     pairs = [found.get(key) for key in zip(paired["player_a"], paired["player_b"], strict=True)]
     more = {
-        "difference": [pair.difference if pair else None for pair in pairs],
-        "difference_error": [pair.error if pair else None for pair in pairs],
         "p_win_a_low": [pair.low if pair else None for pair in pairs],
         "p_win_a_high": [pair.high if pair else None for pair in pairs],
     }

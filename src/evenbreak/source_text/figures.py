@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING
 
-from evenbreak.plots.style import our_look
+from evenbreak.plots.picture import our_look
 from evenbreak.source_text.physics import (
     collision_figures,
     deflection_figure,

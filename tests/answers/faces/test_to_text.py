@@ -57,3 +57,17 @@ def test_numbers_stand_flush_right_and_names_flush_left():
         "  Christopher   1234",
         "  Bo",
     ]
+
+
+def test_two_columns_of_long_names_are_folded_and_the_table_stays_whole():
+    names = (
+        "Maximilian Freiherr von Altenburg-Hohenstein",
+        "Constantina Papadimitropoulou-Karagianni",
+    )
+    columns = [Column("a", "A", left=True), Column("b", "B", left=True), Column("p", "A wins")]
+    lines = to_text(Answer("", [Table("", columns, [(*names, 0.5)])])).splitlines()
+    assert sum("A wins" in line for line in lines) == 1
+    assert all(len(line) <= 80 for line in lines)
+    for name in names:
+        for word in name.replace("-", " ").split():
+            assert any(word in line for line in lines)

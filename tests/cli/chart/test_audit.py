@@ -107,3 +107,25 @@ def test_a_chart_that_determines_no_scale_needs_one(run):
     assert (result.exit_code, result.stdout) == (2, "")
     assert "scale is missing" in result.stderr
     assert run("chart", "audit", "-", "--scale", "npl", stdin=short).exit_code == 0
+
+
+def test_a_chart_of_points(run, ask, tmp_path):
+    assert ask("apa_9ball")["levels"][4]["points"] == 38
+    path = tmp_path / "nine.csv"
+    path.write_text(run("chart", "show", "apa_9ball").stdout, encoding="utf-8")
+    assert ask(str(path))["levels"] == ask("apa_9ball")["levels"]
+    path.write_text("level,points\n1,14\n2,9\n", encoding="utf-8")
+    assert "points 9 comes after 14" in run("chart", "audit", str(path)).stderr
+    for words in (["--scale", "npl"], ["--plot", "x.png"]):
+        assert run("chart", "audit", "apa_9ball", *words).exit_code == 2
+    beside = ["--plot", str(tmp_path / "x.png"), "--beside", "apa_9ball"]
+    assert run("chart", "audit", "npl_8", *beside).exit_code == 2
+
+
+@pytest.mark.parametrize("command", [["matchups", "{}", "--chart"], ["ladder", "--chart"]])
+def test_points_are_not_games(run, tmp_path, command):
+    path = tmp_path / "roster.csv"
+    path.write_text("player,skill level\nAnn,5\nBo,3\n", encoding="utf-8")
+    result = run(*(word.format(path) for word in command), "apa_9ball")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert "apa_9ball" in result.stderr

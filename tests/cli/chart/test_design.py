@@ -49,29 +49,51 @@ def test_the_rule_of_the_nearest_race(ask):
 @pytest.mark.parametrize(
     ("line", "rules", "limits", "wishes"),
     [
-        ("--games 5..9 --scale fargo --tilt 0", "fargo", RaceLimits((5, 9)), {"tilt": 0.0}),
-        ("--games 5..9 --rule worst", "npl", RaceLimits((5, 9)), {"criterion": "worst"}),
-        ("--games 5..9 --target 0.6", "npl", RaceLimits((5, 9)), {"target": 0.6}),
-        ("--games 5..9 --rows 3", "npl", RaceLimits((5, 9)), {"rows": 3}),
-        ("--games 5..9 --mean-games 5", "npl", RaceLimits((5, 9)), {"mean_games": 5}),
-        ("--games 5..9 --games-p90 8", "npl", RaceLimits((5, 9), games_p90=8), {}),
+        ("--games 5..9 --scale fargo --tilt 0", "fargo", RaceLimits((5, 9), 2, 2), {"tilt": 0.0}),
+        ("--games 5..9 --rule worst", "npl", RaceLimits((5, 9), 2, 2), {"criterion": "worst"}),
+        ("--games 5..9 --target 0.6", "npl", RaceLimits((5, 9), 2, 2), {"target": 0.6}),
+        ("--games 5..19 --rows 99", "npl", RaceLimits((5, 19), 2, 2), {"rows": None}),
+        ("--games 5..9 --spread 9", "npl", RaceLimits((5, 9), 2, 2), {"spread": None}),
+        ("--games 5..9 --spread 0", "npl", RaceLimits((5, 9), 2, 2), {"spread": 0}),
+        ("--games 5..9 --rows 3", "npl", RaceLimits((5, 9), 2, 2), {"rows": 3}),
+        ("--games 5..9 --mean-games 5", "npl", RaceLimits((5, 9), 2, 2), {"mean_games": 5}),
+        ("--games 5..9 --games-p90 8", "npl", RaceLimits((5, 9), 2, 2, games_p90=8), {}),
         (
             "--games 5..9 --minutes 50 --minutes-per-game 6",
             "npl",
-            RaceLimits((5, 9), games_p90=8),
+            RaceLimits((5, 9), 2, 2, games_p90=8),
             {},
         ),
-        ("--games 5..6 --win-by 2", MatchRules("npl", win_by=2), RaceLimits((5, 6)), {}),
+        ("--games 5..6 --win-by 2", MatchRules("npl", win_by=2), RaceLimits((5, 6), 2, 2), {}),
         (
             "--games 5..6 --breaks winner --break-points 9",
             MatchRules("npl", breaks=winner_breaks, break_points=9.0),
-            RaceLimits((5, 6)),
+            RaceLimits((5, 6), 2, 2),
             {},
         ),
     ],
 )
 def test_every_option_reaches_the_design(ask, line, rules, limits, wishes):
-    assert rows_of(ask(line)) == [tuple(row) for row in design(rules, limits, **wishes).rows]
+    made = design(rules, limits, **{"rows": 12, "spread": 2, **wishes})
+    assert rows_of(ask(line)) == [tuple(row) for row in made.rows]
+
+
+@pytest.mark.parametrize("line", ["--games 5..15 --scale fargo --tilt 0", "--games 17..41"])
+def test_a_chart_to_print_is_short_and_its_races_are_alike(ask, line):
+    answer = ask(line)
+    longest = [row["stronger_needs"] + row["weaker_needs"] - 1 for row in answer["rows"]]
+    assert len(longest) <= 12
+    assert max(longest) - min(longest) <= 2
+
+
+def test_the_price_of_each_wish(ask):
+    this, rows, lengths, *shorter = ask("--games 5..15")["prices"]
+    assert this["rows"] <= 12 < rows["rows"]
+    assert rows["mean_unfairness"] < this["mean_unfairness"]
+    assert lengths["mean_unfairness"] < this["mean_unfairness"]
+    unfair = [this["mean_unfairness"], *(one["mean_unfairness"] for one in shorter)]
+    assert unfair == sorted(unfair)
+    assert [one["games_p90"] for one in shorter] == [11, 9, 7]
 
 
 def test_what_goes_into_a_pipe_is_a_chart(run, tmp_path):
@@ -134,6 +156,7 @@ def test_plot(run, tmp_path):
         ("--games 7..9 --break-points far", "'far'"),
         ("--games 7..9 --rule nearest --tilt 0", "--tilt"),
         ("--games 7..9 --rule nearest --rows 5", "--rows"),
+        ("--games 7..9 --rule nearest --spread 1", "--spread"),
         ("--games 7..9 --pareto --mean-games 5", "--mean-games"),
         ("--games 7..9 --win-by 2 --plot x.png", "--win-by"),
         ("--games 7..9 --mean-games -1", "'-1'"),

@@ -34,7 +34,10 @@ def test_words_that_are_not_parameters_stay():
         ("--games 7..9 --games-p90 3", ["--games-p90 is 3"]),
         ("--games 7..9 --minutes 24 --minutes-per-game 8", ["--minutes allows 3 games"]),
         ("--games 900..1000", ["narrow --games", "raise --least", "lower --up-to"]),
-        ("--games 1..99 --rows 60 --up-to 400", ["narrow --games", "lower --rows or --up-to"]),
+        (
+            "--games 1..99 --rows 60 --spread 98 --up-to 400",
+            ["narrow --games", "lower --rows or --up-to"],
+        ),
         ("--games 1..2 --least 5:5", ["--games is 1..2"]),
     ],
 )

@@ -122,10 +122,20 @@ def test_pairs_that_nothing_links_have_no_numbers(told):
 
 
 def test_the_best_prior_is_among_those_tried(told):
-    answer = told("--prior", "best")
+    answer = told("--prior", "best", season=(DATA / "demo_league.csv").read_text(encoding="utf-8"))
     best = min(answer["priors_tried"], key=lambda tried: tried["log_loss"])
     assert answer["prior_sd_points"] == pytest.approx(best["prior_sd_points"])
-    assert told()["priors_tried"] is None
+    assert answer["prior_learnt"] is True
+    plain = told()
+    assert (plain["priors_tried"], plain["prior_learnt"]) == (None, None)
+
+
+def test_a_few_matches_are_warned_of_and_leave_the_default_prior(rate):
+    result = rate("--json", "--prior", "best")
+    answer = json.loads(result.stdout)
+    assert answer["prior_learnt"] is False
+    assert answer["prior_sd_points"] == pytest.approx(30)
+    assert "too few" in result.stderr
 
 
 def test_groups_that_never_met_are_kept_apart(rate):
@@ -168,7 +178,8 @@ def test_names_cannot_become_formulas(rate):
         (["--prior", "wide"], 2, "a number of points, or best"),
         (["--prior", "1e6"], 2, "on this scale give"),
         (["--half-life", "-3"], 2, "a number of days"),
-        (["--as-of", "3/1/2026"], 2, "such as 2026-01-31 or 31.1.2026"),
+        (["--as-of", "3/1/2026"], 2, "--dates mdy or --dates dmy"),
+        (["--as-of", "soon"], 2, "such as 2026-01-31"),
         (["--as-of", "2204-04-01"], 2, "'2204-04-01' is more than a year from today"),
         (["--as-of", "2020-01-01"], 3, "2020-01-01; give a later day"),
         (["--break-advantage", "nan"], 2, "a number of points, or fit"),

@@ -29,6 +29,20 @@ def test_a_day_as_results_files_write_it(text):
     assert read_day(text) == "2026-01-31"
 
 
+@pytest.mark.parametrize("text", ["1/31/2026", "31/1/2026"])
+def test_a_day_above_12_settles_the_order(text):
+    assert read_day(text) == "2026-01-31"
+
+
+def test_the_option_settles_the_order():
+    assert (read_day("1/2/2026", "mdy"), read_day("1/2/2026", "dmy")) == (
+        "2026-01-02",
+        "2026-02-01",
+    )
+    with pytest.raises(click.BadParameter, match="--dates"):
+        read_day("1/2/2026")
+
+
 @pytest.mark.parametrize("text", ["soon", "3/1/2026", "2026-02-30"])
 def test_other_days_are_refused(text):
     with pytest.raises(click.BadParameter, match="2026-01-31"):

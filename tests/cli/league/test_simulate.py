@@ -306,3 +306,15 @@ def test_much_to_play_is_said_and_jobs_advised_where_there_are_none(run, monkeyp
     words = ("simulate", ROSTER, *FIXTURES, *FEW, "--no-matches", "--out", str(tmp_path / "out"))
     assert "4,800 matches are to be played; --jobs" in run(*words).stderr
     assert "4,800 matches are to be played\n" in run(*words, "--jobs", "2").stderr
+
+
+def test_entrants_play_and_strangers_are_new(run, tmp_path):
+    entrants = tmp_path / "entrants.txt"
+    roster = DATA / "demo_league_roster.csv"
+    names = [line.split(",")[0] for line in roster.read_text(encoding="utf-8").splitlines()[1:4]]
+    entrants.write_text("\n".join([*names, "A Stranger"]), encoding="utf-8")
+    words = ("--weeks", "3", "--replicas", "10", "--out", str(tmp_path / "o"))
+    result = run("simulate", str(roster), *words, "--players-file", str(entrants))
+    assert result.exit_code == 0
+    standings = (tmp_path / "o" / "standings.csv").read_text(encoding="utf-8").splitlines()[1:]
+    assert {line.split(",")[0] for line in standings} == {*names, "A Stranger"}

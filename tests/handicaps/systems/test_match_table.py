@@ -57,7 +57,7 @@ def test_nobody_writes_into_a_table():
     ("given", "message"),
     [
         (("npl",), "system is 'npl'; give a System"),
-        ((NPL, "npl_10"), "chart is 'npl_10'; give a Chart"),
+        ((NPL, "nobody"), "chart is 'nobody'"),
     ],
 )
 def test_what_is_no_system_or_chart_is_refused(given, message):

@@ -9,6 +9,7 @@ COMMANDS = {
     "show": Entry("chart.show", "Show a chart: who needs how many games."),
     "audit": Entry("chart.audit", "Check how fair a chart is, and which ratings it fits."),
     "design": Entry("chart.design", "Design the fairest chart for given ratings."),
+    "team": Entry("chart.team", "Find the points that the weaker of two teams gets."),
 }
 """Each command, with its module and its line of help."""
 

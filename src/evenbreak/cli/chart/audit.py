@@ -48,6 +48,12 @@ def command(chart: str, scale: Scale | None, beside: str | None, plot: str | Non
         return level_audit_answer(
             handicaps.audit_levels(file.found, scale=scale or "npl"), warnings=warnings
         )
+    if isinstance(file.found, handicaps.PointsChart):
+        from evenbreak.answers.points_audit import points_audit_answer
+
+        if plot is not None or scale is not None:
+            refuse("a chart of points has no rating differences; leave --scale and --plot out")
+        return points_audit_answer(file.found, warnings=warnings)
     report = handicaps.audit(file.found, scale=scale)
     if plot is not None:
         from evenbreak.plots.charts import chart_figure
@@ -62,7 +68,7 @@ def other_chart(chart: str, scale: Scale) -> handicaps.ChartAudit:
     from evenbreak.files.chart import find_chart_file
 
     found = find_chart_file(chart).found
-    if isinstance(found, handicaps.LevelChart):
+    if not isinstance(found, handicaps.ChartDraft):
         refuse("--beside names a chart by skill level, which has no rating differences to plot")
     on_same = handicaps.audit(found, scale=scale)
     if on_same.best_fit is None:

@@ -22,8 +22,8 @@ EXAMPLES = """\b
 Examples:
   evenbreak chart design --games 7..9 --least 5:2 --beside npl_10
   evenbreak chart design --games 5..15 --scale fargo --tilt 0 > ours.csv
-  evenbreak chart design --games 17..41 --rows 10
-  evenbreak chart design --games 5..19 --least 2:2 --pareto --beside npl_10
+  evenbreak chart design --games 17..41 --rows 10 --rule worst
+  evenbreak chart design --games 5..19 --pareto --beside npl_10
 """
 
 
@@ -77,6 +77,7 @@ def _pareto(task: DesignTask, plot: str | None) -> Answer:
             target=task.target,
             up_to=task.up_to,
             rows=task.rows,
+            spread=task.spread,
             watch=progress,
         )
     if plot is not None:

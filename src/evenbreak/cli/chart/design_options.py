@@ -23,11 +23,17 @@ if TYPE_CHECKING:
 MOST = 1_000_000
 """The largest number of rows, games or points that an option can have."""
 
+ROWS = 12
+"""The most rows of a chart that fits on the wall."""
+
+SPREAD = 2
+"""How much the longest matches of printed charts differ, in games."""
+
 ABOVE_0 = Number(1e-6, MOST, "; give a number above 0")
 POINTS = Number(-MOST, MOST, " is not a number of rating points; give a number, such as 10")
 
 _PARAMETER = re.compile(
-    r"\b(mean_games|games_p90|up_to|rows|games|scale|break_points|target|tilt)\b"
+    r"\b(mean_games|games_p90|up_to|rows|spread|games|scale|break_points|target|tilt)\b"
     r"(?= (?:is|are)\b)|(?<=\bnarrow )games\b|(?<=\blower )(?:rows|up_to)\b|(?<=\bor )up_to\b"
 )
 """Where a message of the library names a parameter."""
@@ -112,7 +118,17 @@ def design_options(command: Command) -> Command:
             help="9 out of 10 matches must end within K games, at every difference.",
         ),
         click.option(
-            "--rows", type=Whole(1, MOST), metavar="N", help="The chart may have at most N rows."
+            "--rows",
+            type=Whole(1, MOST),
+            metavar="N",
+            help=f"The chart may have at most N rows.  [default: {ROWS}]",
+        ),
+        click.option(
+            "--spread",
+            type=Whole(0, MOST),
+            metavar="K",
+            help="The longest matches of its races may differ by at most K games.  [default: "
+            f"{SPREAD}]",
         ),
         click.option(
             "--mean-games",
@@ -124,7 +140,7 @@ def design_options(command: Command) -> Command:
             "--least",
             metavar="M:N",
             type=PAIR,
-            default="1:1",
+            default="2:2",
             help="The fewest games that the stronger and the weaker player may need.",
         ),
         click.option(
@@ -182,12 +198,16 @@ def task_of(
             refuse("--minutes is less than a game takes; give more")
     if (breaks is None) != (break_points == 0.0):
         refuse("--breaks and --break-points go together; give both, or leave both out")
-    aims = (others["mean_games"], others["rows"], others["target"], others["tilt"])
-    if others["rule"] == "nearest" and aims != (None, None, 0.5, 0.5):
-        refuse(
-            "--rule nearest takes the race nearest 0.5; leave --mean-games, --rows, --target and "
-            "--tilt out"
-        )
+    aims = [others[name] for name in ("mean_games", "rows", "spread", "target", "tilt")]
+    if others["rule"] == "nearest":
+        if aims != [None, None, None, 0.5, 0.5]:
+            refuse(
+                "--rule nearest takes the race nearest 0.5; leave --mean-games, --rows, --spread, "
+                "--target and --tilt out"
+            )
+    else:
+        others["rows"] = ROWS if others["rows"] is None else others["rows"]
+        others["spread"] = SPREAD if others["spread"] is None else others["spread"]
     breaking = None if breaks is None else BREAK_FORMATS[breaks]
     rules = handicaps.MatchRules(scale, win_by, breaking, break_points)
     limits = handicaps.RaceLimits(games, *least, games_p90)

@@ -1,11 +1,14 @@
 """Options shared by several commands, each declared once, and commands that take ratings."""
 
 import math
+import re
 from collections.abc import Callable, Sequence
+from functools import update_wrapper
 from typing import Any, TypeVar
 
 import click
 
+from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Whole, meant, refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
@@ -34,13 +37,16 @@ class PlainCommand(click.Command):
         )
         rest = super().parse_args(ctx, args)
         words: Sequence[str] = ctx.params.get("ratings", ())
+        if ctx.resilient_parsing:
+            return rest
+        named = ctx.params.get("from_file") is not None
         for word in words:
-            if NUMBER.fullmatch(word):
+            if (named and not word.startswith("-")) or NUMBER.fullmatch(word):
                 continue
             if word.startswith("-"):
                 known = [name for option in self.params for name in option.opts]
                 raise click.NoSuchOption(word.split("=")[0], possibilities=known, ctx=ctx)
-            wanted = "give two numbers, such as 612 521"
+            wanted = "give two numbers, such as 612 521, or say with --from where it stands"
             refuse(f"{word!r} is not a rating; {wanted}{meant(word, -math.inf, math.inf)}")
         return rest
 
@@ -67,6 +73,7 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
     return click.option(
         "--scale",
         type=_scale,
+        shell_complete=completion.scales,
         default=without if fixed else None,
         show_default=False,
         metavar="npl|fargo|elo|POINTS",
@@ -114,12 +121,74 @@ def out_option(what: str) -> Decorator[Any]:
     )
 
 
-aliases_option = click.option(
-    "--aliases",
-    metavar="ALIASES.csv",
-    help="Names that mean the same player: a file with the columns name and means.",
+def _columns(
+    ctx: click.Context,  # noqa: ARG001
+    param: click.Parameter,  # noqa: ARG001
+    given: tuple[str, ...],
+) -> dict[str, str]:
+    """Return the title of each column that --columns names."""
+    columns: dict[str, str] = {}
+    for text in given:
+        # A title may have a comma in it, but hardly words and an equals sign after it.
+        for part in re.split(r",(?=[\w ]+=)", text):
+            name, sign, title = (piece.strip() for piece in part.partition("="))
+            name = name.lower().replace(" ", "_")
+            if not (name and sign and title):
+                refuse(
+                    f"--columns has {part.strip()!r}; give the column and the title that it has in "
+                    "the file, such as player_a=Home,player_b=Away"
+                )
+            if name in columns or title.casefold() in map(str.casefold, columns.values()):
+                refuse(f"--columns has {part.strip()!r}, but one of them was given before")
+            columns[name] = title
+    return columns
+
+
+dates_option = click.option(
+    "--dates",
+    type=click.Choice(["mdy", "dmy"]),
+    is_eager=True,
+    help="The order in dates such as 9/3/2024: month first or day first.  [default: as other dates "
+    "of the file show]",
 )
-"""The option --aliases of every command that reads results."""
+"""The option --dates; it is read first, so that options with a date can go by it."""
+
+
+def results_options(command: Command) -> Command:
+    """Add the options of every command that reads results, which gets them as `reading`.
+
+    They are --aliases, --columns and --dates, by the names that `files.read_results` has.
+    """
+
+    def run(*, aliases: str | None, columns: dict[str, str], dates: str | None, **rest: Any) -> Any:
+        return command(reading={"aliases": aliases, "columns": columns, "dates": dates}, **rest)
+
+    wrapped: Any = update_wrapper(run, command)
+    return with_options(  # type: ignore[no-any-return]
+        wrapped,
+        dates_option,
+        click.option(
+            "--columns",
+            multiple=True,
+            metavar="NAME=TITLE,...",
+            callback=_columns,
+            help="What the file calls its columns, such as player_a=Home,player_b=Away; can be "
+            "repeated.",
+        ),
+        click.option(
+            "--aliases",
+            metavar="ALIASES.csv",
+            help="Names that mean the same player: a file with the columns name and means.",
+        ),
+    )
+
+
+players_file_option = click.option(
+    "--players-file",
+    metavar="FILE",
+    help="Who has entered: a name on each line, or a CSV file with player and rating.",
+)
+"""The option --players-file of the commands about the players of an evening or a season."""
 
 
 safety_option = click.option(

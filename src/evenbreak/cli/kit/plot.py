@@ -48,7 +48,7 @@ plot_option = plot_option_for()
 
 def write_plot(figure: Figure, path: str) -> None:
     """Write a figure to the file named by --plot, and say so on stderr."""
-    from evenbreak.plots.diagram import image_bytes
+    from evenbreak.plots.picture import image_bytes
 
     svg = PurePath(path).suffix.lower() == ".svg"
     write_file(path, image_bytes(figure, "svg" if svg else "png"))

@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import files, handicaps
+from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import InputError
@@ -29,6 +30,7 @@ def system_option(default: str | None = "npl") -> Decorator[Any]:
     return click.option(
         "--system",
         type=read_system,
+        shell_complete=completion.systems,
         metavar="NAME",
         default=default,
         show_default=False,
@@ -96,8 +98,9 @@ def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Cha
         chart, warnings = file.chart, list(file.warnings)
     if not isinstance(chart, handicaps.Chart):
         refuse(
-            f"--chart {name!r} is a chart of skill levels, which do not change match by match; "
-            "give a chart of rating differences"
+            f"--chart {name!r} is a chart of skill levels, which a league reviews now and then "
+            "and no single match moves by points, so there is nothing to follow here; give a chart "
+            "of rating differences, such as npl_10"
         )
     best, own = (
         handicaps.audit(chart, scale=system.scale).best_fit,

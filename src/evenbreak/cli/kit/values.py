@@ -10,6 +10,8 @@ from typing import Any, NoReturn
 
 import click
 
+from evenbreak.matches.formats import BETWEEN
+
 LONGEST = 1000
 """The most games that a race, a lead or a score can have here."""
 
@@ -100,22 +102,22 @@ class TwoWhole(click.ParamType):  # type: ignore[type-arg]
 
 
 PAIR = TwoWhole(
-    ":",
+    BETWEEN,
     1,
     LONGEST,
     f"give a whole number from 1 to {LONGEST}, such as 7, "
     "or one for each player with a colon between them, such as 7:5",
     one=True,
 )
-"""The games that each player needs, such as 7:5; 7 alone means 7:7."""
+"""The games that each player needs: 7:5, 7-5 or 7/5; 7 alone means 7:7."""
 
 SCORE = TwoWhole(
-    ":",
+    BETWEEN,
     0,
     LONGEST,
     f"give two whole numbers from 0 to {LONGEST} with a colon between them, such as 3:0",
 )
-"""A score, such as 3:0."""
+"""A score: 3:0, 3-0 or 3/0."""
 
 SPAN = TwoWhole(
     r"\.\.",

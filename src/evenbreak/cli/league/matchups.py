@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak import answers, files, handicaps, ratings, sheets
+from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name
 from evenbreak.cli.kit.options import (
     chart_option,
+    players_file_option,
     race_limit_options,
     refuse_both,
     scale_option,
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.answers.round import AnyChart
+    from evenbreak.matches.pace import Pace
 
 
 MOST_PAIRS = 1_000_000
@@ -40,12 +44,16 @@ MOST_MATCHES = 1_000
 POINTS = Number(-1e6, 1e6, " is not a number of rating points; give one such as 80")
 SPREAD = Number(0.0, 1e6, " is not a spread; give 0 or more points, such as 30")
 MINUTES = Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5")
+TURNOVER = Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0")
+
+DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 
 EXAMPLES = """\b
 Examples:
   evenbreak matchups roster.csv --chart npl_10
   evenbreak matchups roster.csv --games 7..13 --pairs tonight.csv --html tonight.html
-  evenbreak matchups roster.csv --race-to 7 --minutes-per-game 8 --tables 4
+  evenbreak matchups roster.csv --race-to 7 --players-file entrants.txt
+  evenbreak matchups roster.csv --race-to 7 --discipline 9-ball --tables 4
 """
 
 
@@ -53,8 +61,13 @@ Examples:
 @click.argument("roster", metavar="ROSTER.csv")
 @chart_option("The league's chart, by name or in a file.")
 @race_limit_options
+@players_file_option
 @click.option("--pairs", metavar="PAIRS.csv", help="Who meets whom.  [default: all pairs]")
-@scale_option("the one that the file states, else the chart's, else npl", fixed=False)
+@scale_option(
+    "the one that the file states, else the chart's, else npl; for skill levels, where the "
+    "chart's own races put them",
+    fixed=False,
+)
 @click.option(
     "--starter",
     metavar="RATING",
@@ -68,10 +81,24 @@ Examples:
     help="How far off that may be (standard deviation).  [default: what doubles the odds]",
 )
 @click.option(
-    "--minutes-per-game", metavar="MINUTES", type=MINUTES, help="Give the lengths in minutes."
+    "--discipline",
+    type=click.Choice(DISCIPLINES),
+    help="Give the lengths in minutes, at the usual pace of this game.",
+)
+@click.option(
+    "--minutes-per-game",
+    metavar="MINUTES",
+    type=MINUTES,
+    help="Give the lengths in minutes, at this pace on average.",
 )
 @click.option(
     "--tables", type=Whole(1, 1000), metavar="T", help="Say when the round ends on T tables."
+)
+@click.option(
+    "--turnover",
+    metavar="MINUTES",
+    type=TURNOVER,
+    help="The time between two matches on a table, on average.  [default: 10.8]",
 )
 @seed_option("The seed of the evenings that have to be simulated.", default=0)
 @click.option(
@@ -87,12 +114,15 @@ def command(
     chart: str | None,
     games: tuple[int, int] | None,
     race_to: int | None,
+    players_file: str | None,
     pairs: str | None,
     scale: Scale | None,
     starter: float | None,
     starter_sd: float | None,
+    discipline: str | None,
     minutes_per_game: float | None,
     tables: int | None,
+    turnover: float | None,
     seed: int,
     html: str | None,
 ) -> Answer:
@@ -101,6 +131,7 @@ def command(
     ROSTER.csv has a row for each player, with the columns player and rating and, if you
     have them, standard_error and games; - reads standard input. --chart looks the
     races up, --games or --race-to finds the fairest ones; with both, they stand side by side.
+    --players-file says who has entered, if not all of them; those not on the list are new players.
     Where standard errors are given, the chances are averaged over how far the ratings may be
     off.
     """
@@ -109,15 +140,26 @@ def command(
     refuse_both(games, race_to)
     if chart is None and games is None and race_to is None:
         refuse("say which races; give --chart NAME, --games LO..HI or --race-to N")
-    if tables is not None and minutes_per_game is None:
-        refuse("--tables needs to know how long a game takes; add --minutes-per-game, such as 8")
+    pace = _pace(discipline, minutes_per_game)
+    if tables is not None and pace is None:
+        refuse(
+            "--tables needs to know how long games take; add --discipline, such as 9-ball, or "
+            "--minutes-per-game, such as 8"
+        )
+    if turnover is not None and tables is None:
+        refuse("--turnover is the time between two matches on a table; say how many --tables")
     if [roster, pairs, chart].count("-") > 1:
         refuse("only one list can come from standard input; name a file for the other")
     of_league, warnings = (None, []) if chart is None else _chart(chart)
     file = files.read_roster(roster)
+    if players_file is not None:
+        file = files.roster_of_entrants(file, files.read_entrants(players_file))
     if scale is not None:
         refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
-    points = scale or file.scale or _scale(chart, of_league)
+    levels = None
+    if isinstance(of_league, handicaps.LevelChart) and scale is None and file.scale is None:
+        levels = handicaps.level_scale(of_league)
+    points = scale or file.scale or (levels.scale if levels else _scale(of_league))
     players = _with_starters(file.roster, points, starter, starter_sd)
     check_roster(file, players, of_league, points)
     if scale is None and file.scale is not None:
@@ -134,31 +176,50 @@ def command(
         pairs=meet,
         scale=points,
         chart=of_league,
+        levels=levels,
         offered=None if games is None and race_to is None else answers.OfferedRaces(games, race_to),
-        minutes_per_game=minutes_per_game,
+        pace=pace,
         tables=tables,
+        turnover=matches.Turnover() if turnover is None else matches.Turnover(turnover),
         seed=seed,
         listed=pairs is not None,
     )
     if html is not None:
-        write_file(html, sheets.round_html(tonight))
+        public = _without_folders([*warnings, *more], chart, pairs)
+        write_file(html, sheets.round_html(tonight, warnings=public))
     return answers.matchups_answer(tonight, warnings=[*warnings, *more])
+
+
+def _without_folders(warnings: Sequence[str], *paths: str | None) -> list[str]:
+    """Return warnings for a page that is handed out: folders are private."""
+    public = list(warnings)
+    for path in filter(None, paths):
+        public = [text.replace(path, PurePath(path).name) for text in public]
+    return public
+
+
+def _pace(discipline: str | None, minutes_per_game: float | None) -> Pace | None:
+    if discipline is not None and minutes_per_game is not None:
+        refuse("--discipline and --minutes-per-game cannot be combined; leave one out")
+    if minutes_per_game is not None:
+        return matches.own_pace(minutes_per_game)
+    return None if discipline is None else matches.pace_of(discipline)
 
 
 def _chart(name: str) -> tuple[AnyChart, list[str]]:
     from evenbreak.files.chart import find_chart_file
 
     file = find_chart_file(name)
+    if isinstance(file.chart, handicaps.PointsChart):
+        refuse(
+            f"{name} is a chart of points, not of games, so it gives no races here; `evenbreak "
+            f"chart show {name}` has the points of each level"
+        )
     return file.chart, list(file.warnings)
 
 
-def _scale(name: str | None, chart: AnyChart | None) -> Scale:
+def _scale(chart: AnyChart | None) -> Scale:
     """Return the scale of the chart, else the NPL's."""
-    if isinstance(chart, handicaps.LevelChart):
-        refuse(
-            f"{name} is a chart of skill levels, which have no scale of their own; say how many "
-            "levels double the odds of winning a game, such as --scale 2"
-        )
     of_chart = "" if chart is None else chart.name.partition("_")[0]
     return SCALES.get(of_chart, SCALES["npl"])
 

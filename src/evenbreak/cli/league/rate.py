@@ -10,8 +10,9 @@ import click
 
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import aliases_option, chart_option, scale_option
+from evenbreak.cli.kit.options import chart_option, results_options, scale_option
 from evenbreak.cli.kit.systems import read_system
 from evenbreak.cli.kit.values import NUMBER, number_of, refuse
 from evenbreak.cli.league.rate_options import PointsOr, how_to_rate, rated
@@ -72,6 +73,7 @@ Examples:
 @click.option(
     "--system",
     type=read_system,
+    shell_complete=completion.systems,
     metavar="NAME",
     help="Apply a league's own rule to --roster instead, such as npl or 'step 2'.",
 )
@@ -84,21 +86,23 @@ Examples:
     "With --system: the chart that set the races, where the file states neither race nor winner.  "
     "[default: the system's chart, if only one fits all scores]"
 )
-@aliases_option
+@results_options
 @faces()
 def command(
     results: str,
     system: handicaps.System | None,
     roster: str | None,
     chart: str | None,
-    aliases: str | None,
+    reading: dict[str, Any],
     **options: Any,
 ) -> Answer:
     """Rate players from their results, and show how certain each rating is.
 
     RESULTS.csv has one match a row, with the columns player_a, player_b, score_a and
-    score_b. Where the score is not known, race_a, race_b and winner will do; racks (who
-    won each rack, such as abba) can replace the score. - reads standard input.
+    score_b; or winner, loser and score, such as 7-5. Where the score is not known, race and
+    winner will do; racks (who won each rack, such as abba) can replace the score. It may
+    also be a workbook (.xlsx, .ods) or a tournament saved from CueScore, Challonge or
+    brackets-manager. - reads standard input.
     """
     if system is not None:
         given = [FIT_ONLY[name] for name, value in options.items() if value not in (None, ())]
@@ -108,16 +112,16 @@ def command(
             refuse("--system needs the ratings before these results; give --roster LAST.csv")
         from evenbreak.cli.league.rate_system import rate_by_system
 
-        return rate_by_system(results, system=system, roster=roster, chart=chart, aliases=aliases)
+        return rate_by_system(results, system=system, roster=roster, chart=chart, reading=reading)
     for name, value in (("--roster", roster), ("--chart", chart)):
         if value is not None:
             refuse(f"{name} is for --system; give --system npl too, or leave it out")
-    return _rate(results, aliases, **options)
+    return _rate(results, reading, **options)
 
 
 def _rate(
     path: str,
-    aliases: str | None,
+    reading: dict[str, Any],
     *,
     scale: Scale | None,
     anchors: Sequence[str],
@@ -127,7 +131,7 @@ def _rate(
 ) -> Answer:
     from evenbreak.ratings.scale import scale_of
 
-    file = files.read_results(path, aliases=aliases)
+    file = files.read_results(path, **reading)
     ratings, choice = rated(
         file,
         scale or scale_of("npl"),

@@ -11,6 +11,7 @@ from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
+    from evenbreak.files.date_cells import DateOrder
     from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
@@ -30,21 +31,29 @@ class PointsOr(Number):
         return super().convert(value, param, ctx)
 
 
-def read_day(text: str) -> str:
+def read_day(text: str, order: DateOrder | None = None) -> str:
     """Return a day, written in any way that a cell of a results file may have, as 2026-01-31.
 
-    It may lie up to a year ahead, for a tournament to come; a later one was mistyped.
+    In 9/3/2024 `order` says which is the month. The day may lie up to a year ahead, for a
+    tournament to come; a later one was mistyped.
     """
     import numpy as np
 
-    from evenbreak.files.cells import read_date
+    from evenbreak.files.date_cells import is_two_dates, read_date
 
-    day = read_date(text.strip())
+    day = read_date(text.strip(), order)
     if day is None:
-        raise click.BadParameter(f"{text!r}; give a day, such as 2026-01-31 or 31.1.2026")
+        remedy = "give a day, such as 2026-01-31, 31.1.2026 or 1/31/2026"
+        if is_two_dates(text.strip()):
+            remedy = "say with --dates mdy or --dates dmy what comes first, or write 2026-01-31"
+        raise click.BadParameter(f"{text!r}; {remedy}")
     if day > np.datetime64("today", "D") + _DAYS_AHEAD:
         raise click.BadParameter(f"{text!r} is more than a year from today; give an earlier day")
     return str(day)
+
+
+def _as_of(ctx: click.Context, param: click.Parameter, text: str | None) -> str | None:  # noqa: ARG001
+    return None if text is None else read_day(text, ctx.params.get("dates"))
 
 
 _DAYS_AHEAD = 366
@@ -78,7 +87,7 @@ def how_to_rate(command: Command) -> Command:
         click.option(
             "--as-of",
             metavar="DATE",
-            type=read_day,
+            callback=_as_of,
             help="Rate as of this day, without later matches.  [default: the last date]",
         ),
         half_life_option,
@@ -147,10 +156,18 @@ def _best_prior(
     as_of: str | None,
     break_advantage: float | str | None,
 ) -> PriorChoice:
+    from evenbreak.cli.kit.progress import Progress
     from evenbreak.ratings.decay import day_of, until
     from evenbreak.ratings.prior import best_prior
 
     results = file.results
     if as_of is not None:
         results = results.select(until(results, day_of(as_of)))
-    return best_prior(results, half_life=half_life, break_advantage=break_advantage, scale=scale)
+    with Progress("stretches predicted") as progress:
+        return best_prior(
+            results,
+            half_life=half_life,
+            break_advantage=break_advantage,
+            scale=scale,
+            progress=progress,
+        )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_other_scale
@@ -11,7 +13,12 @@ from evenbreak.errors import DataError
 
 
 def rate_by_system(
-    path: str, *, system: handicaps.System, roster: str, chart: str | None, aliases: str | None
+    path: str,
+    *,
+    system: handicaps.System,
+    roster: str,
+    chart: str | None,
+    reading: dict[str, Any],
 ) -> Answer:
     """Return the list of ratings after a night.
 
@@ -26,15 +33,15 @@ def rate_by_system(
     chart
         name or file of the chart that set the races; None: the results say who won, or else
         the only one of the system's charts that fits all scores is used.
-    aliases
-        the file that says which names mean the same player.
+    reading
+        how to read the results, as `files.read_results` takes it.
     """
-    if [path, roster, chart, aliases].count("-") > 1:
+    if [path, roster, chart, reading["aliases"]].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
     by_chart = None if chart is None else chart_by_difference("--chart", chart)
     last = files.read_roster(roster)
     refuse_other_scale(last, system.scale, f"the system {system.name}", "give another --system")
-    tonight = files.read_results(path, aliases=aliases)
+    tonight = files.read_results(path, **reading)
     if by_chart is None:
         by_chart = handicaps.chart_of_night(system, last.roster, tonight.results)
     try:

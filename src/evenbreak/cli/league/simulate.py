@@ -11,7 +11,13 @@ import click
 from evenbreak import league, plots
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import chart_option, out_option, scale_option, seed_option
+from evenbreak.cli.kit.options import (
+    chart_option,
+    out_option,
+    players_file_option,
+    scale_option,
+    seed_option,
+)
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.systems import system_option
 from evenbreak.cli.kit.terminal import say, write_folder
@@ -21,6 +27,7 @@ from evenbreak.cli.league.simulate_season import (
     matches_to_play,
     refuse_contradictions,
     season_of_options,
+    with_entrants,
 )
 from evenbreak.files.csv_writer import to_csv
 
@@ -47,6 +54,7 @@ Examples:
 @click.command("simulate", epilog=EXAMPLES)
 @click.argument("roster", metavar="ROSTER.csv")
 @out_option("The folder for the tables and pictures; created if needed.")
+@players_file_option
 @system_option()
 @scale_option("the system's", fixed=False)
 @chart_option()
@@ -116,6 +124,7 @@ def command(
     jobs: int,
     cluster: str | None,
     no_matches: bool,
+    players_file: str | None,
     **played: Any,
 ) -> Answer:
     """Simulate a season many times: how accurate ratings are, how fair matches are, who gains.
@@ -123,7 +132,8 @@ def command(
     ROSTER.csv has one player per row, with the columns player and rating and, optionally,
     standard_error, matches, skill, day_sd, drift, joins, leaves and absence; - reads standard
     input. A player without a skill gets one drawn for each season from rating and standard
-    error. matches.csv is one season in full, which `rate` and `validate` can read.
+    error. --players-file says who plays, if not everybody; those not on the list are new players.
+    matches.csv is one season in full, which `rate` and `validate` can read.
     """
     from evenbreak.answers.faces.to_csv import to_csv
     from evenbreak.answers.season import season_answer
@@ -133,6 +143,8 @@ def command(
 
     refuse_contradictions(roster, jobs, cluster, played)
     file = read_league(roster, day_sd=played["day_sd"])
+    if players_file is not None:
+        file = with_entrants(file, players_file, played)
     season, warnings = season_of_options(file, played)
     check_folder(out)
     if (many := matches_to_play(season) * replicas) >= LONG:

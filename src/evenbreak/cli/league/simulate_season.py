@@ -7,6 +7,7 @@ from typing import Any
 from evenbreak import files, league
 from evenbreak.cli.kit.systems import chart_for, on_scale, refuse_other_scale
 from evenbreak.cli.kit.values import refuse
+from evenbreak.ratings.scale import SCALES
 
 WEEKS = 30
 """The length of a season where neither --weeks nor a schedule says it."""
@@ -32,6 +33,21 @@ def refuse_contradictions(
         refuse("--dask is empty; give the scheduler's address, such as tcp://10.0.0.5:8786")
     if [roster, played["schedule_path"], played["chart"]].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
+
+
+def with_entrants(file: files.LeagueFile, path: str, played: dict[str, Any]) -> files.LeagueFile:
+    """Return the league with those players who have entered.
+
+    New ones start in the middle of the scale, or of the league if the scale has none.
+    """
+    scale = on_scale(played["system"], played["scale"]).scale
+    of_league = sorted(file.players.rating.tolist())[len(file.players) // 2]
+    return files.league_of_entrants(
+        file,
+        files.read_entrants(path),
+        starter=scale.centre if scale.name in SCALES else of_league,
+        starter_sd=scale.points_per_doubling,
+    )
 
 
 def season_of_options(

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from evenbreak import answers, files, ratings
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import aliases_option, scale_option, seed_option
+from evenbreak.cli.kit.options import results_options, scale_option, seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.league.rate_options import half_life_option, prior_in_log_odds, prior_option
 from evenbreak.ratings.scale import Scale
@@ -26,7 +28,7 @@ Examples:
 @half_life_option
 @scale_option()
 @seed_option("The seed of the intervals and simulated seasons.")
-@aliases_option
+@results_options
 @plot_option
 @faces()
 def command(
@@ -35,7 +37,7 @@ def command(
     half_life: float | None,
     scale: Scale,
     seed: int,
-    aliases: str | None,
+    reading: dict[str, Any],
     plot: str | None,
 ) -> Answer:
     """Find out whether the ratings of a league can be trusted.
@@ -47,7 +49,7 @@ def command(
     from evenbreak.errors import DataError, InputError
 
     prior_sd = prior_in_log_odds(prior, scale) if isinstance(prior, float) else None
-    file = files.read_results(results, aliases=aliases)
+    file = files.read_results(results, **reading)
     try:
         with Progress("steps") as progress:
             found = ratings.validate(

@@ -29,6 +29,7 @@ EXAMPLES = """\b
 Examples:
   evenbreak compare --p 0.6667 9:5 "3:1 of 3:3" "ahead 5:3"
   evenbreak compare 612 521 --scale fargo 7:5 "7:7 win by 2" --plot formats.png
+  evenbreak compare "Ann Lee" "Bo Diaz" --from ratings.csv 7:5 "ahead 5:3"
   evenbreak compare --p1 0.6 --p2 0.55 --breaks winner 9:7 "9:7 alternate breaks"
 """
 
@@ -43,8 +44,14 @@ class CompareCommand(PlainCommand):
         )
         rest = click.Command.parse_args(self, ctx, args)
         words: Sequence[str] = ctx.params["ratings"]
-        ctx.params["ratings"] = tuple(word for word in words if NUMBER.fullmatch(word))
-        ctx.params["formats"] = [word for word in words if not NUMBER.fullmatch(word)]
+        if ctx.params["from_file"] is not None:
+            who, formats = words[:2], words[2:]
+        else:
+            who = [word for word in words if NUMBER.fullmatch(word)]
+            formats = [word for word in words if not NUMBER.fullmatch(word)]
+        ctx.params["ratings"], ctx.params["formats"] = tuple(who), list(formats)
+        if ctx.resilient_parsing:
+            return rest
         for word in ctx.params["formats"]:
             if word.startswith("-"):
                 raise click.NoSuchOption(word.split("=")[0], ctx=ctx)
@@ -69,7 +76,8 @@ def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) 
 
     A FORMAT is 9:5 (A needs 9 games, B needs 5), "7:7 win by 2", "ahead 5:3" or
     "3:1 of 3:3" (sets), and may end in a break format, such as "winner breaks".
-    Describe the players by two ratings A B, by --p, or by --p1, --p2 and --breaks.
+    Describe the players by two ratings A B, by two names with --from, by --p, or by --p1, --p2 and
+    --breaks.
     """
     from evenbreak.answers.compare import Compared, compare_answer
 
@@ -106,11 +114,17 @@ def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) 
 
 
 def _refuse_numbers(
-    *, ratings: Sequence[str], p: float | None, p1: float | None, p2: float | None, **_: Any
+    *,
+    ratings: Sequence[str],
+    from_file: str | None,
+    p: float | None,
+    p1: float | None,
+    p2: float | None,
+    **_: Any,
 ) -> None:
     """Refuse a number that was meant for a race."""
     said = not (p is None and p1 is None and p2 is None)
-    if ratings and (said or len(ratings) > 2):
+    if ratings and from_file is None and (said or len(ratings) > 2):
         word = ratings[0 if said else 2]
         race = word if word.isdecimal() else "7"
         refuse(f"{word} was read as a rating; write {race}:{race} for a race to {race}")

@@ -16,6 +16,7 @@ MOST = 300
 EXAMPLES = """\b
 Examples:
   evenbreak fair 612 521 --scale fargo --race-to 7
+  evenbreak fair "Ann Lee" "Bo Diaz" --from ratings.csv --race-to 7
   evenbreak fair 85 40 --games 7..13 --top 3
   evenbreak fair --p1 0.6 --p2 0.5 --breaks alternate --games 5..9
 """
@@ -48,8 +49,8 @@ def command(
 ) -> Answer:
     """Find the fairest races for two players, the fairest first.
 
-    Describe the players by two ratings A B, by --p, or by --p1, --p2 and --breaks; limit the
-    length by --games or --race-to.
+    Describe the players by two ratings A B, by two names with --from, by --p, or by --p1, --p2 and
+    --breaks; limit the length by --games or --race-to.
     """
     from evenbreak.answers.fair import fair_answer
     from evenbreak.handicaps.charts.fair import fair_races
@@ -58,13 +59,18 @@ def command(
     players = players_of(**who)
     if games is None and race_to is None:
         refuse("the length of the race is missing; give --games LO..HI or --race-to N")
-    races = fair_races(
-        players.rack,
-        games=games,
-        race_to=race_to,
-        target=target,
-        top=top,
-        breaks=players.break_format,
-        first_breaker=players.first_breaker,
-    )
+    limits: Any = {"games": games, "race_to": race_to, "target": target, "top": top}
+    if players.error:
+        from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
+
+        races = nearest_races_given_ratings(
+            players.difference, players.error, scale=players.scale, **limits
+        )
+    else:
+        races = fair_races(
+            players.rack,
+            breaks=players.break_format,
+            first_breaker=players.first_breaker,
+            **limits,
+        )
     return fair_answer(players, races, target=target)

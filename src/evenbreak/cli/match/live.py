@@ -15,6 +15,7 @@ from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_g
 EXAMPLES = """\b
 Examples:
   evenbreak live 612 521 --scale fargo --race 7:5 --racks abbab
+  evenbreak live "Ann Lee" "Bo Diaz" --from ratings.csv --race 7:5 --racks abb
   evenbreak live --p 0.6 --race 9:7 --score 4:6
   evenbreak live --p 0.6 --race 7:5 --table
   evenbreak live --p 0.6 --race 3:3 --set 4:3 --score 1:0 --set-score 2:2

@@ -14,6 +14,7 @@ from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_g
 EXAMPLES = """\b
 Examples:
   evenbreak odds 612 521 --scale fargo --race 7:5
+  evenbreak odds "Ann Lee" "Bo Diaz" --from ratings.csv --race 7:5
   evenbreak odds --p 0.6 --ahead 5:3
   evenbreak odds --p1 0.6 --p2 0.5 --breaks winner --race 9:9 --score 4:6
   evenbreak odds --p 0.66 --race 3:1 --set 3:3
@@ -33,8 +34,8 @@ Examples:
 def command(*, exact: bool, **asked: Any) -> Answer:
     """Give the odds of a match, and how long it lasts.
 
-    Describe the players by two ratings A B, by --p, or by --p1, --p2 and --breaks; the match
-    by --race or --ahead, perhaps in sets.
+    Describe the players by two ratings A B, by two names with --from, by --p, or by --p1, --p2 and
+    --breaks; the match by --race or --ahead, perhaps in sets.
     """
     from evenbreak.answers.odds import odds_answer
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.wording import count_of
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import drill_option
+from evenbreak.cli.kit.options import dates_option, drill_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.errors import DataError
@@ -44,6 +44,7 @@ Examples:
     help="The confidence of the intervals.",
 )
 @drill_option
+@dates_option
 @plot_option
 @faces()
 def command(
@@ -52,6 +53,7 @@ def command(
     versus: str | None,
     confidence: float,
     drill: str | None,
+    dates: Literal["mdy", "dmy"] | None,
     plot: str | None,
 ) -> Answer:
     """Find out from the scores of a drill whether you are getting better.
@@ -65,9 +67,9 @@ def command(
         refuse("--new and --versus cannot be combined; leave one out")
     if scores == versus == "-":
         refuse("only one list can come from standard input; name a file for the other")
-    file = read_scores(scores, drill=drill)
+    file = read_scores(scores, drill=drill, dates=dates)
     if versus is not None:
-        return _versus(file, read_scores(versus, drill=drill), confidence, plot)
+        return _versus(file, read_scores(versus, drill=drill, dates=dates), confidence, plot)
     return _one_list(file, new, confidence, plot)
 
 

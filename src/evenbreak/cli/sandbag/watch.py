@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from evenbreak import files, handicaps, league
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import aliases_option, chart_option
+from evenbreak.cli.kit.options import chart_option, results_options
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.systems import refuse_other_scale, system_option
 from evenbreak.cli.kit.values import refuse
@@ -43,7 +45,7 @@ Examples:
 @click.option(
     "--player", metavar="NAME", help="Show what each match of one player adds to the evidence."
 )
-@aliases_option
+@results_options
 @plot_option
 @faces()
 def command(
@@ -57,7 +59,7 @@ def command(
     events: tuple[str, ...],
     day_sd: float,
     player: str | None,
-    aliases: str | None,
+    reading: dict[str, Any],
     plot: str | None,
 ) -> Answer:
     """Check the results of a league for sandbagging.
@@ -71,10 +73,10 @@ def command(
     from evenbreak.answers.scale_doubts import league_doubts
     from evenbreak.answers.season_nights import events_marked, events_to_try, nights_of_files
 
-    if [results, roster, chart, aliases].count("-") > 1:
+    if [results, roster, chart, reading["aliases"]].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
     ladder, warnings = watched_ladder(system, chart, day_sd)
-    first, season = files.read_roster(roster), files.read_results(results, aliases=aliases)
+    first, season = files.read_roster(roster), files.read_results(results, **reading)
     refuse_other_scale(first, system.scale, f"the system {system.name}", "give another --system")
     warnings += [*first.warnings, *season.warnings]
     warnings += league_doubts(system.scale, first.roster.rating, "set the scale with --system")

@@ -21,6 +21,7 @@ from scipy.special import betaincinv
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow
 from evenbreak.matches.parameters import in_shape
 from evenbreak.matches.win import race_win_probability
@@ -119,14 +120,26 @@ class ChartAudit:
         """The most unfair row, the first of equals."""
         return max(self.rows, key=lambda row: row.unfairness)
 
+    @property
+    def p_win(self) -> Floats:
+        """P(the stronger player wins) at each difference from 1 on that a row with an end has."""
+        chances = [np.empty(0)]
+        for row in self.rows:
+            if row.difference_to is not None:
+                points = np.arange(max(row.difference_from, 1), row.difference_to + 1)
+                p = self.scale.win_probability(points)
+                needs = row.stronger_needs, row.weaker_needs
+                chances.append(np.asarray(race_win_probability(p, *needs)))
+        return np.concatenate(chances)
 
-def audit(chart: Chart | ChartDraft, *, scale: Any = None) -> ChartAudit:
+
+def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
     """Return how fair a chart of rating differences is, and the scale and tilt that fit it.
 
     Parameters
     ----------
     chart
-        the chart, or a `ChartDraft` if its rows have gaps or overlaps.
+        the chart or its name in `CHARTS`; a `ChartDraft` if its rows have gaps or overlaps.
     scale
         what the ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the
         odds; None for the scale that fits the chart best.
@@ -134,22 +147,22 @@ def audit(chart: Chart | ChartDraft, *, scale: Any = None) -> ChartAudit:
     Raises
     ------
     InputError
-        if the chart has no rows, a row ends before it begins, or no scale is given and the
-        chart does not determine one (it has fewer than three rows, or its races do not get
-        harder).
+        if there is no such chart, it has no rows, a row ends before it begins, or no scale is
+        given and the chart does not determine one (it has fewer than three rows, or its races
+        do not get harder).
 
     Notes
     -----
     Source: Table 5.6 and the two equations before it; P5.5 for where a race is even.
 
-    >>> from evenbreak.handicaps import chart
-    >>> report = audit(chart("npl_10"))
+    >>> report = audit("npl_10")
     >>> round(report.best_fit.points_per_doubling, 1), round(report.best_fit.tilt, 2)
     (30.1, 0.49)
-    >>> row = audit(chart("fargo_r6_hot"), scale="fargo").rows[3]
+    >>> row = audit("fargo_r6_hot", scale="fargo").rows[3]
     >>> row.stronger_needs, row.weaker_needs, round(row.even_difference, 2)
     (7, 4, 86.09)
     """
+    chart = chart if isinstance(chart, ChartDraft) else chart_of(chart)
     rows = _in_order(chart)
     even = even_doublings([row.stronger_needs for row in rows], [row.weaker_needs for row in rows])
     cuts = np.array([row.difference_from - 0.5 for row in rows[1:]])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import cached_property
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,6 +28,13 @@ _MOST_CELLS_IN_ROWS = 20_000_000
 _MOST_ONE_BY_ONE = 400
 _HEAVIEST = 1e6
 """The weight that means 'never, unless no allowed race does better'."""
+
+
+class CostedChart(NamedTuple):
+    """A chart with what its design made as small as possible: the largest cost, then the mean."""
+
+    cost: tuple[float, float]
+    chart: Chart
 
 
 class Candidates:
@@ -104,6 +111,28 @@ class Candidates:
 
         The others are those of `design`.
         """
+        return self.best(
+            target=target,
+            tilt=tilt,
+            criterion=criterion,
+            mean_games=mean_games,
+            games_p90=games_p90,
+            rows=rows,
+            name=name,
+        ).chart
+
+    def best(
+        self,
+        *,
+        target: float = 0.5,
+        tilt: float = 0.5,
+        criterion: str = "mean",
+        mean_games: float | None = None,
+        games_p90: int | None = None,
+        rows: int | None = None,
+        name: str = "design",
+    ) -> CostedChart:
+        """Return the fairest chart of these races with its cost; parameters as for `fairest`."""
         target, tilt = number_probability(target, "target"), number_probability(tilt, "tilt")
         criterion = one_of(criterion, "criterion", ("mean", "worst"))
         budget = math.inf if mean_games is None else positive(mean_games, "mean_games")
@@ -115,7 +144,10 @@ class Candidates:
         length = np.where(np.isfinite(cost), length, np.inf)
         if criterion == "worst":
             cost = without_the_worst(cost, length, self.evens, budget, rows)
-        return self._chart(cheapest_within(cost, length, self.evens, budget, rows), name)
+        path = cheapest_within(cost, length, self.evens, budget, rows)
+        paid = cost[path, np.arange(path.size)]
+        worst = float(paid.max()) if criterion == "worst" else 0.0
+        return CostedChart((worst, float(paid.mean())), self._chart(path, name))
 
     def nearest(self, name: str) -> Chart:
         """Return the chart with the race nearest 1/2 at each difference (`nearest_chart`)."""

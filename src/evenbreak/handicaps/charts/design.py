@@ -18,6 +18,7 @@ from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.match_rules import match_rules
 from evenbreak.handicaps.charts.race_limits import RaceLimits
+from evenbreak.handicaps.charts.similar_lengths import SimilarLengths
 
 
 def design(
@@ -30,6 +31,7 @@ def design(
     up_to: int | None = None,
     mean_games: float | None = None,
     rows: int | None = None,
+    spread: int | None = None,
     name: str = "design",
 ) -> Chart:
     """Return the fairest chart for a scale among all charts within limits.
@@ -59,6 +61,9 @@ def design(
         fairest of all charts no longer than itself; it may be shorter than this limit.
     rows
         the most rows it may have; None for any number.
+    spread
+        how much the longest matches of its races may differ, in games; None for any length
+        within the limits. Printed charts have a spread of 2.
     name
         the name of the chart.
 
@@ -83,8 +88,7 @@ def design(
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
     [(0, 3, 3), (8, 4, 3), (20, 5, 3), (29, 4, 2), (40, 5, 2)]
     """
-    candidates = Candidates(match_rules(rules), limits, up_to)
-    return candidates.fairest(
+    return races_to_try(rules, limits, spread, up_to).fairest(
         target=target,
         tilt=tilt,
         criterion=criterion,
@@ -92,6 +96,15 @@ def design(
         rows=rows,
         name=name,
     )
+
+
+def races_to_try(
+    rules: Any, limits: RaceLimits, spread: int | None, up_to: int | None
+) -> Candidates | SimilarLengths:
+    """Return the races that a design tries, all together or in groups of similar length."""
+    if spread is None or limits.games[1] - limits.games[0] <= spread:
+        return Candidates(match_rules(rules), limits, up_to)
+    return SimilarLengths(match_rules(rules), limits, spread, up_to)
 
 
 def nearest_chart(

@@ -56,7 +56,9 @@ class _Fixed(NamedTuple):
         return self.games if self.player == 1 else longest + 1 - self.games
 
 
-class _Candidate(NamedTuple):
+class Candidate(NamedTuple):
+    """The race m:n, its longest match, and how far its chance is from the target."""
+
     distance: float
     longest: int
     m: int
@@ -188,7 +190,7 @@ def _win_rows(
 
 def _nearest(
     rows: Iterable[list[float]], low: int, fixed: _Fixed | None, target: float, top: int
-) -> list[_Candidate]:
+) -> list[Candidate]:
     """Return at least `top` of the races nearest to the target, in order."""
     distances = [
         (longest, m, abs(row[m - 1] - target))
@@ -197,19 +199,19 @@ def _nearest(
         for m in (range(1, longest + 1) if fixed is None else [fixed.m(longest)])
     ]
     furthest = nsmallest(top, (distance for _, _, distance in distances))[-1] + _TIE
-    return _shortest_of_ties(
+    return shortest_of_ties(
         sorted(
-            _Candidate(distance, longest, m, longest + 1 - m)
+            Candidate(distance, longest, m, longest + 1 - m)
             for longest, m, distance in distances
             if distance <= furthest
         )
     )
 
 
-def _shortest_of_ties(candidates: list[_Candidate]) -> list[_Candidate]:
+def shortest_of_ties(candidates: list[Candidate]) -> list[Candidate]:
     """Return sorted candidates, with the shortest first among those of practically one distance."""
-    ordered: list[_Candidate] = []
-    tied: list[_Candidate] = []
+    ordered: list[Candidate] = []
+    tied: list[Candidate] = []
     for candidate in candidates:
         if tied and candidate.distance > tied[0].distance + _TIE:
             ordered += sorted(tied, key=lambda one: one[1:])

@@ -20,11 +20,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import roots_hermitenorm
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import floats, plain, probability, together, whole
 from evenbreak.games.race import Race
 from evenbreak.handicaps.charts.fair import longest_matches
-from evenbreak.matches.length import MatchLength, match_length
+from evenbreak.matches.length import match_length
+from evenbreak.matches.length_law import MatchLength
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale, scale_of
 
@@ -92,7 +93,7 @@ def win_given_ratings(
     together(difference=gap, standard_error=error, m=m, n=n)
     gap, error, m, n = np.broadcast_arrays(gap, error, m, n)
     longest = int(np.max(m + n, initial=2))
-    nodes, weights = _rule(float(error.max(initial=0.0)), longest, scale)
+    nodes, weights = averaging_rule(float(error.max(initial=0.0)), longest, scale)
     chance = np.zeros(gap.shape)
     for node, weight in zip(nodes, weights, strict=True):
         chance += weight * race_win_probability(scale.win_probability(gap + node * error), m, n)
@@ -128,7 +129,7 @@ def length_given_ratings(
     scale = scale_of(scale)
     m, n = whole(m, "m", at_least=1), whole(n, "n", at_least=1)
     gap, error = np.broadcast_arrays(*_checked(difference, standard_error, scale))
-    nodes, weights = _rule(float(error.max(initial=0.0)), m + n, scale)
+    nodes, weights = averaging_rule(float(error.max(initial=0.0)), m + n, scale)
     games = np.arange(min(m, n), m + n)
     total: Floats = np.zeros((*gap.shape, len(games)))
     for node, weight in zip(nodes, weights, strict=True):
@@ -176,15 +177,16 @@ def fair_races_given_ratings(
     target = float(probability(target, "target"))
     gap, error = np.broadcast_arrays(*_checked(difference, standard_error, scale))
     low, high = longest_matches(games, race_to)
-    nodes, weights = _rule(float(error.max(initial=0.0)), high + 1, scale)
+    if race_to is not None:
+        return _fairest_race_to(gap, error, low, scale, target)
+    nodes, weights = averaging_rule(float(error.max(initial=0.0)), high + 1, scale)
     m, longest = np.empty(gap.size, dtype=np.int64), np.empty(gap.size, dtype=np.int64)
     step = max(1, _AT_A_TIME // (len(nodes) * (high + 2)))
     for first in range(0, gap.size, step):
         part = slice(first, first + step)
         ahead = gap.reshape(-1)[part]
         p = scale.win_probability(ahead + nodes[:, np.newaxis] * error.reshape(-1)[part])
-        fixed = None if race_to is None else (low, ahead >= 0.0)
-        m[part], longest[part] = _nearest(p, weights, low, high, fixed, target)
+        m[part], longest[part] = _nearest(p, weights, low, high, target)
     return m.reshape(gap.shape), (longest + 1 - m).reshape(gap.shape)
 
 
@@ -195,8 +197,10 @@ def _checked(difference: ArrayLike, standard_error: ArrayLike, scale: Scale) -> 
     return floats(difference, "difference"), error
 
 
-def _rule(largest_error: float, longest: int, scale: Scale) -> tuple[Floats, Floats]:
-    """Return nodes and weights that average W over N(0, 1) to 1e-9.
+def averaging_rule(
+    largest_error: float, longest: int, scale: Scale, most: int = _MOST_NODES
+) -> tuple[Floats, Floats]:
+    """Return nodes and weights that average W over N(0, 1) to 1e-9, unless `most` are too few.
 
     The number of nodes depends on the error compared with the width of W's rise, about
     2 / sqrt(m + n) in log-odds; it was found by trial against adaptive quadrature.
@@ -204,7 +208,7 @@ def _rule(largest_error: float, longest: int, scale: Scale) -> tuple[Floats, Flo
     if largest_error == 0.0:
         return np.zeros(1), np.ones(1)
     ratio = scale.log_odds(largest_error) * math.sqrt(max(longest, _FEWEST_GAMES)) / 2.0
-    return _hermite(min(_MOST_NODES, 24 + math.ceil(14.0 * ratio**2)))
+    return _hermite(min(most, 24 + math.ceil(14.0 * ratio**2)))
 
 
 @cache
@@ -216,14 +220,30 @@ def _hermite(number: int) -> tuple[Floats, Floats]:
     return nodes[kept], weights[kept]
 
 
-def _nearest(
-    p: Floats,
-    weights: Floats,
-    low: int,
-    high: int,
-    fixed: tuple[int, Bools] | None,
-    target: float,
+def _fairest_race_to(
+    gap: Floats, error: Floats, needs: int, scale: Scale, target: float
 ) -> tuple[Ints, Ints]:
+    """Return (m, n) where the stronger player needs so many games, and the other at most as many.
+
+    The stronger player's chance rises with the games that the other needs, so the nearest to
+    the target is found by bisection.
+    """
+    ahead = gap >= 0.0
+    wanted = np.where(ahead, target, 1.0 - target)
+
+    def away(fewer: Ints) -> Floats:
+        return win_given_ratings(np.abs(gap), error, needs, fewer, scale=scale) - wanted
+
+    below, above = np.ones(gap.shape, dtype=np.int64), np.full(gap.shape, needs)
+    while (above - below > 1).any():
+        middle = (below + above) // 2
+        enough = away(middle) >= 0.0
+        below, above = np.where(enough, below, middle), np.where(enough, middle, above)
+    fewer = np.where(np.abs(away(above)) < np.abs(away(below)) - _TIE, above, below)
+    return np.where(ahead, needs, fewer), np.where(ahead, fewer, needs)
+
+
+def _nearest(p: Floats, weights: Floats, low: int, high: int, target: float) -> tuple[Ints, Ints]:
     """Return m and m + n - 1 of the best race for each column of p, shape (nodes, pairs).
 
     `row[m]` is W(p; m, n) for the races with one m + n - 1, from m = 0 (player 1 has won) on.
@@ -238,12 +258,8 @@ def _nearest(
         if longest < low:
             continue
         away = np.abs(np.einsum("k,mkj->mj", weights, inner) - target)
-        if fixed is None:
-            # The first of those that tie.
-            place = (away <= away.min(axis=0) + _TIE).argmax(axis=0)
-        else:
-            needs, ahead = fixed
-            place = np.where(ahead, needs, longest + 1 - needs) - 1
+        # The first of those that tie.
+        place = (away <= away.min(axis=0) + _TIE).argmax(axis=0)
         found = away[place, pairs]
         better = found < best - _TIE
         best = np.where(better, found, best)

@@ -15,6 +15,7 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.handicaps.charts.audit import even_doublings
+from evenbreak.handicaps.charts.chart_of import level_chart_of
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale, scale_of
@@ -89,7 +90,7 @@ class LevelAudit:
         return max(self.cells, key=lambda cell: cell.unfairness)
 
 
-def audit_levels(chart: LevelChart, *, scale: Any = "npl") -> LevelAudit:
+def audit_levels(chart: LevelChart | str, *, scale: Any = "npl") -> LevelAudit:
     """Return how fair a chart by skill level is, and the ratings that fit it best.
 
     Each level is assumed to reach halfway to its neighbours; the lowest and the highest reach
@@ -98,7 +99,7 @@ def audit_levels(chart: LevelChart, *, scale: Any = "npl") -> LevelAudit:
     Parameters
     ----------
     chart
-        the chart.
+        the chart, or its name in `LEVEL_CHARTS`.
     scale
         the scale of the ratings: 'npl', 'fargo', 'elo', a `Scale` or the points that double
         the odds. The chances do not depend on it.
@@ -106,18 +107,17 @@ def audit_levels(chart: LevelChart, *, scale: Any = "npl") -> LevelAudit:
     Raises
     ------
     InputError
-        if the scale is unknown.
+        if the chart or the scale is unknown.
 
     Notes
     -----
     Where a race is even: P5.5. Every pair of levels has the same weight.
 
-    >>> from evenbreak.handicaps import level_chart
-    >>> report = audit_levels(level_chart("apa_8ball"), scale="fargo")
+    >>> report = audit_levels("apa_8ball", scale="fargo")
     >>> [round(rating) for rating in report.ratings]
     [0, 44, 101, 149, 184, 223]
     """
-    used = scale_of(scale)
+    used, chart = scale_of(scale), level_chart_of(chart)
     needs = np.array(chart.needs)
     even = even_doublings(needs, needs.T)
     # Every pair counts once, and even[j, i] = -even[i, j]; so the mean of a row is the

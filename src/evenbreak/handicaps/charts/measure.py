@@ -10,6 +10,7 @@ import numpy as np
 
 from evenbreak.checks import number_probability, whole
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.charts.match_rules import match_rules
 
 _TIE = 1e-9
@@ -44,30 +45,29 @@ class ChartMeasure:
     games_p90: int
 
 
-def last_difference(chart: Chart, rules: Any) -> int:
+def last_difference(chart: Chart | str, rules: Any) -> int:
     """Return the last whole-point difference at which the chart's last race is not too easy.
 
     There the race of the open-ended last row is even; beyond it the stronger player is the
     favourite at every difference. It marks the range that a chart was made for.
 
-    >>> from evenbreak.handicaps import chart
-    >>> last_difference(chart("npl_8"), "npl")
+    >>> last_difference("npl_8", "npl")
     52
     """
-    row = chart.rows[-1]
+    row = chart_of(chart).rows[-1]
     even = float(match_rules(rules).even_differences([row.stronger_needs], [row.weaker_needs])[0])
     return max(math.floor(even + _TIE), 1)
 
 
 def measure_chart(
-    chart: Chart, rules: Any, *, up_to: int | None = None, target: float = 0.5
+    chart: Chart | str, rules: Any, *, up_to: int | None = None, target: float = 0.5
 ) -> ChartMeasure:
     """Return how fair and how long a chart's matches are.
 
     Parameters
     ----------
     chart
-        a chart by rating difference.
+        a chart by rating difference, or its name in `CHARTS`.
     rules
         what ratings mean and how matches are played, as for `design`.
     up_to
@@ -80,14 +80,13 @@ def measure_chart(
     InputError
         if a parameter is out of range.
 
-    >>> from evenbreak.handicaps import chart
-    >>> measured = measure_chart(chart("npl_10"), "npl")
+    >>> measured = measure_chart("npl_10", "npl")
     >>> round(measured.mean_unfairness, 4), round(measured.worst_unfairness, 4)
     (0.0288, 0.0817)
     >>> round(measured.mean_games, 2), measured.games_p90
     (6.68, 9)
     """
-    rules = match_rules(rules)
+    rules, chart = match_rules(rules), chart_of(chart)
     target = number_probability(target, "target")
     last = last_difference(chart, rules) if up_to is None else whole(up_to, "up_to", at_least=1)
     unfair, mean_games, games_p90 = [], [], 0

@@ -10,9 +10,10 @@ from itertools import count
 from typing import Any, NamedTuple
 
 from evenbreak.checks import one_of, whole
-from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.charts.cheapest_path import NoChartError
+from evenbreak.handicaps.charts.design import races_to_try
 from evenbreak.handicaps.charts.match_rules import match_rules
 from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
 from evenbreak.handicaps.charts.race_limits import RaceLimits
@@ -47,11 +48,12 @@ def pareto(
     rules: Any,
     limits: RaceLimits,
     *,
-    beside: Sequence[Chart] = (),
+    beside: Sequence[Chart | str] = (),
     criterion: str = "mean",
     target: float = 0.5,
     up_to: int | None = None,
     rows: int | None = None,
+    spread: int | None = None,
     watch: Callable[[int], object] | None = None,
 ) -> list[ParetoChart]:
     """Return what fairness costs in length: the fairest charts for every length.
@@ -61,8 +63,8 @@ def pareto(
     rules, limits, target
         as for `design`.
     beside
-        printed charts to place among them. Each is joined by the fairest chart within the
-        limits that is no longer, named 'as' with its name.
+        printed charts, or their names in `CHARTS`, to place among them. Each is joined by the
+        fairest chart within the limits that is no longer, named 'as' with its name.
     criterion
         'mean' or 'worst': which unfairness counts.
     up_to
@@ -70,6 +72,8 @@ def pareto(
         beside (without any, where the hardest allowed race is even).
     rows
         the most rows of a designed chart; None for any number.
+    spread
+        how much the longest matches of a designed chart may differ, as for `design`.
     watch
         called after each chart designed, with the number of charts so far.
 
@@ -85,9 +89,7 @@ def pareto(
     InputError
         as `design` does.
 
-    >>> from evenbreak.handicaps import chart
-    >>> npl_8 = chart("npl_8")
-    >>> for one in pareto("npl", RaceLimits((5, 7), weaker_least=2), beside=[npl_8])[:4]:
+    >>> for one in pareto("npl", RaceLimits((5, 7), weaker_least=2), beside=["npl_8"])[:4]:
     ...     found = one.measure
     ...     print(
     ...         one.chart.name,
@@ -101,13 +103,13 @@ def pareto(
     games_p90 6 0.0424 4.54 6 None
     mean_games 4.5 0.0429 4.46 7 None
     """
-    rules = match_rules(rules)
+    rules, charts = match_rules(rules), [chart_of(chart) for chart in beside]
     criterion = one_of(criterion, "criterion", ("mean", "worst"))
-    if up_to is None and beside:
-        up_to = min(last_difference(chart, rules) for chart in beside)
+    if up_to is None and charts:
+        up_to = min(last_difference(chart, rules) for chart in charts)
     elif up_to is not None:
         up_to = whole(up_to, "up_to", at_least=1)
-    candidates = Candidates(rules, limits, up_to)
+    candidates = races_to_try(rules, limits, spread, up_to)
     last = int(candidates.points[-1])
 
     def measured(chart: Chart) -> _Measured:
@@ -122,7 +124,7 @@ def pareto(
         return measured(one)
 
     made = [fairest(), *_shorter_and_shorter(fairest)]
-    printed = [measured(chart) for chart in beside]
+    printed = [measured(chart) for chart in charts]
     for one in printed:
         with suppress(NoChartError):  # no chart within the limits is that short
             made.append(

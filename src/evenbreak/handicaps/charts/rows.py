@@ -87,8 +87,8 @@ def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
     if last.difference_to is not None:
         yield (
             len(rows) - 1,
-            f"the last row ends at {last.difference_to}; leave its end empty (None), so that it "
-            "covers all larger differences",
+            f"the last row ends at {last.difference_to}; leave its end out, since a chart covers "
+            "all larger differences too",
         )
 
 

@@ -74,7 +74,7 @@ class ClosedPair:
     """
 
     system: Any
-    chart: Chart | None = None
+    chart: Chart | str | None = None
     _: KW_ONLY
     skill_difference: float = 0.0
     start: int = 0
@@ -151,7 +151,9 @@ class ClosedPair:
         return Distribution(errors, law.probability)
 
 
-def in_step_law(system: Any, chart: Chart | None = None, *, widest: Any = None) -> Distribution:
+def in_step_law(
+    system: Any, chart: Chart | str | None = None, *, widest: Any = None
+) -> Distribution:
     """Return the rating errors in a closed league whose players all started correctly rated.
 
     Many equal players start with the right ratings, and every night all of them play somebody

@@ -22,6 +22,7 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number, whole
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.ladders.error_law import LongRun, NightModel, long_run
 from evenbreak.handicaps.ladders.error_walk import ErrorWalk
 from evenbreak.handicaps.ladders.form import deviation_grid, deviations, difference_law
@@ -118,7 +119,7 @@ class Ladder(ErrorWalk):
     def __init__(
         self,
         system: System | str | Chart,
-        chart: Chart | None = None,
+        chart: Chart | str | None = None,
         *,
         opponents: Opponents = NATURAL,
         day_sd: float = 0.0,
@@ -244,10 +245,8 @@ def _system_and_chart(system: Any, chart: Any) -> tuple[System, Chart]:
         if chart is not None:
             raise InputError(f"chart is {chart!r}; a Chart was given as the system already")
         return system_of("npl"), system
-    if chart is not None and not isinstance(chart, Chart):
-        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('npl_10')")
     by = system_of(system)
-    return by, by.usual_chart() if chart is None else chart
+    return by, by.usual_chart() if chart is None else chart_of(chart)
 
 
 def _at_the_ends(law: Floats) -> float:

@@ -19,12 +19,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import gammaln, xlog1py, xlogy
+from scipy.special import gammaln, xlogy
 
-from evenbreak.arrays import Bools, Floats, Ints, Places
-from evenbreak.checks import probability, whole
+from evenbreak.arrays import Bools, Floats, Ints, Places, short_repr
+from evenbreak.checks import complement, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.systems.system import PlayedMatch, System
 from evenbreak.matches.win import race_win_probability
 
@@ -35,6 +36,7 @@ _DOUBLINGS = 2.0
 """How wide a table is by default: to where the odds of a game are 4 to 1."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class MatchTable:
     """All final scores of a system's matches, by rating difference; `match_table` makes it.
@@ -134,7 +136,7 @@ class MatchTable:
         before, lost = np.maximum(np.where(won, a, b) - 1, 0), np.where(won, b, a)
         orders = gammaln(before + lost + 1) - gammaln(before + 1) - gammaln(lost + 1)
         down = (..., *(None,) * game.ndim)
-        log = orders[down] + xlogy(a[down], game) + xlog1py(b[down], -game)
+        log = orders[down] + xlogy(a[down], game) + xlogy(b[down], complement(game))
         by_race = np.where((a + b > 0)[down], np.exp(log), 0.0)
         return by_race[place]
 
@@ -145,7 +147,9 @@ class MatchTable:
         return first, place.reshape(-1)
 
 
-def match_table(system: System, chart: Chart | None = None, *, widest: Any = None) -> MatchTable:
+def match_table(
+    system: System, chart: Chart | str | None = None, *, widest: Any = None
+) -> MatchTable:
     """Return all final scores of a system's matches, by the difference of the two ratings.
 
     Parameters
@@ -153,7 +157,7 @@ def match_table(system: System, chart: Chart | None = None, *, widest: Any = Non
     system
         whose rule moves the ratings.
     chart
-        which sets the races; None: the system's own.
+        which sets the races, or its name in `CHARTS`; None: the system's own.
     widest
         the largest difference in points, a whole number from 1 up; None: two doublings of the
         odds, 60 points in the National Pool League.
@@ -170,9 +174,7 @@ def match_table(system: System, chart: Chart | None = None, *, widest: Any = Non
     """
     if not isinstance(system, System):
         raise InputError(f"system is {system!r}; give a System, such as system_of('npl')")
-    by = system.usual_chart() if chart is None else chart
-    if not isinstance(by, Chart):
-        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('npl_10')")
+    by = system.usual_chart() if chart is None else chart_of(chart)
     given = round(_DOUBLINGS * system.scale.points_per_doubling) if widest is None else widest
     size = whole(given, "widest", at_least=1)
     needs = np.column_stack(by.races(np.arange(-size, size + 1)))

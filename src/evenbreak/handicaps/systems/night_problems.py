@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.systems.night_table import NightTable, night_table
 from evenbreak.handicaps.systems.system import System
 from evenbreak.ratings.consistency import Problem, find_problems
@@ -15,7 +16,7 @@ from evenbreak.ratings.roster import Roster
 
 
 def night_problems(
-    system: System, roster: Roster, results: Results, *, chart: Chart | None = None
+    system: System, roster: Roster, results: Results, *, chart: Chart | str | None = None
 ) -> list[Problem]:
     """Return every problem that keeps a night's results from changing ratings, by row.
 
@@ -34,7 +35,7 @@ def night_problems(
         *(
             problem
             if chart is None or not _off_chart(night, problem)
-            else problem._replace(message=_no_end(roster, night, chart, problem.row))
+            else problem._replace(message=_no_end(roster, night, chart_of(chart), problem.row))
             for problem in find_problems(night.results)
         ),
     ]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.arrays import Bools, Ints
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.ratings.consistency import who_won
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
@@ -47,7 +48,7 @@ class NightTable(NamedTuple):
     from_chart: Bools
 
 
-def night_table(roster: Roster, results: Results, chart: Chart | None) -> NightTable:
+def night_table(roster: Roster, results: Results, chart: Chart | str | None) -> NightTable:
     """Return a night's results beside the list, with races by the chart if there is one."""
     on_list = {name: position for position, name in enumerate(roster.players)}
     place = np.array([on_list.get(name, -1) for name in results.players], dtype=np.int64)
@@ -59,7 +60,7 @@ def night_table(roster: Roster, results: Results, chart: Chart | None) -> NightT
     if chart is not None:
         # As `evenbreak matchups` rounds: each rating, halves upwards.
         points = np.floor(np.append(roster.rating, 0.0) + 0.5)
-        chart_a[rated], chart_b[rated] = chart.races((points[a] - points[b])[rated])
+        chart_a[rated], chart_b[rated] = chart_of(chart).races((points[a] - points[b])[rated])
     race_a = np.zeros_like(chart_a) if results.race_a is None else results.race_a
     race_b = np.zeros_like(chart_b) if results.race_b is None else results.race_b
     unraced = (race_a == 0) & (race_b == 0)

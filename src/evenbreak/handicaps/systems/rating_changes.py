@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Ints
+from evenbreak.arrays import Ints, short_repr
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.night_problems import night_problems
@@ -50,6 +50,7 @@ class MatchChange(NamedTuple):
     points: tuple[int, int]
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class RatingChanges:
     """How a night changed the ratings of a list.
@@ -80,7 +81,7 @@ class RatingChanges:
 
 
 def apply_results(
-    system: System, roster: Roster, results: Results, *, chart: Chart | None = None
+    system: System, roster: Roster, results: Results, *, chart: Chart | str | None = None
 ) -> RatingChanges:
     """Return how a night's results change the ratings of a list.
 
@@ -111,10 +112,10 @@ def apply_results(
     -----
     Source: the National Pool League's ladder, between Table 5.6 and P5.27.
 
-    >>> from evenbreak.handicaps import chart, system_of
+    >>> from evenbreak.handicaps import system_of
     >>> club = Roster(["Ann", "Bo", "Cy"], [92, 80, 71])
     >>> night = Results.from_names(["Ann", "Ann"], ["Bo", "Cy"], [4, 6], [4, 2])
-    >>> changes = apply_results(system_of("npl"), club, night, chart=chart("npl_10"))
+    >>> changes = apply_results(system_of("npl"), club, night, chart="npl_10")
     >>> changes.after.rating
     array([92., 81., 70.])
     >>> match = changes.matches[0]
