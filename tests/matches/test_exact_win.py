@@ -7,7 +7,15 @@ import pytest
 
 from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.errors import InputError
-from evenbreak.games import Ahead, OneBall, Race, Rack, alternate_breaks, loser_breaks, winner_breaks
+from evenbreak.games import (
+    Ahead,
+    OneBall,
+    Race,
+    Rack,
+    alternate_breaks,
+    loser_breaks,
+    winner_breaks,
+)
 from evenbreak.matches import win_probability
 
 BY_BREAK = Rack(0.6, 0.45)
