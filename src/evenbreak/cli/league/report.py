@@ -19,13 +19,12 @@ from evenbreak.cli.kit.options import (
     out_option,
     players_file_option,
     race_limit_options,
-    refuse_both,
     results_options,
     scale_option,
 )
 from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.kit.values import Whole, refuse
-from evenbreak.cli.league.rate_options import how_to_rate, rated
+from evenbreak.cli.league.rate_options import how_to_rate, offered_races, rated
 from evenbreak.files.problems import quoted
 from evenbreak.ratings.scale import Scale
 
@@ -34,7 +33,6 @@ if TYPE_CHECKING:
 
 
 MOST_PAIRED = 1000
-RACE_TO = 7
 
 MANY_PAIRS = 50_000
 """Pairs from which a sheet takes so long that a person wonders."""
@@ -121,7 +119,7 @@ def command(
     or --race-to says otherwise, and holds all players, the strongest first. The sheet is printed
     here, and sheet.pdf is for the wall; --html adds a page to hand out, --excel a workbook.
     """
-    refuse_both(games, race_to)
+    offered = offered_races(games, race_to)
     ways = {"--players": players, "--top": top, "--players-file": players_file}
     given = [name for name, value in ways.items() if value]
     if len(given) > 1:
@@ -133,7 +131,6 @@ def command(
     from evenbreak.files.folder import check_folder
 
     check_folder(out)
-    offered = answers.OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
     say(f"Reading {'standard input' if results == '-' else results}")
     file, warnings = _read(results, reading)
     found = None
@@ -184,7 +181,7 @@ def _with_entrants(file: ResultsFile, path: str) -> tuple[files.Entered, Results
     results = replace(file.results, players=(*file.results.players, *found.new))
     warnings = list(found.warnings)
     for name, rating in zip(found.names, entrants.roster.rating.tolist(), strict=True):
-        if rating == rating and name in found.new:
+        if not math.isnan(rating) and name in found.new:
             warnings.append(
                 f"{path}: the rating of {quoted(name)} is not used, because a report rates players "
                 "from results alone; evenbreak matchups uses it"
