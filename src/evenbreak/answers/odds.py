@@ -60,14 +60,11 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
         [
             _in_words(odds, match, players),
             Quantities(quantities),
-            *([_AVERAGED] if players.error else []),
+            *filter(None, [players.averaged]),
         ],
         warnings=players.doubts,
         data=players.named,
     )
-
-
-_AVERAGED = "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
 
 
 def _odds(players: TwoPlayers, match: Match) -> MatchOdds:
