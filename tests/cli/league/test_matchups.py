@@ -384,6 +384,13 @@ def test_of_a_list_only_the_entrants_meet(run, tmp_path):
     entrants.write_text("Søren Lindqvall\nNoor Al-Beyrati\nA Stranger\n", encoding="utf-8")
     words = (str(DATA / "demo_roster.csv"), "--race-to", "7", "--json")
     result = run("matchups", *words, "--players-file", str(entrants))
+    page = tmp_path / "tonight.html"
+    asked = ("--players-file", str(entrants), "--html", str(page))
+    assert run("matchups", *words, *asked).exit_code == 0
+    shown = page.read_text(encoding="utf-8")
+    assert "A Stranger" in shown
+    assert "/demo_roster.csv" not in shown
+    assert str(tmp_path) not in shown
     pairs = json.loads(result.stdout)["pairs"]
     assert [(pair["player_a"], pair["player_b"]) for pair in pairs] == [
         ("Søren Lindqvall", "A Stranger"),

@@ -6,7 +6,6 @@ import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -14,7 +13,7 @@ import click
 from evenbreak import answers, files, sheets
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.sheet import MOST_ON_SHEET
-from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.faces import faces, without_folders
 from evenbreak.cli.kit.options import (
     out_option,
     players_file_option,
@@ -137,6 +136,8 @@ def command(
     if players_file is not None:
         found, file, more = _with_entrants(file, players_file)
         warnings = [*warnings, *more]
+        public = without_folders(more, players_file, results)
+        file = replace(file, warnings=(*file.warnings, *public))
     say(f"Rating {len(file.results.players):,} players")
     ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of)
     if players:
@@ -170,7 +171,7 @@ def _read(results: str, reading: dict[str, Any]) -> tuple[ResultsFile, Sequence[
     if aliases is None:
         return file, file.warnings
     # The sheet is handed out, and folders are private.
-    public = [text.replace(aliases, PurePath(aliases).name) for text in file.warnings]
+    public = without_folders(file.warnings, aliases)
     return replace(file, warnings=tuple(public)), file.warnings
 
 
