@@ -106,5 +106,5 @@ def test_a_file_without_end_is_refused(monkeypatch):
     with pytest.raises(DataError, match="larger than 1 MB"):
         content_of("/dev/zero")
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(bytes((1 << 20) + 1))))
-    with pytest.raises(DataError, match="stdin: is longer"):
+    with pytest.raises(DataError, match="stdin: is larger"):
         content_of("-")
