@@ -1,7 +1,11 @@
 # `make check` is what CI runs. Set PYTHON to the interpreter of your own environment.
 PYTHON ?= .venv-dev/bin/python
 
-.PHONY: check check-rest lint types test layers docs reports drift bench clean
+# What breaks first where another library is older: drawing, files, sparse solvers, all commands.
+LEANING = tests/plots tests/sheets tests/files tests/test_faces.py tests/chains/test_accuracy.py \
+	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
+
+.PHONY: check check-rest lint types test lowest layers docs reports drift bench clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
@@ -17,6 +21,13 @@ types:
 
 test:             ## tests and every docstring's, README's and page's example
 	$(PYTHON) -m pytest -q -n logical
+
+lowest:           ## tests that lean on other libraries, at the lowest versions declared
+	$(PYTHON) -m venv .venv-lowest
+	$(PYTHON) .ci/lowest_versions.py > .venv-lowest/versions.txt
+	.venv-lowest/bin/python -m pip install -q -c .venv-lowest/versions.txt -e '.[excel,symbolic]' \
+		pytest hypothesis pytest-xdist
+	.venv-lowest/bin/python -m pytest -q -n logical -W ignore::DeprecationWarning $(LEANING)
 
 layers:           ## imports in one direction, files and terminal only at the end
 	$(PYTHON) -m pytest -q tests/test_layers.py
@@ -43,4 +54,4 @@ bench:            ## each benchmark beside the bare floor it is compared with
 		--benchmark-columns=min,median,rounds --benchmark-group-by=group benchmarks
 
 clean:
-	rm -rf docs/_build sheet .venv .venv-dev .pytest_cache .mypy_cache .ruff_cache
+	rm -rf docs/_build sheet .venv .venv-dev .venv-lowest .pytest_cache .mypy_cache .ruff_cache

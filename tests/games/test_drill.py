@@ -29,6 +29,13 @@ def test_as_many_go_up_as_come_down(success: list[float]) -> None:
         assert limit[level] * here == pytest.approx(limit[level + 1] * (1 - above), rel=1e-12)
 
 
+def test_the_8_ball_drill_is_the_9_ball_drill_without_its_certain_level() -> None:
+    assert Drill.eight_ball(0.8).success == Drill.progressive(0.8, 8).success[1:]
+    for levels in (0, 8):
+        with pytest.raises(InputError, match="levels"):
+            Drill.eight_ball(0.8, levels)
+
+
 def test_the_progressive_drill() -> None:
     # Table 5.5, p = .8
     limit = stochastic_limit(chain_of(Drill.progressive(0.8)))

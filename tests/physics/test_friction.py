@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from evenbreak.errors import InputError
 from evenbreak.physics import (
     friction_of_incline,
+    friction_of_pull,
+    friction_of_speeds,
     friction_of_stop,
     friction_of_throw,
     miscue_offset,
@@ -32,6 +34,27 @@ def test_distance_is_the_sum_of_speed(speed: float, friction: float, time: float
         float(np.trapezoid(found, times)), rel=1e-4, abs=1e-5
     )
     assert (np.diff(found) <= 0.0).all()
+
+
+@given(speeds, frictions, st.floats(0.05, 0.95))
+def test_each_way_to_measure_it_finds_the_friction(
+    speed: float, friction: float, share: float
+) -> None:
+    gravity, mass = 9.81, 0.17
+    stop = speed / (friction * gravity)
+    time = share * stop
+    way = sliding_distance(speed, friction, time, gravity=gravity)
+    later = sliding_speed(speed, friction, time, gravity=gravity)
+    lost = mass * (speed**2 - later**2) / 2
+    assert friction_of_speeds(speed, later, way, gravity=gravity) == pytest.approx(friction)
+    assert friction_of_pull(lost / way, mass * gravity) == pytest.approx(friction)
+    whole = sliding_distance(speed, friction, stop, gravity=gravity)
+    assert friction_of_stop(whole, stop, gravity=gravity) == pytest.approx(friction)
+
+
+def test_a_block_that_gains_speed_is_refused() -> None:
+    with pytest.raises(InputError, match="second"):
+        friction_of_speeds(1.0, [0.5, 1.5], 1.0)
 
 
 @given(speeds, frictions)

@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from collections import Counter
 from decimal import Decimal
 from fractions import Fraction
@@ -10,6 +11,8 @@ from statistics import NormalDist, mean, pstdev
 
 import pytest
 
+from evenbreak.handicaps import chart
+from evenbreak.handicaps.charts.off_rule import off_rule
 from evenbreak.source_text.answers import SECTION_5, compute, section_5_findings
 from evenbreak.source_text.findings import verdict_of
 from evenbreak.source_text.published import (
@@ -100,6 +103,18 @@ def test_what_is_right_in_place_of_a_wrong_number() -> None:
         if row.verdict == "erratum":
             found.setdefault(row[:2], []).append(float(compute(*row[:3])))
     assert found == {key: pytest.approx(values, rel=1e-12) for key, values in right.items()}
+
+
+def test_the_slip_of_table_5_6_names_the_races_that_are_off_the_rule() -> None:
+    (slip,) = slips_of("Table 5.6")
+    charts = re.findall(r"([^()]+) \(chart (\d+)\)", slip.printed)
+    for races, number in charts:
+        for place in off_rule(chart(f"npl_{number}"), "npl"):
+            m, n = place.race
+            assert f"{m}:{n} " in races
+            assert f" {place.difference}" in races
+            assert "{}:{}".format(*place.nearest) in slip.correct
+    assert [number for _, number in charts] == ["8", "10", "12", "20"]
 
 
 def test_w_of_p5_7_is_right_at_the_printed_p_alone() -> None:

@@ -1,8 +1,12 @@
 from decimal import Decimal
+from importlib.resources import files
+
+import pytest
 
 from evenbreak.source_text.findings import Finding
 from evenbreak.source_text.page import (
     compared,
+    contents,
     errata_table,
     filled,
     printed_text,
@@ -59,3 +63,18 @@ def test_slips_remarks_and_losses_have_their_own_words():
     listed = errata_table([SLIP, REMARK, COPY], "slip")
     assert listed.count("\n") == 2
     assert "| P4.15 | 28.125 degrees | 28.126 | last digit | By hand. |" in listed
+
+
+@pytest.mark.parametrize("section", ["section5", "physics"])
+def test_every_section_is_in_the_contents(section):
+    page = files(f"evenbreak.source_text.{section}").joinpath("page.md").read_text("utf-8")
+    assert page.count("[contents]") == 1
+    links = contents(page).splitlines()
+    assert len(links) == len(set(links)) == page.count("\n## ")
+
+
+@pytest.mark.parametrize(
+    ("kind", "shown"), [("printed", "0.90"), ("formula", "(0.90)"), ("words", "(0.90)")]
+)
+def test_what_is_not_printed_stands_in_parentheses(kind, shown):
+    assert compared(Finding(NUMBER._replace(value_is=kind), 0.9, "agrees"))[0] == shown

@@ -93,6 +93,20 @@ def test_rows_are_whole(reader):
         assert row.verdict != "erratum" or row.note, row
 
 
+def test_what_the_value_of_a_number_is():
+    assert {row.value_is for row in published_numbers()} == {"printed"}
+    for row in physics_numbers():
+        assert row.value_is in {"printed", "formula", "words", ""}, row
+        assert (row.value_is == "") == (row.printed is None), row
+        assert row.verdict != "formula" or row.value_is == "formula", row
+
+
+def test_damage_to_the_copy_is_not_called_a_slip():
+    copies = {slip.printed for slip in physics_errata() if slip.class_ == "copy"}
+    assert any(text.startswith("T = T_0 + M_f/(3 M_s)") for text in copies)
+    assert any("omega_bv" in text for text in copies)
+
+
 def test_digits_are_kept_as_printed():
     printed = {row[:3]: str(row.printed) for row in published_numbers()}
     assert printed["P5.22", "W infinite look-ahead", "p1=0.9 p2=0.9"] == "0.90"

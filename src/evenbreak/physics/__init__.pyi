@@ -23,6 +23,8 @@ from .equipment import density_range as density_range
 from .equipment import floats_in as floats_in
 from .equipment import volume_range as volume_range
 from .friction import friction_of_incline as friction_of_incline
+from .friction import friction_of_pull as friction_of_pull
+from .friction import friction_of_speeds as friction_of_speeds
 from .friction import friction_of_stop as friction_of_stop
 from .friction import friction_of_throw as friction_of_throw
 from .friction import miscue_offset as miscue_offset

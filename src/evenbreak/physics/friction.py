@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
+from evenbreak.errors import InputError
 from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.units import GRAVITY
 
@@ -28,6 +29,59 @@ def friction_of_incline(angle: Any) -> Any:
     return plain(np.tan(numbers(angle, "angle", low=0.0, high=math.pi / 2.0)))
 
 
+def friction_of_pull(force: Any, weight: Any) -> Any:
+    """Return the friction of a block, from the force that slides it at constant speed.
+
+    Parameters
+    ----------
+    force, weight
+        the reading of the scale that pulls it, and its weight, in the same unit. If instead two
+        energies were measured, the force is the energy lost over the distance between them.
+
+    Notes
+    -----
+    Source: section 1, methods (1) and (3).
+
+    >>> friction_of_pull(1.5, 6.0)
+    0.25
+    """
+    force, weight = numbers(force, "force", low=0.0), positive(weight, "weight")
+    together(force=force, weight=weight)
+    return plain(force / weight)
+
+
+def friction_of_speeds(first: Any, second: Any, distance: Any, *, gravity: float = GRAVITY) -> Any:
+    """Return the friction of a sliding block, from its speeds at two points of its path.
+
+    Parameters
+    ----------
+    first, second
+        its speeds at the two points, in m/s; it cannot be faster at the second.
+    distance
+        between the points, in metres.
+    gravity
+        metres per second squared.
+
+    Raises
+    ------
+    InputError
+        if the block is faster at the second point.
+
+    Notes
+    -----
+    Source: section 1, method (3): T = T_0 - mu M g x at two points, where the mass cancels.
+
+    >>> friction_of_speeds(5.0, 3.0, 4.0, gravity=10.0)
+    0.2
+    """
+    first, second = numbers(first, "first", low=0.0), numbers(second, "second", low=0.0)
+    distance, pull = positive(distance, "distance"), positive(gravity, "gravity")
+    together(first=first, second=second, distance=distance, gravity=pull)
+    if np.any(second > first):
+        raise InputError("second is above first; a sliding block does not gain speed")
+    return plain((first - second) * (first + second) / (2.0 * pull * distance))
+
+
 @overload
 def friction_of_throw(sideways: float, ahead: float) -> float: ...
 
@@ -36,6 +90,8 @@ def friction_of_throw(sideways: float, ahead: float) -> float: ...
 def friction_of_throw(sideways: ArrayLike, ahead: ArrayLike) -> Floats: ...
 def friction_of_throw(sideways: Any, ahead: Any) -> Any:
     """Return the friction between balls, from how far a frozen ball is thrown off line (P1.6).
+
+    Exercise 1.2 measures it with several sets of balls, with chalk, talc or water between them.
 
     Parameters
     ----------
@@ -137,6 +193,8 @@ def tip_friction_of(offset: float) -> float: ...
 def tip_friction_of(offset: ArrayLike) -> Floats: ...
 def tip_friction_of(offset: Any) -> Any:
     """Return the static friction of a tip that starts to slip at an offset b/R (P1.7).
+
+    Exercise 1.3 finds the offset with the shaft upright on a ball.
 
     >>> round(tip_friction_of(0.5), 3)
     0.577

@@ -22,7 +22,10 @@ from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
 
 NATURAL_ROLL_OFFSET = 0.4
-"""The height above the centre, over R, at which a hit gives natural roll at once (P3.5)."""
+"""The height above the centre, over R, at which a hit gives natural roll at once (P3.5).
+
+In exercise 3.1 a stripe struck there, with the cue in its plane, seems to stand still.
+"""
 
 
 class ContactPoint(NamedTuple):

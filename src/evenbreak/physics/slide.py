@@ -138,7 +138,7 @@ def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
 
     Notes
     -----
-    Source: section 2 (draw, stun and drag shots), R omega = R omega_0 + 5/2 mu g t.
+    Source: section 2 (draw, stun and drag shots), R omega = R omega_0 + 5/2 mu g t; exercise 2.2.
 
     >>> round(stun_distance(2.0, -0.5, Cloth(mu_slide=0.2, gravity=10.0)), 9)
     0.36
@@ -167,6 +167,10 @@ def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
         J = R omega_0 / V_0, -5/2 or more, so that the ball never goes backwards.
     cloth
         on which the ball slides.
+
+    Notes
+    -----
+    Source: section 2, and exercise 2.1 for a drag shot.
 
     >>> round(drag_distance(2.0, -1.0, Cloth(mu_slide=0.2, gravity=10.0)), 9)
     0.816326531

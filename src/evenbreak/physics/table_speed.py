@@ -47,6 +47,8 @@ def table_speed(
 def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = GRAVITY) -> Any:
     """Return the table speed from the time that a ball takes to roll a distance and stop.
 
+    Exercise 1.1 times it with a ball let go on a ramp of two cues.
+
     Parameters
     ----------
     lag_time

@@ -6,13 +6,16 @@ with p2. With q = 1 - p, P(player 1 wins) is
     infinite look-ahead:   p1 / (1 - q1 q2) = p1 / (p1 + q1 p2)    the shots repeat for ever
     two-shot look-ahead:   p1 + q1 q2 / 2                          even after two misses
 
-Both are 1/2 on one curve, p2 = p1 / (1 - p1) (P5.20 and P5.21).
+Both are 1/2 on one curve, p2 = p1 / (1 - p1) (P5.20 and P5.21). If the chances p3, p4, ... of later
+shots are known too, there is an n-shot look-ahead, after which the game is even:
+
+    p1 + q1 q2 p3 + q1 q2 q3 q4 p5 + ... + q1 q2 ... qn / 2
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, overload
 
@@ -26,6 +29,9 @@ from evenbreak.games.one_ball import OneBallLookAhead
 
 LOOK_AHEADS = ("infinite", "two shots")
 """What is assumed after the first two shots: the same two for ever, or an even game."""
+
+CHOICE_LOOK_AHEADS = (*LOOK_AHEADS, "all shots")
+"""The same for a `ShotChoice`: or its later shots in turn, and an even game after them."""
 
 
 @overload
@@ -144,12 +150,20 @@ def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> flo
     True
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
+    return _break_even(p1, win, after=0.5 if look_ahead == "two shots" else None)
+
+
+def _break_even(p1: float, win: float, *, after: float | None) -> float | None:
+    """Return the p2 with which a shot wins with chance `win`.
+
+    `after` is the chance after two misses; None if the two shots are then repeated.
+    """
     make, target = number_probability(p1, "p1"), number_probability(win, "win")
     miss = 1.0 - make
-    if miss == 0.0:
+    if miss == 0.0 or after == 0.0:
         return None
-    if look_ahead == "two shots":
-        left = 1.0 - 2.0 * (target - make) / miss
+    if after is not None:
+        left = 1.0 - (target - make) / (miss * after)
     elif 0.0 in (make, target):
         return None
     else:
@@ -169,23 +183,31 @@ class ShotChoice:
         P(player 1 makes it | player 1 takes it).
     p2
         P(player 2 makes the shot that is left | player 1 missed).
+    later
+        the chances p3, p4, ... of the shots after these two, each if all before it were missed:
+        player 1's, player 2's, and so on. They count for the look-ahead "all shots" only.
 
     Raises
     ------
     InputError
-        if p1 or p2 is not a probability.
+        if a value is not a probability.
 
     >>> ShotChoice("bank", 0.4, 0.8).region
     'sell-out'
+    >>> round(ShotChoice("bank", 0.4, 0.8, (0.5, 0.2)).win("all shots"), 3)
+    0.484
     """
 
     name: str
     p1: float
     p2: float
+    later: Sequence[float] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "p1", number_probability(self.p1, "p1"))
         object.__setattr__(self, "p2", number_probability(self.p2, "p2"))
+        later = tuple(number_probability(p, f"later[{k}]") for k, p in enumerate(self.later))
+        object.__setattr__(self, "later", later)
 
     @property
     def region(self) -> str:
@@ -199,8 +221,22 @@ class ShotChoice:
         return "sell-out" if self.p2 >= 0.5 else "safety"
 
     def win(self, look_ahead: str = "infinite") -> float:
-        """Return P(player 1 wins the game | player 1 takes this shot), see `one_ball_win`."""
+        """Return P(player 1 wins the game | player 1 takes this shot), see `one_ball_win`.
+
+        With "all shots", the shots of `later` follow, and the game is even after the last.
+        """
+        one_of(look_ahead, "look_ahead", CHOICE_LOOK_AHEADS)
+        if look_ahead == "all shots":
+            return look_ahead_win(OneBallLookAhead([self.p1, self.p2, *self.later]))
         return float(one_ball_win(self.p1, self.p2, look_ahead=look_ahead))
+
+    def break_even_p2(self, win: float, look_ahead: str = "infinite") -> float | None:
+        """Return the p2 with which this shot wins with chance `win`, as `break_even_p2` does."""
+        one_of(look_ahead, "look_ahead", CHOICE_LOOK_AHEADS)
+        if look_ahead != "all shots":
+            return break_even_p2(self.p1, win, look_ahead=look_ahead)
+        after = look_ahead_win(OneBallLookAhead(self.later)) if self.later else 0.5
+        return _break_even(self.p1, win, after=after)
 
 
 class RankedShot(NamedTuple):
@@ -228,7 +264,7 @@ def compare_shots(
     shots
         the shots that player 1 may choose from, at least one.
     look_ahead
-        as in `one_ball_win`. With infinite look-ahead the best shot is also the best for a
+        as for `ShotChoice.win`. With infinite look-ahead the best shot is also the best for a
         player who may choose again after every miss, as the chances stay the same.
 
     Raises
@@ -257,7 +293,7 @@ def compare_shots(
             shot,
             win,
             best - win,
-            None if rival is None else break_even_p2(shot.p1, rival, look_ahead=look_ahead),
+            None if rival is None else shot.break_even_p2(rival, look_ahead),
         )
         for shot, win, rival in zip(ranked, wins, rivals, strict=True)
     )

@@ -83,6 +83,22 @@ def differing(found: Iterable[Finding]) -> Iterator[str]:
             )
 
 
+def physics_row_of(finding: Finding) -> dict[str, Any]:
+    """Return a number of sections 1 to 4 as a row, with what its value is.
+
+    >>> number = PublishedNumber("P2.2", "q", "", Decimal(2), Decimal(0), "formula", "", "formula")
+    >>> list(physics_row_of(Finding(number, 2.0, "formula")).items())[3:5]
+    [('value', Decimal('2')), ('value_is', 'formula')]
+    """
+    cells: dict[str, Any] = {}
+    for name, cell in row_of(finding).items():
+        if name == "printed":
+            cells |= {"value": cell, "value_is": finding.published.value_is}
+        else:
+            cells[name] = cell
+    return cells
+
+
 def row_of(finding: Finding) -> dict[str, Any]:
     """Return a number as a row of a table."""
     row, computed = finding.published, finding.computed

@@ -26,7 +26,22 @@ def filled(section: str, blocks: Blocks) -> str:
     template = files(f"evenbreak.source_text.{section}").joinpath("page.md").read_text("utf-8")
     page = _PLACE.sub(lambda place: blocks[place[1]](place[2] or ""), template)
     # A problem without slips leaves an empty paragraph.
-    return re.sub(r"\n{3,}", "\n\n", page)
+    return re.sub(r"\n{3,}", "\n\n", page.replace("[contents]", contents(page)))
+
+
+def contents(page: str) -> str:
+    r"""Return links to the sections of a page.
+
+    >>> print(contents("# Top\n\n## Was it luck? P5.19\n\n### Not this\n\n## Runs\n"))
+    - [Was it luck? P5.19](#was-it-luck-p519)
+    - [Runs](#runs)
+    """
+    headings = re.findall(r"^## (.+)$", page, re.MULTILINE)
+    return "\n".join(f"- [{heading}](#{_anchor(heading)})" for heading in headings)
+
+
+def _anchor(heading: str) -> str:
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
 
 def verdicts_table(found: Iterable[Finding]) -> str:
@@ -38,10 +53,14 @@ def verdicts_table(found: Iterable[Finding]) -> str:
 
 
 def compared(finding: Finding) -> list[str]:
-    """Return what the text prints, what is computed and the verdict, as cells of a table."""
+    """Return what the text prints, what is computed and the verdict, as cells of a table.
+
+    What the text has only as a formula or in words stands in parentheses.
+    """
     computed, verdict = finding.computed, finding.verdict
+    text = printed_text(finding.published.printed)
     return [
-        printed_text(finding.published.printed),
+        f"({text})" if finding.published.value_is in {"formula", "words"} else text,
         "" if computed is None else short(number_cell(computed)),
         "**erratum**" if verdict == "erratum" else verdict,
     ]

@@ -32,6 +32,10 @@ class PublishedNumber(NamedTuple):
         'given' for numbers that the text takes from elsewhere.
     note
         a comment, or ''.
+    value_is
+        what `printed` is: 'printed' if the text prints the number; in sections 1 to 4 also
+        'formula' for the value of a printed formula, and 'words' for what the text says without
+        a number; '' if there is no value.
     """
 
     problem: str
@@ -41,6 +45,7 @@ class PublishedNumber(NamedTuple):
     tolerance: Decimal
     verdict: str
     note: str
+    value_is: str = "printed"
 
 
 class Erratum(NamedTuple):
@@ -85,8 +90,8 @@ def physics_numbers() -> list[PublishedNumber]:
     """Return the numbers of sections 1 to 4, the physics of the table, in the order of the text.
 
     >>> [number] = [row for row in physics_numbers() if row.quantity == "alpha_crit, deg"]
-    >>> number.problem, number.printed, number.verdict
-    ('P4.19', Decimal('14.963'), 'agrees')
+    >>> number.problem, number.printed, number.value_is, number.verdict
+    ('P4.19', Decimal('14.963'), 'printed', 'agrees')
     """
     return _numbers("published/physics_numbers.csv")
 
@@ -103,8 +108,8 @@ def physics_errata() -> list[Erratum]:
 def errata() -> list[Erratum]:
     """Return the slips of section 5, with remarks, in the order of the text.
 
-    >>> errata()[1].where, errata()[1].class_, errata()[1].kind
-    ('P5.7', 'slip', 'last digit')
+    >>> [(slip.class_, slip.kind) for slip in errata() if slip.where == "P5.7"]
+    [('slip', 'last digit')]
     """
     return [Erratum(*row) for row in packaged_rows("published/section5_errata.csv")]
 

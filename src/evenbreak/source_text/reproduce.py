@@ -8,7 +8,7 @@ from evenbreak.plots.picture import image_bytes
 from evenbreak.source_text.answers import physics_findings, section_5_findings
 from evenbreak.source_text.cells import Rows, Tables, csv_bytes
 from evenbreak.source_text.figures import figures
-from evenbreak.source_text.findings import Finding, row_of
+from evenbreak.source_text.findings import Finding, physics_row_of, row_of
 from evenbreak.source_text.physics.figure_tables import figure_tables as physics_figure_tables
 from evenbreak.source_text.physics.page import physics_page
 from evenbreak.source_text.published import Erratum, errata, physics_errata
@@ -17,7 +17,9 @@ from evenbreak.source_text.section5.page import section_5_page
 from evenbreak.source_text.section5.problems import problem_tables
 from evenbreak.source_text.section5.tables import (
     chart_rows,
+    eight_ball_rows,
     ladder_rows,
+    off_rule_rows,
     score_tables,
     table_rows,
 )
@@ -52,6 +54,8 @@ def section_5_tables() -> Tables:
     return {
         **{f"table_5_{n}": table_rows(found, f"Table 5.{n}") for n in range(1, 6)},
         "table_5_6": chart_rows(),
+        "table_5_6_off_rule": off_rule_rows(),
+        "drill_8_ball": eight_ball_rows(),
         **problem_tables(found),
         **score_tables(),
         "npl_ladder": ladder_rows(found),
@@ -64,7 +68,7 @@ def section_5_tables() -> Tables:
 def physics_tables() -> Tables:
     """Return the tables of sections 1 to 4."""
     return {
-        "published_physics": list(map(row_of, physics_findings())),
+        "published_physics": list(map(physics_row_of, physics_findings())),
         "errata_physics": _errata_rows(physics_errata()),
         **physics_figure_tables(),
     }

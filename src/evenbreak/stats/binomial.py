@@ -64,7 +64,8 @@ def score_probability(p: Any, m: Any, n: Any) -> Any:
 
     Notes
     -----
-    All m + n games are played; there is no race to end earlier. Source: problems P5.4 and P5.6.
+    All m + n games are played; there is no race to end earlier. Source: problems P5.3 (in
+    how many orders), P5.4 and P5.6.
 
     >>> score_probability(Fraction(2, 3), 3, 1)
     Fraction(32, 81)

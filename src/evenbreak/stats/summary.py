@@ -46,7 +46,7 @@ class Distribution:
 
     Notes
     -----
-    The mean, median, mode and standard deviation of section 5 of the source text, with its
+    Source: P5.1, the mean, median, mode and standard deviation of section 5, with its
     convention for the median: the smallest value whose cumulative probability reaches 1/2,
     which is one of the values even if their number is even.
 

@@ -53,6 +53,14 @@ def test_the_model_of_table_5_5(drill):
         assert [row[name] for row in answer["levels"]] == list(values)
 
 
+def test_the_8_ball_drill(drill):
+    answer = drill("--p", "0.8", "--game", "8-ball")
+    chances = [0.8**level for level in range(1, 8)]
+    assert [row["p_success"] for row in answer["levels"]] == pytest.approx(chances, rel=1e-14)
+    assert len(drill("--p", "0.8", "--game", "8-ball", "--levels", "3")["levels"]) == 3
+    assert drill("--p", "0.8", "--game", "9-ball") == drill("--p", "0.8")
+
+
 def test_levels_and_chances_of_ones_own(drill):
     assert len(drill("--p", "0.8", "--levels", "4")["levels"]) == 4
     answer = drill("--success", "0.5, .5")
@@ -166,6 +174,8 @@ def test_a_picture(run, tmp_path, words, name):
         ("--success ,", "','"),
         ("--success " + ",".join(["1"] * 101), "100"),
         ("--success 0.5,0.4 --levels 3", "--levels"),
+        ("--success 0.5 --game 8-ball", "--game"),
+        ("--p 0.5 --game 8-ball --levels 8", "--levels"),
         ("--p 0.5 --levels 0", "'0'"),
         ("--p 0.5 --levels 101", "'101'"),
         ("--p 0.5 --seed 3", "--seed"),

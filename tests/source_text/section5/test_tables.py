@@ -3,11 +3,14 @@ from fractions import Fraction
 
 import pytest
 
+from evenbreak.handicaps import chart
 from evenbreak.matches import race_win_probability
 from evenbreak.source_text.answers import section_5_findings
 from evenbreak.source_text.section5.tables import (
     chart_rows,
+    eight_ball_rows,
     ladder_rows,
+    off_rule_rows,
     score_tables,
     table_rows,
 )
@@ -56,7 +59,30 @@ def test_charts():
     rows = chart_rows()
     counts = [sum(row["chart"] == number for row in rows) for number in (8, 10, 12, 20)]
     assert counts == [6, 8, 11, 19]
-    assert list(rows[1].values()) == [8, 7, 18, 4, 3]
+    assert list(rows[1].values()) == [8, 4, 3, 7, 19, 7, 18]
+    for row in rows:
+        printed = chart(f"npl_{row['chart']}").race(row["difference_from_printed"])
+        assert printed == (row["stronger_needs"], row["weaker_needs"])
+
+
+def test_places_off_the_rule():
+    rows = off_rule_rows()
+    places = [(row["chart"], row["difference"]) for row in rows]
+    assert places == [(8, 19), (8, 29), (10, 46), (12, 58), (20, 45), (20, 68), (20, 98)]
+    assert (round(rows[2]["w_printed"], 3), round(rows[2]["w"], 3)) == (
+        Decimal("0.582"),
+        Decimal("0.428"),
+    )
+
+
+def test_the_8_ball_drill_balances():
+    for row in eight_ball_rows():
+        shares = [float(row[f"d{level}"]) for level in range(1, 8)]
+        assert sum(shares) == pytest.approx(1, abs=1e-8)
+        for level in range(1, 7):
+            up = shares[level - 1] * float(row["p"]) ** level
+            down = shares[level] * (1 - float(row["p"]) ** (level + 1))
+            assert up == pytest.approx(down, abs=1e-9)
 
 
 def test_ladder():

@@ -10,9 +10,10 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import drill_option, seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, Whole, numbers, refuse
+from evenbreak.games.drill import EIGHT_BALL_LEVELS
 
 MOST_LEVELS = 100
-LEVELS = 9
+LEVELS = {"9-ball": 9, "8-ball": EIGHT_BALL_LEVELS}
 SEED = 1
 
 MOST_DRAWS = 20_000_000
@@ -21,6 +22,7 @@ MOST_DRAWS = 20_000_000
 EXAMPLES = """\b
 Examples:
   evenbreak drill --p 0.8
+  evenbreak drill --p 0.8 --game 8-ball
   evenbreak drill --success 0.95,0.8,0.6,0.3 --json
   evenbreak drill --log drill_log.csv --plot drill.png
 """
@@ -40,7 +42,13 @@ _chances = numbers(
     "--p",
     metavar="P",
     type=CHANCE,
-    help="The chance of making a shot; level i takes i - 1 in a row.",
+    help="The chance of making a shot; level i takes i - 1 in a row, or i in 8-ball.",
+)
+@click.option(
+    "--game",
+    type=click.Choice(list(LEVELS)),
+    help="The drill of --p: i balls at level i, or in 8-ball one group of i balls and the 8-ball.  "
+    "[default: 9-ball]",
 )
 @click.option(
     "--success",
@@ -53,7 +61,8 @@ _chances = numbers(
     "--levels",
     type=Whole(1, MOST_LEVELS),
     metavar="N",
-    help="How many levels there are.  [default: 9 with --p, the highest in the log with --log]",
+    help="How many levels there are.  [default: 9 with --p, 7 in 8-ball, the highest in the log "
+    "with --log]",
 )
 @drill_option
 @seed_option(f"The seed of the simulations that test a log.  [default: {SEED}]", default=None)
@@ -61,6 +70,7 @@ _chances = numbers(
 @faces()
 def command(
     p: float | None,
+    game: str | None,
     success: tuple[float, ...] | None,
     log: str | None,
     levels: int | None,
@@ -76,6 +86,10 @@ def command(
     """
     if sum(which is not None for which in (p, success, log)) != 1:
         refuse("give exactly one of --p, --success and --log")
+    if p is None and game is not None:
+        refuse("--game says what --p is about; leave it out")
+    if game == "8-ball" and levels is not None and levels > EIGHT_BALL_LEVELS:
+        refuse(f"--levels is {levels}; in 8-ball all 15 balls are on the table at level 7")
     if success is not None and levels is not None:
         refuse("--success already says how many levels there are; leave --levels out")
     if log is None and seed is not None:
@@ -89,8 +103,14 @@ def command(
     if p is None:
         played = games.Drill(success or ())
         description = "A drill with the given chance of success at each level"
+    elif game == "8-ball":
+        played = games.Drill.eight_ball(p, LEVELS[game] if levels is None else levels)
+        description = (
+            "The progressive 8-ball drill: i balls of each group and the 8-ball at level i, which "
+            f"takes i good shots, each with chance {p:g}"
+        )
     else:
-        played = games.Drill.progressive(p, LEVELS if levels is None else levels)
+        played = games.Drill.progressive(p, LEVELS["9-ball"] if levels is None else levels)
         description = f"A drill in which level i takes i - 1 good shots, each with chance {p:g}"
     statistics = practice.drill_statistics(played)
     if plot is not None:

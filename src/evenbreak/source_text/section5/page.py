@@ -55,6 +55,8 @@ def _blocks(found: Sequence[Finding], tables: Tables) -> Blocks:
         "values": (page_tables.eigenvalues, "problem_5_23"),
         "steps": (page_tables.steps_table, "problem_5_23"),
         "ladder": (page_tables.ladder_table, "npl_ladder"),
+        "off_rule": (page_tables.off_rule_table, "table_5_6_off_rule"),
+        "eight_ball": (page_tables.eight_ball_table, "drill_8_ball"),
         **{f"table_5_{n}": (page_tables.TABLES[n], f"table_5_{n}") for n in range(1, 7)},
     }
     return {

@@ -80,11 +80,11 @@ def _table_5_3(rows: Rows) -> str:
 
 
 def _table_5_6(rows: Rows) -> str:
-    """Return the four charts side by side."""
+    """Return the four charts side by side, the printed differences beside those of the rule."""
     charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
     for row in rows:
-        last = row["difference_to"]
-        span = f"{row['difference_from']}{' up' if last is None else f'–{last}'}"
+        span, printed = _span(row, ""), _span(row, "_printed")
+        span += "" if printed == span else f" (text: {printed})"
         charts[row["chart"]].append([span, f"{row['stronger_needs']}:{row['weaker_needs']}"])
     header = [name for number in CHARTS for name in (f"chart {number}", "race")]
     longest = max(map(len, charts.values()))
@@ -93,6 +93,42 @@ def _table_5_6(rows: Rows) -> str:
         [
             [cell for rows in charts.values() for cell in (rows[k] if k < len(rows) else ["", ""])]
             for k in range(longest)
+        ],
+    )
+
+
+def _span(row: Mapping[str, Any], end: str) -> str:
+    first, last = row[f"difference_from{end}"], row[f"difference_to{end}"]
+    return f"{first}{' up' if last is None else f'–{last}'}"
+
+
+def off_rule_table(rows: Rows) -> str:
+    """Return where the charts have not the race nearest to even."""
+    return markdown_table(
+        ["chart", "difference", "race in the text", "W", "race nearest 1/2", "W"],
+        [
+            [
+                row["chart"],
+                row["difference"],
+                f"{row['printed_stronger_needs']}:{row['printed_weaker_needs']}",
+                rounded(row["w_printed"], 3),
+                f"{row['stronger_needs']}:{row['weaker_needs']}",
+                rounded(row["w"], 3),
+            ]
+            for row in rows
+        ],
+    )
+
+
+def eight_ball_table(rows: Rows) -> str:
+    """Return the shares of the levels of the 8-ball drill, and what they come to."""
+    names = list(rows[0])[1:]
+    whole = {"mode", "median"}
+    return markdown_table(
+        ["p", *names[:-1], "sd"],
+        [
+            [row["p"], *(rounded(row[name], 0 if name in whole else 3) for name in names)]
+            for row in rows
         ],
     )
 

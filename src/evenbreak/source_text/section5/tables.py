@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
+from evenbreak.games.drill import Drill
 from evenbreak.handicaps.charts.chart import chart
+from evenbreak.handicaps.charts.off_rule import nearest_rows, off_rule
+from evenbreak.practice.drills import drill_statistics
 from evenbreak.source_text.cells import Rows, Tables, number_cell
 from evenbreak.source_text.findings import Finding
 from evenbreak.source_text.inputs import parse_inputs
 from evenbreak.source_text.section5.games_won import match_probability
-from evenbreak.source_text.section5.long_run import CHARTS
+from evenbreak.source_text.section5.long_run import CHARTS, DRILL_P
 from evenbreak.stats.binomial import score_probability
 
 _SIZE = 10
@@ -57,12 +61,62 @@ def _square(p: Fraction, chance: Callable[[Fraction, int, int], Any], first: int
 
 
 def chart_rows() -> Rows:
-    """Return Table 5.6: the races of the four charts, by rating difference."""
+    """Return Table 5.6: each race of the four charts, where the rule has it and where it stands.
+
+    The rule takes the race of the chart with W nearest 1/2.
+    """
     return [
-        {"chart": number, **row._asdict()}
+        {
+            "chart": number,
+            "stronger_needs": row.stronger_needs,
+            "weaker_needs": row.weaker_needs,
+            "difference_from": row.difference_from,
+            "difference_to": row.difference_to,
+            "difference_from_printed": printed.difference_from,
+            "difference_to_printed": printed.difference_to,
+        }
         for number in CHARTS
-        for row in chart(f"npl_{number}").rows
+        for row, printed in zip(
+            nearest_rows(chart(f"npl_{number}"), "npl"),
+            chart(f"npl_{number}").rows,
+            strict=True,
+        )
     ]
+
+
+def off_rule_rows() -> Rows:
+    """Return the places where a chart of Table 5.6 has not the race with W nearest 1/2."""
+    return [
+        {
+            "chart": number,
+            "difference": place.difference,
+            "printed_stronger_needs": place.race[0],
+            "printed_weaker_needs": place.race[1],
+            "w_printed": number_cell(place.win),
+            "stronger_needs": place.nearest[0],
+            "weaker_needs": place.nearest[1],
+            "w": number_cell(place.nearest_win),
+        }
+        for number in CHARTS
+        for place in off_rule(chart(f"npl_{number}"), "npl")
+    ]
+
+
+def eight_ball_rows() -> Rows:
+    """Return where the 8-ball drill after exercise 5.1 settles, as Table 5.5 for 9-ball."""
+    rows = []
+    for p in DRILL_P:
+        law = drill_statistics(Drill.eight_ball(float(p))).distribution
+        shares = {f"d{level}": share for level, share in enumerate(law.probability, 1)}
+        numbers = {
+            **shares,
+            "mean": law.mean,
+            "mode": law.mode,
+            "median": law.median,
+            "standard_deviation": law.sd,
+        }
+        rows.append({"p": Decimal(p), **{name: number_cell(x) for name, x in numbers.items()}})
+    return rows
 
 
 def ladder_rows(found: Iterable[Finding]) -> Rows:
