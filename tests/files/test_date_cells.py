@@ -2,7 +2,7 @@
 
 import pytest
 
-from evenbreak.errors import DataError
+from evenbreak.errors import DataError, InputError
 from evenbreak.files.date_cells import dates, read_date
 from evenbreak.files.text_table import read_table
 
@@ -95,3 +95,8 @@ def test_a_file_of_both_orders_is_one_problem(read):
 def test_a_date_that_the_option_does_not_allow_is_a_problem_in_its_line(read):
     with pytest.raises(DataError, match=r"d.csv:3: date '9/13/2024' is not a date"):
         read("9/3/2024", "9/13/2024", order="dmy")
+
+
+def test_an_order_that_there_is_not_is_refused(read):
+    with pytest.raises(InputError, match="'ymd'"):
+        read("9/3/2024", order="ymd")

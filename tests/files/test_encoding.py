@@ -103,8 +103,8 @@ def test_a_name_of_a_file_stays_on_one_line(tmp_path):
 
 def test_a_file_without_end_is_refused(monkeypatch):
     monkeypatch.setattr(module, "MOST_BYTES", 1 << 20)
-    with pytest.raises(DataError, match="longer than 1 MB"):
+    with pytest.raises(DataError, match="larger than 1 MB"):
         content_of("/dev/zero")
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(bytes((1 << 20) + 1))))
-    with pytest.raises(DataError, match="stdin: is longer"):
+    with pytest.raises(DataError, match="stdin: is larger"):
         content_of("-")

@@ -10,6 +10,7 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.evening import Length, evening
 from evenbreak.matches.length import match_length
+from evenbreak.matches.minutes import match_minutes
 from evenbreak.matches.pace import PACES, Pace, Turnover
 from evenbreak.matches.races import race_odds
 from evenings import played_evening
@@ -136,6 +137,9 @@ def test_each_table_more_ends_the_evening_no_later(laws, tables):
         (lambda: evening([], "9-ball"), "0 matches"),
         (lambda: evening([EVEN], "9-ball", tables=0), "1 or more"),
         (lambda: evening([EVEN], "snooker"), "snooker"),
+        (lambda: evening([EVEN], 8), "pace is 8"),
+        (lambda: evening([EVEN], "9-ball", turnover=5), "turnover is 5"),
+        (lambda: match_minutes([5], [1.0], "9-ball"), "pace is '9-ball"),
         (lambda: evening([Length([1, 2], [1.0])], "9-ball"), "length 1 is"),
         (lambda: evening([EVEN, Length([1.5], [1.0])], "9-ball"), "length 2 is"),
         (lambda: evening([Length([-1], [1.0])], "9-ball"), "numbers of games"),

@@ -22,7 +22,8 @@ def chart_list_answer() -> Answer:
             f"There are {count_of(len(CHARTS), 'chart')} by rating difference, "
             f"{count_of(len(LEVEL_CHARTS), 'chart')} by skill level and "
             f"{count_of(len(POINTS_CHARTS), 'chart')} of points by skill level. `evenbreak chart "
-            "show NAME` prints one; --chart NAME uses one of games for tonight's races.",
+            "show NAME` prints one; `evenbreak matchups --chart NAME` takes tonight's races from "
+            "one, unless it is a chart of points.",
             Table(
                 "charts",
                 [

@@ -8,8 +8,6 @@ from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, percent
 from evenbreak.handicaps.charts.fair import FairRace
 
-_AVERAGED = "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
-
 
 def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float = 0.5) -> Answer:
     """Return races as found by `fair_races`, the nearest to the target first.
@@ -43,7 +41,7 @@ def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float
                 ],
                 rows,
             ),
-            *([_AVERAGED] if players.error else []),
+            *filter(None, [players.averaged]),
         ],
         warnings=players.doubts,
         data={"target": target, **players.named},

@@ -78,7 +78,7 @@ def odds_answer(players: TwoPlayers, match: Match, *, exact: bool = False) -> An
             _in_words(odds, match, players),
             *([_exact_words(p_win, players.names)] if exact else []),
             Quantities(quantities),
-            *([_AVERAGED] if players.error else []),
+            *filter(None, [players.averaged]),
         ],
         warnings=players.doubts,
         data=players.named,
@@ -113,9 +113,6 @@ def fraction_words(p: Fraction) -> str:
     context = Context(prec=30, rounding=ROUND_DOWN)
     decimal = context.divide(Decimal(p.numerator), Decimal(p.denominator))
     return f"{p} = {decimal:f}" + ("..." if context.flags[Inexact] else "")
-
-
-_AVERAGED = "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
 
 
 def _odds(players: TwoPlayers, match: Match) -> MatchOdds:

@@ -60,9 +60,9 @@ def one_more_match(
     if now.race is None:
         return []
     p = ratings.scale.win_probability(now.ratings[0] - now.ratings[1])
-    day = None if results.date is None else ratings.as_of
-    if day is None and results.date is not None and not np.isnat(results.date).all():
-        day = np.nanmax(results.date)
+    day = ratings.as_of
+    if day is None and results.date is not None:
+        day = np.fmax.reduce(results.date[results.counted])
     found = []
     for winner in (0, 1):
         needs, other = now.race[winner], now.race[1 - winner]

@@ -75,13 +75,7 @@ def evening_words(end: EveningEnd) -> str:
 
 
 def about_time(tonight: Round) -> str:
-    """Return what the minutes assume, in a sentence; empty if there are none.
-
-    >>> from evenbreak.matches import PACES
-    >>> print(time_words(PACES["9-ball"]))
-    Times assume 9-ball: 5.6 minutes a game and 3.8 more a match on average; two matches of
-    three come within 29% of that.
-    """
+    """Return what the minutes assume, in a sentence; empty if there are none."""
     if tonight.pace is None:
         return ""
     between = tonight.turnover.mean if tonight.evening else None
@@ -89,7 +83,13 @@ def about_time(tonight: Round) -> str:
 
 
 def time_words(pace: Pace, turnover: float | None = None) -> str:
-    """Return what a pace and a turnover assume."""
+    """Return what a pace and a turnover assume.
+
+    >>> from evenbreak.matches import PACES
+    >>> print(time_words(PACES["9-ball"]))
+    Times assume 9-ball: 5.6 minutes a game and 3.8 more a match on average; two matches of
+    three come within 29% of that.
+    """
     which = f"{pace.discipline}: " if pace.discipline else ""
     more = f" and {pace.overhead:.2g} more a match" if pace.overhead else ""
     text = (

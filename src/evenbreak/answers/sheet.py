@@ -15,7 +15,6 @@ from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.report_frames import summary_frame
 from evenbreak.answers.sure_pairs import SurePair, sure_pairs
 from evenbreak.answers.wording import race
-from evenbreak.arrays import short_repr
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
@@ -28,7 +27,6 @@ MOST_ON_SHEET = 96
 """Players on one sheet, whatever its form: 16 pages of paper."""
 
 
-@short_repr
 @dataclass(frozen=True, eq=False)
 class Sheet:
     """A league's ratings, and the fairest race of each pair of the players chosen.

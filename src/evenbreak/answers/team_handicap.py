@@ -35,7 +35,9 @@ def team_handicap_answer(
                     Quantity("scored_2", found.scored_2, "team 2 scores", decimals(3)),
                     Quantity("points", found.points, "points a round, rounded"),
                     Quantity("to_team", found.to_team),
-                    Quantity("even_points", found.even_points, "points that are even", decimals(2)),
+                    Quantity(
+                        "even_points", found.even_points, "points for an even round", decimals(2)
+                    ),
                     Quantity("given_away", found.given_away),
                 ]
             ),

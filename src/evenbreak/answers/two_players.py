@@ -94,6 +94,13 @@ class TwoPlayers:
         return {} if (a, b) == ("A", "B") else {"player_a": a, "player_b": b}
 
     @property
+    def averaged(self) -> str:
+        """The sentence that chances are averaged over errors, '' where there are none."""
+        if not self.error:
+            return ""
+        return "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
+
+    @property
     def taken_as_right(self) -> str:
         """The sentence that the ratings are taken as right, '' where they are not in doubt."""
         if not self.error:

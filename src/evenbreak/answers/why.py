@@ -10,11 +10,12 @@ from evenbreak.answers.matches_behind import MATCH, matches_behind
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.one_more_match import OneMore, Refit, Standing, one_more_match
 from evenbreak.answers.parts import Column, Table
-from evenbreak.answers.rate import prior_words
+from evenbreak.answers.rate import prior_warnings, prior_words
 from evenbreak.answers.scale_words import decimals_of, like_scale_words
 from evenbreak.answers.wording import chance, percent, race
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.prior import PriorChoice
 from evenbreak.ratings.scale import Scale
 
 MOST_LISTED = 10
@@ -27,6 +28,7 @@ def why_answer(
     pair: tuple[int, int],
     offered: OfferedRaces,
     refit: Refit,
+    choice: PriorChoice | None = None,
 ) -> Answer:
     """Return which matches made two ratings, and what one more match would change.
 
@@ -40,6 +42,8 @@ def why_answer(
         the races among which the fairest is sought.
     refit
         rates other results in the same way.
+    choice
+        how the prior was chosen, if it was.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
@@ -64,7 +68,7 @@ def why_answer(
             "had not been played and all others had.",
         ],
         details=[prior_words(ratings)],
-        warnings=file.warnings,
+        warnings=[*file.warnings, *file.ties, *prior_warnings(file, ratings, choice)],
         data={
             "player_a": names[0],
             "player_b": names[1],

@@ -169,7 +169,7 @@ def _points(table: TextTable, name: str) -> PointsChart:
     try:
         return PointsChart(name, levels, points)
     except InputError as error:
-        table.problems.add(None, f"is no chart of points: {error}")
+        table.problems.add(None, f"is not a chart of points: {error}")
         table.problems.raise_any()
         raise
 

@@ -9,12 +9,15 @@ from typing import Literal
 
 import numpy as np
 
+from evenbreak.checks import one_of
 from evenbreak.files.cells import Values, read_cells
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import TextTable
 
 DateOrder = Literal["mdy", "dmy"]
 """What comes first in 9/3/2024: the month or the day."""
+
+ORDERS: tuple[DateOrder, ...] = ("mdy", "dmy")
 
 _TIME = r"(?:[T ]+\d{1,2}:\d{2}\S*(?: ?[AaPp]\.?[Mm]\.?)?)?"
 _YEAR_FIRST = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})" + _TIME, re.ASCII)
@@ -29,6 +32,8 @@ def dates(table: TextTable, name: str, order: DateOrder | None = None) -> Values
     may come first or the day: `order` says which, or else any cell of the column in which only
     one of them is possible. If nothing does, that is one problem of the table.
     """
+    if order is not None:
+        one_of(order, "dates", ORDERS)
     order, problem = (order, False) if order else _order_in(table, name)
     return read_cells(
         table,
@@ -105,7 +110,7 @@ def _order_in(table: TextTable, name: str) -> tuple[DateOrder | None, bool]:
         mdy, dmy = (
             f"{quoted(settled[order])} in line "
             f"{table.lines[(codes == distinct.index(settled[order])).argmax()]}"
-            for order in ("mdy", "dmy")
+            for order in ORDERS
         )
         table.problems.add(
             None, f"{name} has the month first ({mdy}) and the day first ({dmy}); use one order"

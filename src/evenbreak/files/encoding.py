@@ -17,7 +17,7 @@ MAGIC = {
 
 
 MOST_BYTES = 256 << 20
-"""The longest file that is read: some five million matches."""
+"""The largest file that is read: some five million matches."""
 
 
 class Text(NamedTuple):
@@ -43,7 +43,7 @@ def content_of(path: str | Path) -> tuple[str, bytes]:
     if str(path) == "-":
         if sys.stdin is None:
             raise DataError(["stdin: is closed; name a file, or pipe one into the command"])
-        return "stdin", _no_longer(sys.stdin.buffer.read(MOST_BYTES + 1), "stdin")
+        return "stdin", _no_larger(sys.stdin.buffer.read(MOST_BYTES + 1), "stdin")
     source = printable(str(path))
     try:
         with Path(path).open("rb") as file:
@@ -55,14 +55,14 @@ def content_of(path: str | Path) -> tuple[str, bytes]:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise DataError([f"{source}: cannot be read ({reason}); check the file"]) from None
-    return source, _no_longer(content, source)
+    return source, _no_larger(content, source)
 
 
-def _no_longer(content: bytes, source: str) -> bytes:
-    """Return a file's bytes, or refuse a file that is longer than any table of a league."""
+def _no_larger(content: bytes, source: str) -> bytes:
+    """Return a file's bytes, or refuse a file that is larger than any table of a league."""
     if len(content) > MOST_BYTES:
         raise DataError(
-            [f"{source}: is longer than {MOST_BYTES >> 20} MB; name a table, or split it in parts"]
+            [f"{source}: is larger than {MOST_BYTES >> 20} MB; name a table, or split it up"]
         )
     return content
 

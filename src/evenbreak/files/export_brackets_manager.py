@@ -11,12 +11,12 @@ from evenbreak.files.exported_match import (
     FORFEIT,
     NO_SCORE,
     UNFINISHED,
-    ExportError,
     Found,
     Match,
     Matches,
     count_of,
     name_of,
+    player_of,
     with_winner,
 )
 
@@ -56,10 +56,7 @@ def _match(match: Mapping[str, Any], names: Mapping[Any, str], event: str) -> li
     one, two = ({"id": None, **side} for side in sides if side is not None)
     if one["id"] is None or two["id"] is None:
         return [UNFINISHED]
-    for side in (one, two):
-        if not names.get(side["id"]):
-            raise ExportError(f"is played by number {side['id']!r}, who is no named participant")
-    a, b = names[one["id"]], names[two["id"]]
+    a, b = (player_of(names, side["id"]) for side in (one, two))
     if one.get("forfeit") or two.get("forfeit"):
         return [Match(a, b, event=event, forfeit=True, remarks=(FORFEIT,))]
     results = one.get("result"), two.get("result")

@@ -19,6 +19,7 @@ from evenbreak.files.exported_match import (
     Matches,
     day_of,
     name_of,
+    player_of,
     with_winner,
 )
 
@@ -68,10 +69,7 @@ def _match(match: Mapping[str, Any], names: Mapping[Any, str], event: str) -> li
         return [UNFINISHED]
     if None in numbers:
         return [BYE]
-    for number in numbers:
-        if not names.get(number):
-            raise ExportError(f"is played by number {number!r}, who is no named participant")
-    a, b = (names[number] for number in numbers)
+    a, b = (player_of(names, number) for number in numbers)
     date = day_of(match.get("completed_at")) or day_of(match.get("started_at"))
     winner = (
         " ab"[1 + numbers.index(match.get("winner_id"))]
@@ -81,7 +79,7 @@ def _match(match: Mapping[str, Any], names: Mapping[Any, str], event: str) -> li
     text = match.get("scores_csv") or ""
     sets = [_SET.fullmatch(part.strip()) for part in text.split(",")] if text.strip() else []
     if None in sets:
-        raise ExportError(f"({a}, {b}) has the score {text!r}, which is none")
+        raise ExportError(f"({a}, {b}) has the score {text!r}, which cannot be read")
     scores = [(int(one[1]), int(one[2])) for one in sets if one is not None]
     if match.get("forfeited") or any(min(score) < 0 for score in scores):
         return [Match(a, b, date=date, event=event, forfeit=True, remarks=(FORFEIT,))]

@@ -105,6 +105,14 @@ def name_of(player: Any, what: str) -> str:
     return "" if _NOBODY.fullmatch(text) else text
 
 
+def player_of(names: Mapping[Any, str], number: Any) -> str:
+    """Return the name of the participant with this number."""
+    name = names.get(number)
+    if not name:
+        raise ExportError(f"is played by number {number!r}, which no participant with a name has")
+    return name
+
+
 def count_of(value: Any, what: str) -> int | None:
     """Return a whole number from 0, None where there is none."""
     if value is None or value == "":
@@ -113,7 +121,7 @@ def count_of(value: Any, what: str) -> int | None:
         return int(value)
     if isinstance(value, int | float) and not isinstance(value, bool) and 0 <= value == int(value):
         return int(value)
-    raise ExportError(f"has {what} {value!r}, which is no whole number from 0")
+    raise ExportError(f"has {what} {value!r}, which is not a whole number, 0 or more")
 
 
 def day_of(value: Any) -> str:

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import whole
+from evenbreak.checks import kind_of, kind_or_usual, whole
 from evenbreak.errors import InputError
 from evenbreak.matches.minutes import between, ended_by
 from evenbreak.matches.pace import Pace, Turnover, pace_of
@@ -135,9 +135,8 @@ def evening(
     >>> round(one.mean, 1), round(one.p90, 1)
     (81.1, 108.9)
     """
-    if isinstance(pace, str):
-        pace = pace_of(pace)
-    between_matches = Turnover() if turnover is None else turnover
+    pace = pace_of(pace) if isinstance(pace, str) else kind_of(pace, "pace", Pace)
+    between_matches = kind_or_usual(turnover, "turnover", Turnover)
     found = [_chances(length, f"length {k}") for k, length in enumerate(lengths, 1)]
     if not 0 < len(found) <= _MOST_MATCHES:
         raise InputError(f"lengths has {len(found):,} matches; give 1 to {_MOST_MATCHES:,}")

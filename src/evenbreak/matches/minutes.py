@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from scipy.special import ndtr, ndtri
 
 from evenbreak.arrays import Floats
-from evenbreak.checks import number
+from evenbreak.checks import kind_of, number
 from evenbreak.matches.pace import Pace
 from evenbreak.matches.quantiles import TIE
 
@@ -91,6 +91,7 @@ def match_minutes(games: ArrayLike, probability: ArrayLike, pace: Pace) -> Match
     >>> round(minutes.mean, 1), round(minutes.quantile(0.9), 1)
     (54.8, 79.4)
     """
+    kind_of(pace, "pace", Pace)
     chances = np.asarray(probability, dtype=float)
     return MatchMinutes(chances, np.atleast_1d(pace.mean_minutes(games)), pace.log_sd)
 

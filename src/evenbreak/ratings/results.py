@@ -224,6 +224,14 @@ class Results:
         """Which matches were forfeits."""
         return np.zeros(len(self), dtype=bool) if self.forfeit is None else self.forfeit
 
+    @property
+    def counted(self) -> Bools:
+        """Which matches enter ratings: those with games or a known winner, without forfeits."""
+        played = (self.score_a > 0) | (self.score_b > 0)
+        if self.unscored is not None:
+            played = played | self.unscored
+        return np.asarray(played & ~self.given_away)
+
     def select(self, rows: NDArray[Any]) -> Results:
         """Return the rows that a mask or positions pick; `players` stays as it is."""
         columns = {name: getattr(self, name) for name in _TYPES}

@@ -96,10 +96,7 @@ def stretch_losses(
 
 def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
     """Return the matches that count and their dates, or refuse those without one."""
-    counted = (results.score_a > 0) | (results.score_b > 0)
-    if results.unscored is not None:
-        counted |= results.unscored
-    played = results.select(counted & ~results.given_away)
+    played = results.select(results.counted)
     undated = len(played) if played.date is None else int(np.isnat(played.date).sum())
     if undated:
         raise InputError(

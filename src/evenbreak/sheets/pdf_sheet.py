@@ -5,7 +5,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from evenbreak.answers.left_out import left_out
@@ -20,6 +19,7 @@ from evenbreak.answers.sheet_words import (
     source_and_dates,
     version_and_source,
 )
+from evenbreak.plots.picture import our_look
 from evenbreak.sheets.pdf_layout import (
     GAP,
     GROUP,
@@ -48,14 +48,13 @@ from evenbreak.sheets.pdf_page import (
 from evenbreak.sheets.race_blocks import Block, parts_of, race_blocks
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, Tick, player_lines
 
-SMALL, LEADING = 8.0, 1.45
-"""The size of notes, in points, and the height of a line of text for each point."""
+LEADING = 1.45
+"""The height of a line of text, for each point of its size."""
 
 
 def sheet_pdf(sheet: Sheet) -> bytes:
     """Return the sheet as a PDF document, the same bytes every time."""
-    with mpl.rc_context():
-        mpl.rcdefaults()  # nothing from the reader's own settings
+    with our_look():
         return pdf_bytes(sheet_pages(sheet), f"Fair races from {file_name(sheet.file)}")
 
 

@@ -59,11 +59,9 @@ def sheet_html(sheet: Sheet) -> bytes:
         ratings.append(Section("chart", "How even the races are", chart))
     sure = drawn("sure", list(how_sure(scale, shown.sure)), three_pairs(shown.sure))
     ratings.append(Section("sure", "How sure this is", sure))
+    answer = report_answer(sheet, across=MOST_ON_SHEET, listed=len(listed))
     return drawn_page(
-        replace(
-            report_answer(sheet, across=MOST_ON_SHEET, listed=len(listed)),
-            warnings=sheet.file.warnings,
-        ),
+        replace(answer, warnings=[*sheet.file.warnings, *answer.warnings]),
         [[races], ratings],
         notes=("left-out", "What was left out, and why", NOTHING_LEFT_OUT),
         made_of="results",

@@ -27,7 +27,7 @@ def offered(*words):
         (("odds", "--scale", "f"), ["fargo"]),
         (("simulate", "--system", "np"), ["npl"]),
         (("matchups", "--chart", "npl_10"), ["npl_10"]),
-        (("chart", "show", "apa_8"), ["apa_8ball"]),
+        (("chart", "show", "apa_"), ["apa_8ball", "apa_9ball"]),
         (("odds", "--from", ROSTER, "kei"), ["Keiko Amasuda"]),
         (("live", "--from", ROSTER, "Keiko Amasuda", "al-b"), ["Noor Al-Beyrati"]),
         (("fair", "--from", ROSTER, "Keiko Amasuda", "noor"), ["Noor Al-Beyrati"]),

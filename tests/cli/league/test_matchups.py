@@ -11,6 +11,7 @@ from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
 from evenbreak.handicaps import audit_levels
 from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+from evenbreak.matches import PACES, Turnover
 from places import DATA
 
 CLUB = "player,rating\nAnn,92\nBo,71\nCy,80\nDi,60\n"
@@ -384,6 +385,13 @@ def test_of_a_list_only_the_entrants_meet(run, tmp_path):
     entrants.write_text("Søren Lindqvall\nNoor Al-Beyrati\nA Stranger\n", encoding="utf-8")
     words = (str(DATA / "demo_roster.csv"), "--race-to", "7", "--json")
     result = run("matchups", *words, "--players-file", str(entrants))
+    page = tmp_path / "tonight.html"
+    asked = ("--players-file", str(entrants), "--html", str(page))
+    assert run("matchups", *words, *asked).exit_code == 0
+    shown = page.read_text(encoding="utf-8")
+    assert "A Stranger" in shown
+    assert "/demo_roster.csv" not in shown
+    assert str(tmp_path) not in shown
     pairs = json.loads(result.stdout)["pairs"]
     assert [(pair["player_a"], pair["player_b"]) for pair in pairs] == [
         ("Søren Lindqvall", "A Stranger"),
@@ -393,3 +401,8 @@ def test_of_a_list_only_the_entrants_meet(run, tmp_path):
     assert pairs[0]["difference"] == 19
     assert pairs[0]["difference_error"] == pytest.approx((6.7**2 + 30**2) ** 0.5)
     assert "'A Stranger'" in result.stderr
+
+
+def test_the_help_knows_the_paces_and_the_usual_turnover(run):
+    assert tuple(PACES) == module.DISCIPLINES
+    assert f"[default: {Turnover().mean:g}]" in " ".join(run("matchups", "--help").stdout.split())

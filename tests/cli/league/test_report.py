@@ -505,6 +505,12 @@ def test_entrants_are_paired_and_strangers_start_at_the_mean(run, tmp_path):
     (new,) = [row for row in rows(tmp_path / "o", "ratings.csv") if row["player"] == "A Stranger"]
     assert (float(new["rating"]), float(new["quasi_error"]), new["games"]) == (80, 30, "0")
     assert "'A Stranger'" in result.stderr
+    words = ("--players-file", str(entrants), "--html")
+    assert run("report", str(DEMO), "--out", str(tmp_path / "q"), *words).exit_code == 0
+    page = (tmp_path / "q" / "sheet.html").read_text(encoding="utf-8")
+    assert "entrants.txt:2" in page
+    assert str(tmp_path) not in page
+    assert str(DEMO) not in page
     both = ("--players-file", str(entrants), "--top", "3")
     assert run("report", str(DEMO), "--out", str(tmp_path / "p"), *both).exit_code == 2
 

@@ -287,3 +287,9 @@ def test_a_limit_on_the_90_per_cent_length_holds_at_every_difference():
 def test_wrong_wishes_are_refused(wrong, remedy):
     with pytest.raises(InputError, match=remedy):
         design(**{"rules": "npl", "limits": RaceLimits((5, 7)), **wrong})
+
+
+@pytest.mark.parametrize("spread", [-1, 2.5, "wide"])
+def test_a_spread_that_is_no_count_is_refused(spread):
+    with pytest.raises(InputError, match="spread"):
+        design("npl", RaceLimits((5, 7)), spread=spread)

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from evenbreak.games import Ahead, Race, Rack
+from evenbreak.errors import InputError
+from evenbreak.games import Ahead, Race, Rack, winner_breaks
 from evenbreak.handicaps.charts.given_ratings import length_given_ratings, win_given_ratings
 from evenbreak.handicaps.charts.odds_given_ratings import odds_given_ratings
 from evenbreak.matches import match_odds
@@ -49,3 +50,18 @@ def test_ratings_that_are_sure_give_the_odds_of_the_match(match):
     assert sure == match_odds(match)
     nearly = odds_given_ratings(match, 0.0, 1e-6)
     assert nearly.p_win_1 == pytest.approx(sure.p_win_1, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("match", "difference", "error", "named"),
+    [
+        (Race(5, 4, EVEN), "much", 10.0, "difference"),
+        (Race(5, 4, EVEN), 10.0, -1.0, "standard_error"),
+        (Race(5, 4, EVEN), 10.0, [1.0, 2.0], "standard_error"),
+        ("5:4", 10.0, 10.0, "match"),
+        (Race(5, 4, Rack(0.6, 0.5), breaks=winner_breaks), 10.0, 10.0, "break"),
+    ],
+)
+def test_what_cannot_be_averaged_is_refused(match, difference, error, named):
+    with pytest.raises(InputError, match=named):
+        odds_given_ratings(match, difference, error)

@@ -69,9 +69,9 @@ def systems(ctx: click.Context, param: click.Parameter, incomplete: str) -> list
 
 def charts(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Return the names of charts, or files where no name begins like that."""
-    from evenbreak.handicaps import CHARTS, LEVEL_CHARTS
+    from evenbreak.handicaps import CHARTS, LEVEL_CHARTS, POINTS_CHARTS
 
-    found = _offered([*CHARTS, *LEVEL_CHARTS], incomplete)
+    found = _offered([*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS], incomplete)
     return found or file_names(ctx, param, incomplete)
 
 

@@ -1,6 +1,6 @@
 """How a command's answer is printed: text on a terminal, CSV into a pipe, JSON or HTML if asked."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import update_wrapper
 from pathlib import PurePath
 from typing import Any
@@ -81,6 +81,18 @@ def page_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     if value is not None and PurePath(value).suffix.lower() not in (".html", ".htm"):
         raise click.BadParameter(f"{value!r}; name a file that ends in .html", ctx=ctx, param=param)
     return value
+
+
+def without_folders(warnings: Iterable[str], *paths: str | None) -> list[str]:
+    """Return warnings for a page that is handed out: the folders of files are private.
+
+    >>> without_folders(["'Bo' is not in /home/ann/club.csv"], "/home/ann/club.csv", None)
+    ["'Bo' is not in club.csv"]
+    """
+    public = list(warnings)
+    for path in filter(None, paths):
+        public = [text.replace(path, PurePath(path).name) for text in public]
+    return public
 
 
 def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:

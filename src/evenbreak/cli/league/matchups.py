@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import PurePath
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -11,7 +10,7 @@ import click
 from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
-from evenbreak.cli.kit.faces import faces, page_name
+from evenbreak.cli.kit.faces import faces, page_name, without_folders
 from evenbreak.cli.kit.options import (
     chart_option,
     players_file_option,
@@ -185,17 +184,12 @@ def command(
         listed=pairs is not None,
     )
     if html is not None:
-        public = _without_folders([*warnings, *more], chart, pairs)
-        write_file(html, sheets.round_html(tonight, warnings=public))
+        public = without_folders([*warnings, *more], chart, pairs)
+        league = None if players_file is None else roster
+        about_file = tuple(without_folders(file.warnings, league))
+        shown = replace(tonight, file=replace(file, warnings=about_file))
+        write_file(html, sheets.round_html(shown, warnings=public))
     return answers.matchups_answer(tonight, warnings=[*warnings, *more])
-
-
-def _without_folders(warnings: Sequence[str], *paths: str | None) -> list[str]:
-    """Return warnings for a page that is handed out: folders are private."""
-    public = list(warnings)
-    for path in filter(None, paths):
-        public = [text.replace(path, PurePath(path).name) for text in public]
-    return public
 
 
 def _pace(discipline: str | None, minutes_per_game: float | None) -> Pace | None:

@@ -1,4 +1,4 @@
-"""What `rate`, `report` and `validate` share: how to rate, as options, and rating by them."""
+"""How to rate: the options that `rate`, `report`, `why` and `validate` share, and their use."""
 
 from __future__ import annotations
 
@@ -6,15 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import Command, Decorator, with_options
+from evenbreak.cli.kit.options import Command, Decorator, refuse_both, with_options
 from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
+    from evenbreak.answers.offered_races import OfferedRaces
     from evenbreak.files.date_cells import DateOrder
     from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
+
+RACE_TO = 7
+"""The races that are offered unless an option says otherwise."""
 
 
 class PointsOr(Number):
@@ -50,6 +54,14 @@ def read_day(text: str, order: DateOrder | None = None) -> str:
     if day > np.datetime64("today", "D") + _DAYS_AHEAD:
         raise click.BadParameter(f"{text!r} is more than a year from today; give an earlier day")
     return str(day)
+
+
+def offered_races(games: tuple[int, int] | None, race_to: int | None) -> OfferedRaces:
+    """Return the races of --games or --race-to, or races to 7 where neither is given."""
+    from evenbreak.answers.offered_races import OfferedRaces
+
+    refuse_both(games, race_to)
+    return OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
 
 
 def _as_of(ctx: click.Context, param: click.Parameter, text: str | None) -> str | None:  # noqa: ARG001

@@ -6,7 +6,6 @@ import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -14,18 +13,17 @@ import click
 from evenbreak import answers, files, sheets
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.sheet import MOST_ON_SHEET
-from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.faces import faces, without_folders
 from evenbreak.cli.kit.options import (
     out_option,
     players_file_option,
     race_limit_options,
-    refuse_both,
     results_options,
     scale_option,
 )
 from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.kit.values import Whole, refuse
-from evenbreak.cli.league.rate_options import how_to_rate, rated
+from evenbreak.cli.league.rate_options import how_to_rate, offered_races, rated
 from evenbreak.files.problems import quoted
 from evenbreak.ratings.scale import Scale
 
@@ -34,7 +32,6 @@ if TYPE_CHECKING:
 
 
 MOST_PAIRED = 1000
-RACE_TO = 7
 
 MANY_PAIRS = 50_000
 """Pairs from which a sheet takes so long that a person wonders."""
@@ -121,7 +118,7 @@ def command(
     or --race-to says otherwise, and holds all players, the strongest first. The sheet is printed
     here, and sheet.pdf is for the wall; --html adds a page to hand out, --excel a workbook.
     """
-    refuse_both(games, race_to)
+    offered = offered_races(games, race_to)
     ways = {"--players": players, "--top": top, "--players-file": players_file}
     given = [name for name, value in ways.items() if value]
     if len(given) > 1:
@@ -133,13 +130,14 @@ def command(
     from evenbreak.files.folder import check_folder
 
     check_folder(out)
-    offered = answers.OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
     say(f"Reading {'standard input' if results == '-' else results}")
     file, warnings = _read(results, reading)
     found = None
     if players_file is not None:
         found, file, more = _with_entrants(file, players_file)
         warnings = [*warnings, *more]
+        public = without_folders(more, players_file, results)
+        file = replace(file, warnings=(*file.warnings, *public))
     say(f"Rating {len(file.results.players):,} players")
     ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of)
     if players:
@@ -173,7 +171,7 @@ def _read(results: str, reading: dict[str, Any]) -> tuple[ResultsFile, Sequence[
     if aliases is None:
         return file, file.warnings
     # The sheet is handed out, and folders are private.
-    public = [text.replace(aliases, PurePath(aliases).name) for text in file.warnings]
+    public = without_folders(file.warnings, aliases)
     return replace(file, warnings=tuple(public)), file.warnings
 
 
@@ -184,7 +182,7 @@ def _with_entrants(file: ResultsFile, path: str) -> tuple[files.Entered, Results
     results = replace(file.results, players=(*file.results.players, *found.new))
     warnings = list(found.warnings)
     for name, rating in zip(found.names, entrants.roster.rating.tolist(), strict=True):
-        if rating == rating and name in found.new:
+        if not math.isnan(rating) and name in found.new:
             warnings.append(
                 f"{path}: the rating of {quoted(name)} is not used, because a report rates players "
                 "from results alone; evenbreak matchups uses it"

@@ -10,17 +10,15 @@ from evenbreak import answers, files
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import race_limit_options, refuse_both, results_options, scale_option
+from evenbreak.cli.kit.options import race_limit_options, results_options, scale_option
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import refuse
-from evenbreak.cli.league.rate_options import how_to_rate, rated
+from evenbreak.cli.league.rate_options import how_to_rate, offered_races, rated
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale
 
-RACE_TO = 7
-
-MANY = 20_000
-"""Matches in all refits together that take about a second or more."""
+MANY = 2_000_000
+"""Matches in all refits together that take so long that a person wonders."""
 
 EXAMPLES = """\b
 Examples:
@@ -56,19 +54,20 @@ def command(
     """
     from evenbreak.ratings.fit import fit
 
-    refuse_both(games, race_to)
+    offered = offered_races(games, race_to)
     file = files.read_results(results, **reading)
     pair = answers.find_players(file.results, (player_a, player_b), said="why", where=file.source)
     if len(pair) < 2:
         refuse(f"{player_a!r} and {player_b!r} are one player; name two")
-    ratings, _ = rated(file, scale, **how)
+    ratings, choice = rated(file, scale, **how)
     day = ratings.as_of
     if day is None and ratings.half_life is not None and file.results.date is not None:
-        day = max(file.results.date)  # so that a match left out does not make all others younger
+        # The day from which ages were counted: a match left out must not make the others younger.
+        day = file.results.date[file.results.counted].max()
 
     def again(other: Results) -> Any:
         return fit(
-            other,
+            other.select(other.counted),  # forfeits may lack a date
             prior_sd=ratings.prior_sd,
             scale=scale,
             half_life=ratings.half_life,
@@ -76,7 +75,6 @@ def command(
         )
 
     played = int(ratings.games[pair].sum())
-    if played * len(file.results) > MANY * 100:
+    if played * len(file.results) > MANY:
         say("Rating the league again without each of their matches")
-    offered = answers.OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
-    return answers.why_answer(file, ratings, (pair[0], pair[1]), offered, again)
+    return answers.why_answer(file, ratings, (pair[0], pair[1]), offered, again, choice)

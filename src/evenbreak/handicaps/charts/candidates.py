@@ -91,35 +91,9 @@ class Candidates:
         """The mean length in games, shape (races, differences)."""
         return self.rules.mean_games(self.m, self.n, self.points)
 
-    def fairest(
-        self,
-        *,
-        target: float = 0.5,
-        tilt: float = 0.5,
-        criterion: str = "mean",
-        mean_games: float | None = None,
-        games_p90: int | None = None,
-        rows: int | None = None,
-        name: str = "design",
-    ) -> Chart:
-        """Return the fairest chart of these races, as `design` does.
-
-        Parameters
-        ----------
-        games_p90
-            a limit on the 90% length, in addition to that of the limits.
-
-        The others are those of `design`.
-        """
-        return self.best(
-            target=target,
-            tilt=tilt,
-            criterion=criterion,
-            mean_games=mean_games,
-            games_p90=games_p90,
-            rows=rows,
-            name=name,
-        ).chart
+    def fairest(self, **wishes: Any) -> Chart:
+        """Return the fairest chart of these races, as `design` does; parameters as for `best`."""
+        return self.best(**wishes).chart
 
     def best(
         self,
@@ -132,7 +106,15 @@ class Candidates:
         rows: int | None = None,
         name: str = "design",
     ) -> CostedChart:
-        """Return the fairest chart of these races with its cost; parameters as for `fairest`."""
+        """Return the fairest chart of these races, and its cost.
+
+        Parameters
+        ----------
+        games_p90
+            a limit on the 90% length, in addition to that of the limits.
+
+        The others are those of `design`.
+        """
         target, tilt = number_probability(target, "target"), number_probability(tilt, "tilt")
         criterion = one_of(criterion, "criterion", ("mean", "worst"))
         budget = math.inf if mean_games is None else positive(mean_games, "mean_games")

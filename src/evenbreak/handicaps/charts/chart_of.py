@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, TypeVar
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
 from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS, PointsChart, points_chart
+
+AnyChart = TypeVar("AnyChart", Chart, LevelChart, PointsChart)
 
 
 def catalogue_name(text: str) -> str:
@@ -36,16 +39,7 @@ def chart_of(chart_or_name: Any) -> Chart:
     evenbreak.errors.InputError: chart is 'apa_8ball', a chart by skill level; give a chart by
     rating difference: fargo_r6_hot, npl_8, npl_10, npl_12, npl_20, or a Chart of your own
     """
-    if isinstance(chart_or_name, Chart):
-        return chart_or_name
-    name = _name(chart_or_name)
-    if name in CHARTS:
-        return chart(name)
-    raise _refused(
-        chart_or_name,
-        f"a chart by rating difference: {', '.join(CHARTS)}, or a Chart of your own",
-        _kind(chart_or_name),
-    )
+    return _found(chart_or_name, Chart)
 
 
 def level_chart_of(chart_or_name: Any) -> LevelChart:
@@ -59,16 +53,7 @@ def level_chart_of(chart_or_name: Any) -> LevelChart:
     >>> level_chart_of("APA 8ball").race(5, 3)
     (4, 2)
     """
-    if isinstance(chart_or_name, LevelChart):
-        return chart_or_name
-    name = _name(chart_or_name)
-    if name in LEVEL_CHARTS:
-        return level_chart(name)
-    raise _refused(
-        chart_or_name,
-        f"a chart by skill level: {', '.join(LEVEL_CHARTS)}, or a LevelChart of your own",
-        _kind(chart_or_name),
-    )
+    return _found(chart_or_name, LevelChart)
 
 
 def points_chart_of(chart_or_name: Any) -> PointsChart:
@@ -82,32 +67,39 @@ def points_chart_of(chart_or_name: Any) -> PointsChart:
     >>> points_chart_of("APA 9ball").race(5, 3)
     (38, 25)
     """
-    if isinstance(chart_or_name, PointsChart):
-        return chart_or_name
-    name = _name(chart_or_name)
-    if name in POINTS_CHARTS:
-        return points_chart(name)
-    raise _refused(
-        chart_or_name,
-        f"a chart of points: {', '.join(POINTS_CHARTS)}, or a PointsChart of your own",
-        _kind(chart_or_name),
+    return _found(chart_or_name, PointsChart)
+
+
+class _Kind(NamedTuple):
+    """A kind of chart: in words, the names of its catalogue, and what reads one of them."""
+
+    words: str
+    names: Mapping[str, str]
+    read: Callable[[str], Any]
+
+
+_KINDS: dict[type, _Kind] = {
+    Chart: _Kind("a chart by rating difference", CHARTS, chart),
+    LevelChart: _Kind("a chart by skill level", LEVEL_CHARTS, level_chart),
+    PointsChart: _Kind("a chart of points", POINTS_CHARTS, points_chart),
+}
+
+
+def _found(given: Any, cls: type[AnyChart]) -> AnyChart:
+    """Return a chart of one kind, as it is or by its name, or refuse what is none."""
+    if isinstance(given, cls):
+        return given
+    name, kind = catalogue_name(given) if isinstance(given, str) else "", _KINDS[cls]
+    if name in kind.names:
+        found: AnyChart = kind.read(name)
+        return found
+    others = (
+        f", {one.words}"
+        for other, one in _KINDS.items()
+        if isinstance(given, other) or name in one.names
     )
-
-
-def _name(given: Any) -> str:
-    return catalogue_name(given) if isinstance(given, str) else ""
-
-
-def _kind(given: Any) -> str:
-    """Return which other kind of chart it is, if it is one."""
-    name = _name(given)
-    if isinstance(given, Chart) or name in CHARTS:
-        return "a chart by rating difference"
-    if isinstance(given, LevelChart) or name in LEVEL_CHARTS:
-        return "a chart by skill level"
-    return "a chart of points" if isinstance(given, PointsChart) or name in POINTS_CHARTS else ""
-
-
-def _refused(given: Any, wanted: str, kind: str) -> InputError:
     shown = given.name if isinstance(given, Chart | LevelChart | PointsChart) else given
-    return InputError(f"chart is {shown!r}{', ' if kind else ''}{kind}; give {wanted}")
+    raise InputError(
+        f"chart is {shown!r}{''.join(others)}; give {kind.words}: {', '.join(kind.names)}, or a "
+        f"{cls.__name__} of your own"
+    )

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from evenbreak.checks import whole
 from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.match_rules import match_rules
@@ -102,7 +103,8 @@ def races_to_try(
     rules: Any, limits: RaceLimits, spread: int | None, up_to: int | None
 ) -> Candidates | SimilarLengths:
     """Return the races that a design tries, all together or in groups of similar length."""
-    if spread is None or limits.games[1] - limits.games[0] <= spread:
+    low, high = limits.games
+    if spread is None or high - low <= whole(spread, "spread"):
         return Candidates(match_rules(rules), limits, up_to)
     return SimilarLengths(match_rules(rules), limits, spread, up_to)
 

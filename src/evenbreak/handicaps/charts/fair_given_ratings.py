@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.checks import probability, whole
+from evenbreak.checks import number, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.fair import Candidate, FairRace, longest_matches, shortest_of_ties
 from evenbreak.handicaps.charts.given_ratings import length_given_ratings, win_given_ratings
@@ -49,7 +49,7 @@ def nearest_races_given_ratings(
     7 4 0.512 8.06
     7 3 0.372 6.81
     """
-    scale = scale_of(scale)
+    scale, difference = scale_of(scale), number(difference, "difference")
     target, top = probability(target, "target"), whole(top, "top", at_least=1)
     low, high = longest_matches(games, race_to)
     if race_to is not None:

@@ -191,10 +191,14 @@ def fair_races_given_ratings(
 
 
 def _checked(difference: ArrayLike, standard_error: ArrayLike, scale: Scale) -> tuple[Floats, Any]:
+    return floats(difference, "difference"), error_of(standard_error, scale)
+
+
+def error_of(standard_error: ArrayLike, scale: Scale) -> Any:
+    """Return the standard error of a difference, or several, if they can be averaged over."""
     most = MOST_DOUBLINGS * scale.points_per_doubling
     wanted = f"0 to {most:g} points ({MOST_DOUBLINGS:g} doublings of the odds)"
-    error = floats(standard_error, "standard_error", low=0.0, high=most, wanted=wanted)
-    return floats(difference, "difference"), error
+    return floats(standard_error, "standard_error", low=0.0, high=most, wanted=wanted)
 
 
 def averaging_rule(

@@ -10,12 +10,15 @@ from typing import Any
 import numpy as np
 
 from evenbreak.arrays import Floats
+from evenbreak.checks import number
+from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
-from evenbreak.handicaps.charts.given_ratings import averaging_rule
+from evenbreak.handicaps.charts.given_ratings import averaging_rule, error_of
 from evenbreak.matches.length import match_length
 from evenbreak.matches.odds import MatchOdds, match_odds
+from evenbreak.matches.parameters import checked_match, with_rack
 from evenbreak.ratings.scale import scale_of
 
 MOST_NODES, MOST_NODES_OF_SETS = 1000, 60
@@ -51,10 +54,15 @@ def odds_given_ratings(
     >>> round(odds_given_ratings(race, 60, 40).p_win_1, 4)
     0.6485
     """
-    scale = scale_of(scale)
+    match, scale = checked_match(match), scale_of(scale)
+
+    difference = number(difference, "difference")
+    standard_error = float(error_of(number(standard_error, "standard_error"), scale))
+    if match.break_matters:
+        raise InputError("the break matters in the match, but ratings do not say who breaks well")
 
     def at(p: Any) -> Any:
-        return _with_rack(match, Rack(p))
+        return with_rack(match, Rack(p))
 
     plain = isinstance(match, Race) and match.win_by == 1 and isinstance(match.rack, Rack)
     if standard_error == 0.0:
@@ -101,12 +109,6 @@ def odds_given_ratings(
         p_shutout_1=mean(lambda odds: odds.p_shutout_1),
         p_shutout_2=mean(lambda odds: odds.p_shutout_2),
     )
-
-
-def _with_rack(match: Match, rack: Rack) -> Match:
-    """Return a match whose innermost rack is another one."""
-    inner: Any = match.rack
-    return replace(match, rack=rack if isinstance(inner, Rack) else _with_rack(inner, rack))
 
 
 def _mean(values: Sequence[float | None], weights: Floats) -> float | None:
