@@ -95,7 +95,8 @@ def game_odds(
     InputError
         if `game` is not a game, or `tail` is not a probability.
     GameError
-        if a winner is not the number of a player, or a probability is not one.
+        if a winner is not the number of a player, somebody has won in a state that has moves,
+        or a probability is not one.
     ChainError
         if the probabilities of a state do not sum to 1, or the start is unknown.
 
