@@ -6,7 +6,8 @@ after one step. Everything else in this package is a function of a `Chain`.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+import math
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -287,6 +288,13 @@ def check_chain(chain: object) -> None:
         raise ChainError(
             f"this is {type(chain).__name__} {chain!r:.60}, not a chain; make one with chain_of"
         )
+
+
+def check_present(states: Iterable[Hashable]) -> None:
+    """Refuse NaN as a state: it is a gap in the data, and no NaN equals another."""
+    for state in states:
+        if isinstance(state, float) and math.isnan(state):
+            raise ChainError("a state is nan, a gap in the data; leave it out, or give it a name")
 
 
 def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:
