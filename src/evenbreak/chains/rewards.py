@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.chains.chain import check_chain
+from evenbreak.chains.chain import by_label, check_chain
 from evenbreak.chains.limits import stochastic_limit
 from evenbreak.errors import ChainError
 
@@ -121,9 +121,8 @@ def _expected_reward(
     per_arc: Mapping[tuple[Hashable, Hashable], float] | None,
 ) -> NDArray[np.float64]:
     """Return the expected reward of a step begun in each state; shape (n,)."""
-    if per_state is None:
-        per_state = {}
-    elif not isinstance(per_state, Mapping):
+    per_state = {} if per_state is None else by_label(per_state, "per_state")
+    if not isinstance(per_state, Mapping):
         per_state = np.asarray(per_state, dtype=float)
     reward = chain.vector(per_state, "per_state")
     for (source, target), amount in (per_arc or {}).items():
