@@ -45,8 +45,8 @@ def long_run_reward(
     chain, start
         as in `stochastic_limit`.
     per_state
-        the reward of each step begun in a state: a mapping (0 for states not named), or
-        an array of shape (n,).
+        the reward of each step begun in a state: a mapping or a pandas Series (0 for states
+        not named), or an array of shape (n,).
     per_arc
         the reward of each step from source to target, by (source, target); 0 for arcs
         not named. It is added to `per_state`.
