@@ -95,6 +95,8 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     2 3 0.25
     2 4 0.75
     """
+    if isinstance(game, type):
+        raise GameError(f"the game is the class {game.__name__}; give one of its objects")
     if not hasattr(game, "moves"):
         raise GameError(f"{game!r} is not a game; give an object with start, moves and winner")
     offer = getattr(game, "arcs", None)
@@ -110,7 +112,12 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
 def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
     import numpy as np
 
-    position = {start: 0}
+    try:
+        position = {start: 0}
+    except TypeError:
+        raise GameError(
+            f"the start is {start!r}; give a state that can be hashed, such as a tuple"
+        ) from None
     states = [start]
     arc_counts: list[int] = []
     targets: list[int] = []
@@ -118,6 +125,11 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
     for state in states:
         before = len(targets)
         moves = game.moves(state)
+        if not hasattr(moves, "items"):
+            raise GameError(
+                f"the moves from {state!r} are {moves!r}; give a dict from states to "
+                "probabilities, empty if the game is over"
+            )
         for target, chance in moves.items():
             try:
                 possible = bool(0.0 < chance <= _ONE)

@@ -54,3 +54,15 @@ def test_the_rule_of_thumb_is_left_out_where_it_does_not_hold():
 
 def test_a_median_of_no_ball():
     assert "are 0" in first(RunLength(0))
+
+
+@pytest.mark.parametrize(
+    ("p_make", "n", "words"),
+    [
+        (0.5, 10, "once in 1,024 innings."),
+        (1e-70, 2, "once in 1e+140 innings."),
+        (1e-160, 2, "less than 0.1% of the time."),  # 1 / 1e-320 is larger than any float
+    ],
+)
+def test_how_rare_a_run_is_stays_readable(p_make, n, words):
+    assert words in first(RunLength(p_make), at_least=n)

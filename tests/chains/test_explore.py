@@ -260,11 +260,22 @@ class Endless(Wild):
         ({0: {1: 0.0, 2: 0.0}}, GameError, "every move from 0 has probability 0"),
         ({0: {1: 0.5, 2: 0.4}}, ChainError, "'?0'? sum to 0.9"),
         ({0: {1: 1.5}}, GameError, "probability 1.5"),
+        ({0: None}, GameError, "moves from 0 are None"),
+        ({0: [(1, 1.0)]}, GameError, "moves from 0 are"),
     ],
 )
 def test_games_refused(moves: dict[int, dict[int, float]], error: type, words: str) -> None:
     with pytest.raises(error, match=words):
         chain_of(Wild(moves))
+
+
+def test_a_class_and_a_start_that_cannot_be_hashed_are_refused() -> None:
+    with pytest.raises(GameError, match="the class Wild"):
+        chain_of(Wild)  # type: ignore[arg-type]
+    game = Wild({})
+    game.start = [0]  # type: ignore[assignment]
+    with pytest.raises(GameError, match="the start is"):
+        chain_of(game)
 
 
 def test_an_endless_game_is_given_up() -> None:

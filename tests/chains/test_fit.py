@@ -3,6 +3,7 @@
 from fractions import Fraction
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from evenbreak.chains import Chain, fit_chain, stochastic_limit
@@ -26,7 +27,7 @@ def test_counts_chances_and_standard_errors_by_hand() -> None:
 
 
 def test_nothing_leads_from_one_sequence_to_the_next() -> None:
-    assert fit_chain(["ab", "cd"]).counts.nnz == 2
+    assert fit_chain([list("ab"), list("cd")]).counts.nnz == 2
 
 
 def test_tuple_states_and_generators() -> None:
@@ -63,7 +64,7 @@ def test_the_spread_of_a_limit_covers_the_truth() -> None:
 
 def test_refusals() -> None:
     with pytest.raises(ChainError, match="no step"):
-        fit_chain(["a", "b"])
+        fit_chain([["a"], ["b"]])
     with pytest.raises(ChainError, match="no step"):
         fit_chain([])
     with pytest.raises(ChainError, match="a sequence is 3"):
@@ -71,4 +72,17 @@ def test_refusals() -> None:
     with pytest.raises(ChainError, match="a sequence is"):
         fit_chain([[["a"], ["b"]]])  # type: ignore[list-item]
     with pytest.raises(ChainError, match="start is 'z'"):
-        fit_chain(["ab"], start="z")
+        fit_chain([["a", "b"]], start="z")
+
+
+def test_what_would_be_read_otherwise_than_meant_is_refused() -> None:
+    frame = pd.DataFrame([["rain", "sun"], ["sun", "sun"]], columns=["monday", "tuesday"])
+    with pytest.raises(ChainError, match="DataFrame"):
+        fit_chain(frame)  # type: ignore[arg-type]
+    with pytest.raises(ChainError, match="dict"):
+        fit_chain({"monday": ["rain", "sun"]})
+    with pytest.raises(ChainError, match="text 'rain'"):
+        fit_chain(["rain", "sun", "rain"])
+    with pytest.raises(ChainError, match="nan"):
+        fit_chain([["rain", float("nan"), "sun"]])
+    assert fit_chain(frame.to_numpy()).chain.states == ["rain", "sun"]

@@ -164,3 +164,10 @@ def test_square_lists_that_are_not_stochastic_are_refused():
         chain_of([[0.5, 0.4], [0.5, 0.4]])
     with pytest.raises(ChainError):
         chain_of([[0.5, 0.4, 0.3], [0.5, 0.4, 0.3], [0.5, 0.4, 0.3]])
+
+
+def test_a_masked_chance_is_refused():
+    P = np.ma.masked_array([[0.5, 0.5], [0.25, 0.75]], mask=[[False, True], [False, False]])
+    with pytest.raises(ChainError, match="MaskedArray"):
+        chain_of(P)
+    assert chain_of(np.ma.masked_array(P.data)).matrix[1, 0] == 0.5

@@ -146,3 +146,11 @@ def test_numbers_are_checked_without_numpy() -> None:
         "sys.exit('numpy' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
+
+
+def test_what_is_masked_is_missing() -> None:
+    masked = np.ma.masked_array([0.5, 0.25], mask=[False, True])
+    with pytest.raises(InputError, match="p holds nan"):
+        probability(masked, "p")
+    assert np.isnan(column(masked, "rating", 2, "players")).tolist() == [False, True]
+    assert floats(np.ma.masked_array([1, 2]), "p").tolist() == [1.0, 2.0]

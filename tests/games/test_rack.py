@@ -52,6 +52,15 @@ def test_arrays_fit_together_or_are_refused() -> None:
         Rack([0.5, 0.6], [0.1, 0.2, 0.3])
 
 
+def test_a_later_change_to_the_array_changes_nothing() -> None:
+    p, q = np.array([0.5, 0.75]), np.array([0.5, 0.25])
+    rack = Rack(p, p, q1=q)
+    p[0], q[0] = 7.0, 7.0
+    assert rack.p1.tolist() == [0.5, 0.75]
+    assert np.asarray(rack.p2).tolist() == [0.5, 0.75]
+    assert rack.q1.tolist() == [0.5, 0.25]
+
+
 def test_the_chance_of_losing_is_that_of_the_decimal() -> None:
     assert Rack(0.999999999).chance(2) == 1e-9
     assert Rack(0.5, [0.9, 1e-20]).chance(1, breaker=2).tolist() == [0.1, 1.0]

@@ -1,5 +1,6 @@
 """Who wins any game and when: against fractions, and against the kernels for matches."""
 
+import pickle
 from fractions import Fraction
 
 import networkx as nx
@@ -137,6 +138,13 @@ def test_what_is_not_a_game_is_refused(wrong):
         win_probability(wrong)
     with pytest.raises(InputError):
         match_length(wrong)
+
+
+def test_odds_can_be_sent_to_another_process():
+    odds = game_odds(OneBall(0.4, 0.8))
+    sent = pickle.loads(pickle.dumps(odds))  # noqa: S301
+    assert sent.p_win == odds.p_win
+    assert sent.to_frame().equals(odds.to_frame())
 
 
 def test_the_repr_is_short():

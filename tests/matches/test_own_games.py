@@ -4,7 +4,14 @@ import pytest
 
 from evenbreak.errors import GameError
 from evenbreak.games import Ahead, OneBall, Race, Rack
-from evenbreak.matches import final_scores, hill_hill_probability, live_odds, match_odds
+from evenbreak.matches import (
+    final_scores,
+    game_odds,
+    hill_hill_probability,
+    live_odds,
+    match_odds,
+    win_probability,
+)
 from evenbreak.matches.own_games import ends_of_game, rack_of_game
 
 
@@ -50,6 +57,16 @@ def test_a_rack_has_two_players_one_of_whom_wins(chances, named):
         return
     with pytest.raises(GameError, match=named):
         rack_of_game(Ends(chances))
+
+
+@pytest.mark.parametrize("after", [{1: 1.0}, {2: 1.0}, {"play": 0.5, 2: 0.5}])
+def test_nobody_may_have_won_while_the_game_goes_on(after):
+    """A final state that moves to itself would otherwise never end, and its winner never win."""
+    game = Ends({1: 0.6, 2: 0.4})
+    game.moves = lambda state: {"play": {1: 0.6, 2: 0.4}, 1: after}.get(state, {})
+    for ask in (game_odds, win_probability, rack_of_game):
+        with pytest.raises(GameError, match="player 1 has won in 1"):
+            ask(game)
 
 
 def test_a_small_chance_keeps_its_digits():

@@ -139,6 +139,13 @@ def test_a_layout_must_place_every_state() -> None:
         draw(OneBall(0.5, 0.5), layout={"S1": (0, 0), "W": (1, 0), "L": (2, 0)})
 
 
+@pytest.mark.parametrize("place", [(0, float("nan")), (1,), None, "ab", 3])
+def test_a_place_is_two_numbers(place: object) -> None:
+    layout = {"S1": (0, 0), "S2": place, "W": (1, 0), "L": (2, 0)}
+    with pytest.raises(InputError, match="layout of state 'S2'"):
+        draw(OneBall(0.5, 0.5), layout=layout)  # type: ignore[arg-type]
+
+
 def test_words_have_no_circle_and_kinds_say_where_the_game_begins() -> None:
     graph = nx.DiGraph()
     graph.add_node("S1", kind="transient")

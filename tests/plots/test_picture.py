@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import evenbreak.plots
+from evenbreak.errors import InputError
 from evenbreak.games import Drill, OneBall
 from evenbreak.plots import draw, image_bytes, shots_figure
 from evenbreak.plots.drills import drill_figure
@@ -52,6 +53,25 @@ def test_a_plot_is_drawn_on_the_axes_given_and_on_no_others(plot):
     assert not left.has_data()
     assert figure.get_size_inches().tolist() == [8, 4]
     assert image_bytes(right, "png") == image_bytes(figure, "png")
+
+
+@pytest.mark.parametrize(
+    "ax",
+    [
+        True,
+        Figure(),
+        Figure().subplots(1, 2),
+        Figure().add_subplot(projection="polar"),
+    ],
+)
+def test_what_is_not_plain_axes_is_refused(ax):
+    with pytest.raises(InputError, match="ax is"):
+        draw(OneBall(0.4, 0.8), ax=ax)
+
+
+def test_other_kinds_of_picture_are_refused():
+    with pytest.raises(InputError, match="'jpg'"):
+        image_bytes(Figure(), "jpg")
 
 
 def test_a_legend_stands_inside_the_axes_given():

@@ -247,6 +247,7 @@ def test_a_shot_may_have_fractions():
         (lambda: break_even_p2(0.5, 0.5, look_ahead=2), "'infinite' or 'two shots'"),
         (lambda: ShotChoice("bank", 0.5, "often"), "p2 is 'often'"),
         (lambda: compare_shots([]), "shots is empty"),
+        (lambda: compare_shots([(0.4, 0.6)]), "a shot is (0.4, 0.6)"),
         (
             lambda: compare_shots([ShotChoice("", 0.5, 0.5)], look_ahead=""),
             "'two shots' or 'all shots'",

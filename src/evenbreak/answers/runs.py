@@ -115,9 +115,17 @@ def _asked(asked: Asked, chances: dict[str, float], innings: int) -> list[str]:
         what = "run" if innings == 1 else "score"
         text = f"A {what} of {words} happens {percent(chances[key])} of the time"
         if innings == 1 and 0.0 < chances[key] < 0.1:
-            text += f", once in {1 / chances[key]:,.0f} innings"
+            text += _once_in(chances[key])
         sentences.append(f"{text}.")
     return sentences
+
+
+def _once_in(chance: float) -> str:
+    """Return in how many innings something happens; nothing if it never will."""
+    innings = 1 / chance
+    if innings > 1e300:
+        return ""
+    return f", once in {innings:{',.0f' if innings < 1e12 else '.2g'}} innings"
 
 
 def _middle(law: RunLength | InningsScore, innings: int) -> str:

@@ -6,7 +6,8 @@ after one step. Everything else in this package is a function of a `Chain`.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+import math
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -173,8 +174,8 @@ class Chain:
         Parameters
         ----------
         given
-            an array of n numbers; a mapping from states to numbers, 0 for the others; or a
-            state, which gets 1.
+            an array of n numbers; a mapping or a pandas Series from states to numbers, 0 for
+            the others; or a state, which gets 1.
         name
             what it is called, for the error message.
 
@@ -184,6 +185,7 @@ class Chain:
             if a state is unknown, the shape is not (n,), or a number is not finite.
         """
         v = np.zeros(len(self))
+        given = by_label(given, name)
         if isinstance(given, np.ndarray):
             if given.shape != v.shape:
                 raise ChainError(f"{name} has shape {given.shape}; give {v.shape}")
@@ -289,6 +291,24 @@ def check_chain(chain: object) -> None:
         )
 
 
+def by_label(given: Any, name: str) -> Any:
+    """Return a pandas Series as a dict from its labels, anything else as it is."""
+    if not (
+        hasattr(given, "to_dict") and hasattr(given, "index") and getattr(given, "ndim", 0) == 1
+    ):
+        return given
+    if not given.index.is_unique:
+        raise ChainError(f"{name} has a label twice; give each state one number")
+    return given.to_dict()
+
+
+def check_present(states: Iterable[Hashable]) -> None:
+    """Refuse NaN as a state: it is a gap in the data, and no NaN equals another."""
+    for state in states:
+        if isinstance(state, float) and math.isnan(state):
+            raise ChainError("a state is nan, a gap in the data; leave it out, or give it a name")
+
+
 def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:
     """Return the states as an index of pandas, in which tuples stay tuples."""
     import pandas as pd
@@ -313,7 +333,7 @@ def csc_of(matrix: Any) -> csc_array:
         return matrix
     try:
         given: Any = matrix if issparse(matrix) else np.asarray(matrix)
-        if given.ndim != 2 or given.dtype.kind not in "biufO":
+        if given.ndim != 2 or given.dtype.kind not in "biufO" or np.ma.is_masked(matrix):
             raise TypeError
         found: csc_array[np.float64] = csc_array(given.astype(np.float64))
     except (TypeError, ValueError, AttributeError):

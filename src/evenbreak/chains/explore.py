@@ -22,7 +22,7 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array
 
 from evenbreak.chains.arcs import sums
-from evenbreak.chains.chain import Chain, check_sums
+from evenbreak.chains.chain import Chain, check_present, check_sums
 from evenbreak.chains.matrices import chain_of_matrix, is_matrix
 from evenbreak.errors import ChainError
 from evenbreak.game import ArcArrays, Game, arcs_of
@@ -335,6 +335,7 @@ def _arcs_of_triples(triples: Iterable[Any], states: Iterable[Any] = ()) -> ArcA
                 f"arc {k} is {triple!r}; give (source, target, probability), "
                 "states that can be hashed and a number"
             ) from None
+    check_present(position)
     return ArcArrays(
         list(position),
         np.array(sources, dtype=np.int64),

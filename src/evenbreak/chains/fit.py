@@ -13,7 +13,7 @@ References: Anderson and Goodman 1957, "Statistical inference about Markov chain
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -21,7 +21,7 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array
 
 from evenbreak.arrays import short_repr
-from evenbreak.chains.chain import Chain
+from evenbreak.chains.chain import Chain, check_present
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
@@ -96,7 +96,8 @@ def fit_chain(
     Raises
     ------
     ChainError
-        if no step was seen, a state cannot be hashed, or the start is not a state.
+        if no step was seen, a sequence is text, a state is NaN or cannot be hashed, or the start
+        is not a state.
 
     >>> fitted = fit_chain([["A", "B", "A", "A", "won"], ["B", "A", "lost"]])
     >>> fitted.chain.states
@@ -107,7 +108,17 @@ def fit_chain(
     position: dict[Hashable, int] = {}
     sources: list[int] = []
     targets: list[int] = []
+    if isinstance(sequences, Mapping) or hasattr(sequences, "columns"):
+        raise ChainError(
+            f"sequences is a {type(sequences).__name__}; give a list of sequences, such as "
+            "frame.to_numpy() of a DataFrame with one sequence in each row"
+        )
     for sequence in sequences:
+        if isinstance(sequence, str):
+            raise ChainError(
+                f"a sequence is the text {sequence!r:.60}; give lists of states, "
+                "list(text) if each letter is one"
+            )
         try:
             path = [position.setdefault(state, len(position)) for state in sequence]
         except TypeError:
@@ -120,6 +131,7 @@ def fit_chain(
         raise ChainError("the sequences hold no step; give sequences of at least two states")
     if start is not None and start not in position:
         raise ChainError(f"start is {start!r}, which is in none of the sequences")
+    check_present(position)
     n = len(position)
     counts = coo_array((np.ones(len(sources)), (targets, sources)), shape=(n, n)).tocsc()
     chances = counts.data / np.repeat(counts.sum(axis=0), np.diff(counts.indptr))

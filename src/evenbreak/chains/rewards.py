@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.chains.chain import check_chain
+from evenbreak.chains.chain import by_label, check_chain
 from evenbreak.chains.limits import stochastic_limit
 from evenbreak.errors import ChainError
 
@@ -45,8 +45,8 @@ def long_run_reward(
     chain, start
         as in `stochastic_limit`.
     per_state
-        the reward of each step begun in a state: a mapping (0 for states not named), or
-        an array of shape (n,).
+        the reward of each step begun in a state: a mapping or a pandas Series (0 for states
+        not named), or an array of shape (n,).
     per_arc
         the reward of each step from source to target, by (source, target); 0 for arcs
         not named. It is added to `per_state`.
@@ -121,9 +121,8 @@ def _expected_reward(
     per_arc: Mapping[tuple[Hashable, Hashable], float] | None,
 ) -> NDArray[np.float64]:
     """Return the expected reward of a step begun in each state; shape (n,)."""
-    if per_state is None:
-        per_state = {}
-    elif not isinstance(per_state, Mapping):
+    per_state = {} if per_state is None else by_label(per_state, "per_state")
+    if not isinstance(per_state, Mapping):
         per_state = np.asarray(per_state, dtype=float)
     reward = chain.vector(per_state, "per_state")
     for (source, target), amount in (per_arc or {}).items():

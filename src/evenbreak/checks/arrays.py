@@ -243,7 +243,7 @@ def _converted(values: Any, kind: np.dtype[Any]) -> NDArray[Any] | None:
     if kind.kind == "O":
         texts = np.array(values, dtype=object)
         return texts if all(isinstance(text, str) for text in texts.flat) else None
-    given = np.asarray(values)
+    given = _unmasked(values)
     # numpy would read text as numbers, and drop imaginary parts.
     if given.size and given.dtype.kind not in ("MUO" if kind.kind == "M" else "biufO"):
         return None
@@ -265,9 +265,18 @@ def _array(values: Any) -> Floats:
     import numpy as np
 
     try:
-        array = np.asarray(values)
+        array = _unmasked(values)
         if array.dtype.kind in "biufO":  # else numpy reads text and drops imaginary parts
             return array.astype(float, copy=False)
     except (TypeError, ValueError, OverflowError):
         pass
     return np.array(math.nan)
+
+
+def _unmasked(values: Any) -> NDArray[Any]:
+    """Return `values` as an array; NaN stands for what is masked, whose number does not count."""
+    import numpy as np
+
+    if np.ma.is_masked(values):
+        return np.asarray(values.astype(float).filled(math.nan))
+    return np.asarray(values)

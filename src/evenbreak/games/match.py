@@ -84,7 +84,7 @@ class Match(ABC, Generic[ChanceT]):
         self._check_score(whole(a, "score of player 1"), whole(b, "score of player 2"))
 
     def _check_own_game(self, game: Game) -> None:
-        if not isinstance(game, Game):
+        if not isinstance(game, Game) or isinstance(game, type):
             raise InputError(
                 f"rack is {game!r}; give a Rack(p), a Rack(p1, p2), a match, or a game with start, "
                 "moves and winner"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
@@ -88,8 +89,9 @@ class Rack(Generic[ChanceT]):
             off = abs(p + q - 1.0)
             if (off if isinstance(off, float) else off.max(initial=0.0)) > _ROUNDING:
                 raise InputError(f"p{player} and q{player} do not add up to 1; correct one of them")
-        object.__setattr__(self, "p" + player, p)
-        object.__setattr__(self, "q" + player, q)
+        # Copies, so that a later change to the caller's array changes nothing here.
+        object.__setattr__(self, "p" + player, copy(p))
+        object.__setattr__(self, "q" + player, copy(q))
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -95,7 +94,8 @@ def game_odds(
     InputError
         if `game` is not a game, or `tail` is not a probability.
     GameError
-        if a winner is not the number of a player, or a probability is not one.
+        if a winner is not the number of a player, somebody has won in a state that has moves,
+        or a probability is not one.
     ChainError
         if the probabilities of a state do not sum to 1, or the start is unknown.
 
@@ -139,7 +139,7 @@ def game_odds(
             row[: len(law)] = law
     chances = [0.0 if time is None else min(time.p_reached, 1.0) for time in times]
     return GameOdds(
-        MappingProxyType(dict(zip(players, chances, strict=False))),
+        dict(zip(players, chances, strict=False)),
         chances[-1],
         length.p_never_ends,
         length,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from evenbreak.chains.explore import chain_of
@@ -53,7 +53,8 @@ def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) ->
     InputError
         if it is not a game.
     GameError
-        if a winner is not the number of a player, or a probability is not one.
+        if a winner is not the number of a player, somebody has won in a state that has moves,
+        or a probability is not one.
     ChainError
         if the probabilities of a state do not sum to 1, or the start is unknown.
 
@@ -72,6 +73,7 @@ def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) ->
         raise InputError(
             f"game is {game!r}; give an object with start, moves and winner, or a networkx.DiGraph"
         )
+    _check_over(chain, final, winner_in)
     by_winner: dict[int | None, list[Hashable]] = {}
     for state in final:
         by_winner.setdefault(_player(winner_in(state), state), []).append(state)
@@ -108,6 +110,19 @@ def rack_of_game(game: Game) -> Rack[float]:
 def _absorbing(chain: Chain) -> list[Hashable]:
     states = chain.structure.recurrent & (chain.arcs.outflow == 0.0)
     return [chain.states[k] for k in states.nonzero()[0].tolist()]
+
+
+def _check_over(
+    chain: Chain, final: list[Hashable], winner_in: Callable[[Any], int | None]
+) -> None:
+    """Refuse a winner in a state in which the game goes on: their win would not count."""
+    over = set(final)
+    for state in chain.states:
+        if state not in over and (winner := winner_in(state)) is not None:
+            raise GameError(
+                f"player {winner} has won in {state!r}, but there are moves from it; give no moves "
+                "from a state in which the game is over, and no winner in any other"
+            )
 
 
 def _player(winner: Any, state: Hashable) -> int | None:

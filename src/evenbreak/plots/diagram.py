@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 from matplotlib.axes import Axes
 
+from evenbreak.checks import floats
 from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.plots.layout import Positions, positions_of
@@ -75,7 +76,8 @@ def draw(
     Raises
     ------
     InputError
-        if there are no states or more than 150, or `layout` leaves out a state.
+        if there are no states or more than 150, `layout` leaves out a state or has a place that
+        is not two numbers, or `ax` is not axes.
 
     Notes
     -----
@@ -103,6 +105,10 @@ def draw(
     missing = [state for state in graph if state not in places]
     if missing:
         raise InputError(f"layout has no place for state {missing[0]!r}; give it (x, y)")
+    if layout is not None:
+        for state in graph:
+            if floats(places[state], f"layout of state {state!r}").shape != (2,):
+                raise InputError(f"layout of state {state!r} is {places[state]!r}; give (x, y)")
 
     hook = getattr(game, "label", None)
     written = hook if callable(hook) else partial(_state_label, graph)

@@ -12,6 +12,9 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from evenbreak.checks import one_of
+from evenbreak.errors import InputError
+
 Asked = ParamSpec("Asked")
 Drawn = TypeVar("Drawn")
 
@@ -43,7 +46,12 @@ def in_our_look(draw: Callable[Asked, Drawn]) -> Callable[Asked, Drawn]:
 
     @wraps(draw)
     def drawn(*args: Asked.args, **kwargs: Asked.kwargs) -> Drawn:
-        with our_look() if kwargs.get("ax") is None else nullcontext():
+        ax = kwargs.get("ax")
+        if ax is not None and (not isinstance(ax, Axes) or ax.name != "rectilinear"):
+            raise InputError(
+                f"ax is {ax!r:.60}; give plain axes, such as one of those of figure.subplots()"
+            )
+        with our_look() if ax is None else nullcontext():
             return draw(*args, **kwargs)
 
     return drawn
@@ -64,11 +72,17 @@ def image_bytes(figure: Figure | Axes, kind: Literal["png", "svg"] = "svg") -> b
 
     They are always the same bytes.
 
+    Raises
+    ------
+    InputError
+        if `kind` is neither 'svg' nor 'png'.
+
     >>> from evenbreak.games import OneBall
     >>> from evenbreak.plots import draw
     >>> image_bytes(draw(OneBall(0.4, 0.8)), "png")[1:4]
     b'PNG'
     """
+    one_of(kind, "kind", ("svg", "png"))
     whole: Any = figure.get_figure(root=True) if isinstance(figure, Axes) else figure
     out = io.BytesIO()
     # A salt instead of random ids, and no date or program version.

@@ -282,6 +282,10 @@ def compare_shots(
     >>> round(best.turning_p2, 4), round(other.turning_p2, 4)
     (0.5143, 0.4667)
     """
+    shots = tuple(shots)
+    for shot in shots:
+        if not isinstance(shot, ShotChoice):
+            raise InputError(f"a shot is {shot!r}; give ShotChoice(name, p1, p2)")
     ranked = sorted(shots, key=lambda shot: -round(shot.win(look_ahead), 12))
     if not ranked:
         raise InputError("shots is empty; give at least one ShotChoice")
