@@ -30,7 +30,7 @@ MATCHES = [
 ]
 
 
-@pytest.mark.parametrize("match", MATCHES, ids=repr)
+@pytest.mark.parametrize("match", MATCHES)
 @pytest.mark.parametrize("player", [1, 2])
 def test_it_is_the_limit_of_the_chain_of_scores(match, player):
     limit = stochastic_limit(chain_of(match), exact=True)
