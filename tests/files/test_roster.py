@@ -198,3 +198,28 @@ def test_an_unknown_or_a_second_scale_is_refused(read, scale, named):
 def test_a_cell_with_half_a_file_in_it_is_no_name(read):
     with pytest.raises(DataError, match=r":3: .*130,000 letters"):
         read("player,rating\nAnn,80\n" + 130_000 * "a" + ",70\n")
+
+
+@pytest.mark.parametrize(
+    ("title", "scale"), [("Fargo Rating", "fargo"), ("Elo", "elo"), ("Rating", None)]
+)
+def test_the_title_of_the_ratings_may_name_their_scale(tmp_path, title, scale):
+    path = tmp_path / "club.csv"
+    path.write_text(f"Name,{title}\nAnn,700\nBob,420\n", encoding="utf-8")
+    file = read_roster(path)
+    assert (file.scale and file.scale.name, file.levels) == (scale, False)
+
+
+def test_a_title_that_names_another_scale_than_the_column_is_refused(tmp_path):
+    path = tmp_path / "club.csv"
+    path.write_text("Name,Fargo Rating,Scale\nAnn,700,elo\n", encoding="utf-8")
+    with pytest.raises(DataError, match=r"'elo' differs from the title 'Fargo Rating'"):
+        read_roster(path)
+
+
+@pytest.mark.parametrize("title", ["Skill Level", "level"])
+def test_skill_levels_are_known_by_their_title(tmp_path, title):
+    path = tmp_path / "apa.csv"
+    path.write_text(f"Name,{title}\nAnn,7\nBob,4\n", encoding="utf-8")
+    file = read_roster(path)
+    assert (file.scale, file.levels) == (None, True)

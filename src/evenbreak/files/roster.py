@@ -95,6 +95,8 @@ class RosterFile:
         the places of those whose error is the quasi_error of the file.
     scale
         the scale of the ratings; None if the file does not state it.
+    levels
+        whether the title of the ratings says that they are skill levels.
     """
 
     roster: Roster
@@ -104,6 +106,7 @@ class RosterFile:
     sha256: str
     by_quasi: frozenset[int] = frozenset()
     scale: Scale | None = None
+    levels: bool = False
 
 
 def read_roster(path: str | Path) -> RosterFile:
@@ -181,7 +184,8 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
     hidden = hidden_letter_warnings(table, ["player"])
     warnings = (*table.warnings, *hidden, *similar)
-    return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi, scale)
+    levels = "level" in _title(table)
+    return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi, scale, levels)
 
 
 def _names(table: TextTable) -> list[str]:
@@ -213,7 +217,11 @@ def _names(table: TextTable) -> list[str]:
 
 
 def _scale(table: TextTable) -> Scale | None:
-    """Return the scale of all ratings, noting one that is unknown or unlike the first."""
+    """Return the scale of all ratings, noting one that is unknown or unlike the first.
+
+    Where the file has no scale, the title of the ratings may name it: "Fargo rating".
+    """
+    named = next((name for name in SCALES if name in _title(table)), None)
     scales = read_cells(
         table,
         "scale",
@@ -226,8 +234,14 @@ def _scale(table: TextTable) -> Scale | None:
     )
     rows = np.flatnonzero(scales.stated & scales.good)
     if not len(rows):
-        return None
+        return None if named is None else SCALES[named]
     first: Scale = scales.values[rows[0]]
+    if named is not None and not first.same_points(SCALES[named]):
+        table.problems.add(
+            int(table.lines[rows[0]]),
+            f"scale {first.text!r} differs from the title {quoted(table.titles['rating'])}; "
+            "correct one of them",
+        )
     table.problems.add_rows(
         table.lines,
         np.array([row for row in rows if not first.same_points(scales.values[row])], dtype=int),
@@ -237,6 +251,11 @@ def _scale(table: TextTable) -> Scale | None:
         ),
     )
     return first
+
+
+def _title(table: TextTable) -> str:
+    """Return the title of the ratings in lower case; '' where there are none."""
+    return table.titles.get("rating", "").casefold()
 
 
 def _known_scale(text: str) -> Scale | None:

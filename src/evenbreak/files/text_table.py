@@ -9,7 +9,7 @@ from __future__ import annotations
 from array import array
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import compress, count
 from operator import itemgetter
 from pathlib import Path
@@ -70,6 +70,8 @@ class TextTable:
         what a person should know although the file can be used, a line each.
     content
         the bytes that were read.
+    titles
+        what the file calls the columns that it has.
     """
 
     source: str
@@ -79,6 +81,7 @@ class TextTable:
     problems: Problems
     warnings: tuple[str, ...]
     content: bytes
+    titles: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -180,6 +183,7 @@ def read_table(
         problems,
         tuple(warnings),
         content,
+        {name: titles[place] for name, place in places.items()},
     )
 
 

@@ -406,3 +406,14 @@ def test_of_a_list_only_the_entrants_meet(run, tmp_path):
 def test_the_help_knows_the_paces_and_the_usual_turnover(run):
     assert tuple(PACES) == module.DISCIPLINES
     assert f"[default: {Turnover().mean:g}]" in " ".join(run("matchups", "--help").stdout.split())
+
+
+def test_skill_levels_need_a_chart_of_levels_or_a_scale(run, tmp_path):
+    (tmp_path / "apa.csv").write_text("Name,Skill Level\nAnn,7\nBob,4\n", encoding="utf-8")
+    roster = str(tmp_path / "apa.csv")
+    refused = run("matchups", roster, "--race-to", "7")
+    assert refused.exit_code == 2
+    assert "apa_8ball" in refused.stderr
+    assert run("odds", "Ann", "Bob", "--from", roster, "--race", "7").exit_code == 2
+    assert run("matchups", roster, "--race-to", "7", "--scale", "2").exit_code == 0
+    assert run("matchups", roster, "--chart", "apa_8ball").exit_code == 0

@@ -57,7 +57,7 @@ def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers
     """Return two players of a list, with its ratings, its scale and its errors."""
     from evenbreak.answers.chosen_players import find_players
     from evenbreak.answers.roster_matchups import cannot_be_compared
-    from evenbreak.cli.kit.systems import refuse_other_scale
+    from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
     from evenbreak.files.roster import read_roster
 
     if len(names) != 2:
@@ -65,6 +65,8 @@ def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers
     file = read_roster(path)
     if scale is not None:
         refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
+    elif file.scale is None:
+        refuse_levels(file, "say with --scale how many levels double the odds")
     roster = file.roster
     places = find_players(roster, names, said="--from", where=file.source)
     if len(places) < 2:

@@ -78,6 +78,14 @@ def refuse_other_scale(
         )
 
 
+def refuse_levels(file: files.RosterFile, remedy: str) -> None:
+    """Refuse a list of skill levels where ratings in points are needed."""
+    if file.levels:
+        refuse(
+            f"the ratings of {file.source} are skill levels, and not points of a scale; {remedy}"
+        )
+
+
 def chart_by_difference(option: str, name: str) -> handicaps.Chart:
     """Return a chart of rating differences, or refuse one of skill levels."""
     found = files.find_chart(name)

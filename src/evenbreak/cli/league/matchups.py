@@ -19,7 +19,7 @@ from evenbreak.cli.kit.options import (
     scale_option,
     seed_option,
 )
-from evenbreak.cli.kit.systems import refuse_other_scale
+from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.kit.values import Number, Whole, refuse
 from evenbreak.ratings.scale import SCALES, Scale
@@ -153,12 +153,7 @@ def command(
     file = files.read_roster(roster)
     if players_file is not None:
         file = files.roster_of_entrants(file, files.read_entrants(players_file))
-    if scale is not None:
-        refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
-    levels = None
-    if isinstance(of_league, handicaps.LevelChart) and scale is None and file.scale is None:
-        levels = handicaps.level_scale(of_league)
-    points = scale or file.scale or (levels.scale if levels else _scale(of_league))
+    points, levels = _scale_of_list(file, scale, of_league)
     players = _with_starters(file.roster, points, starter, starter_sd)
     check_roster(file, players, of_league, points)
     if scale is None and file.scale is not None:
@@ -210,6 +205,26 @@ def _chart(name: str) -> tuple[AnyChart, list[str]]:
             f"chart show {name}` has the points of each level"
         )
     return file.chart, list(file.warnings)
+
+
+def _scale_of_list(
+    file: files.RosterFile, stated: Scale | None, of_league: AnyChart | None
+) -> tuple[Scale, handicaps.LevelScale | None]:
+    """Return the scale of the ratings, and what skill levels are worth if the chart says it."""
+    if stated is not None:
+        refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
+        return stated, None
+    if file.scale is not None:
+        return file.scale, None
+    if isinstance(of_league, handicaps.LevelChart):
+        levels = handicaps.level_scale(of_league)
+        return levels.scale, levels
+    refuse_levels(
+        file,
+        "add a chart by skill level, such as --chart apa_8ball, or say with --scale how many "
+        "levels double the odds",
+    )
+    return _scale(of_league), None
 
 
 def _scale(chart: AnyChart | None) -> Scale:
