@@ -68,7 +68,7 @@ def deflection_slope(cut: float, topspin: float = ...) -> float: ...
 @overload
 def deflection_slope(cut: ArrayLike, topspin: ArrayLike = ...) -> Floats: ...
 def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:
-    """Return d theta / d cut, the sensitivity of the cue ball's path to the size of the cut (P4.15).
+    """Return d theta / d cut, how the cue ball's path depends on the size of the cut (P4.15).
 
     In natural roll it falls from 5/2 at small cut angles (P4.18) to -5/7; for stun it is -1 at
     every cut.
