@@ -5,12 +5,14 @@ PYTHON ?= .venv-dev/bin/python
 LEANING = tests/plots tests/sheets tests/files/test_spreadsheet.py tests/cli/league/test_report.py \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: check check-rest lint types test lowest layers docs reports drift bench clean
+.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
 
-check-rest: lint types docs drift   ## what CI checks after the tests, in this environment
+check-rest: check-beside drift   ## what CI checks after the tests
+
+check-beside: lowest docs lint types   ## those of them that may run side by side
 
 lint:
 	$(PYTHON) -m ruff format --check .

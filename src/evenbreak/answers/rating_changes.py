@@ -244,16 +244,16 @@ def _matches(moves: RatingChanges) -> list[dict[str, Any]]:
 def _night_warnings(
     moves: RatingChanges, tonight: ResultsFile, chart: Chart | None
 ) -> Iterator[str]:
-    """Yield what to check in a night played by a chart: other races, and several dates."""
-    if chart is None:
-        return
+    """Yield what to check in a night: several dates, and races that the chart does not have."""
     dates = tonight.results.date
     days = 0 if dates is None else len(np.unique(dates[~np.isnat(dates)]))
     if days > 1:
         yield (
-            f"{tonight.source}: has matches on {days:,} dates, but the races of all of them are "
-            "looked up with the same ratings; run one night at a time if ratings changed in between"
+            f"{tonight.source}: has matches on {days:,} dates, but all of them are taken as one "
+            "night, by the same ratings; run one night at a time if ratings changed in between"
         )
+    if chart is None:
+        return
     players, ratings = moves.before.players, moves.before.rating
     for match in moves.matches:
         if match.race is None or match.race == match.by_chart or match.by_chart is None:
