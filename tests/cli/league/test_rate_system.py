@@ -236,3 +236,11 @@ def test_no_text_makes_a_traceback(run, tmp_path_factory, rows, names):
     night = f"player_a,player_b,score_a,score_b\n{rows}"
     line = f"rate - --system npl --chart npl_10 --roster {folder}/any_list.csv"
     assert run(*line.split(), stdin=night.encode("utf-8", "replace")).exit_code in (0, 3)
+
+
+def test_ratings_of_another_size_than_the_systems_are_doubted(rate, tmp_path):
+    (tmp_path / "raced.csv").write_text(
+        "player_a,player_b,score_a,score_b,race_a,race_b\nAnn,Cy,4,1,4,3\n"
+    )
+    assert "average about" in rate("raced.csv", "--system", "elo 16").stderr
+    assert "average about" not in rate("night.csv", "--chart", "npl_10").stderr

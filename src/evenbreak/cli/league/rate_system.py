@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.scale_doubts import league_doubts
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_other_scale
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import refuse
@@ -50,6 +52,11 @@ def rate_by_system(
         for warning in (*last.warnings, *tonight.warnings):  # they may explain it
             say(f"Warning: {warning}")
         raise
-    return answers.rating_changes_answer(
+    answer = answers.rating_changes_answer(
         moves, last, tonight, chart=by_chart, found_chart=chart is None
     )
+    if last.scale is not None:
+        return answer
+    remedy = f"the system {system.name} takes them as they are"
+    doubts = league_doubts(system.scale, last.roster.rating, remedy)
+    return replace(answer, warnings=[*answer.warnings, *doubts])
