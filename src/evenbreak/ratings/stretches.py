@@ -79,8 +79,8 @@ def stretch_losses(
     predicted = np.zeros(len(stretches))
     breaks = any(way.get("break_advantage") is not None for way in ways)
     for row, (first, last) in enumerate(stretches):
-        before = played.select(date < first)
         coming = played.select((date >= first) & (date <= last))
+        before = _with_schedule(played.select(date < first), coming)
         scored, won_only = coming.played().results, coming.won_only()
         weights = np.ones(len(scored)), np.ones(len(won_only))
         terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
@@ -92,6 +92,11 @@ def stretch_losses(
             losses[row, column] = -terms.log_likelihood(skill, advantage)
         progress(row + 1, len(stretches))
     return StretchLosses(losses, predicted)
+
+
+def _with_schedule(before: Results, coming: Results) -> Results:
+    """Return matches, and others as they stand before they are played: at 0-0, without a winner."""
+    return before.joined(coming.unplayed())
 
 
 def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
