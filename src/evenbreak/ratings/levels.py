@@ -1,7 +1,8 @@
-"""What a file knows about players before their results: newcomers, teams and divisions.
+"""What a file knows about players before their results: newcomers, teams, divisions, handicaps.
 
-Whoever has played little tends to be weaker than those who have played much, and players of one
-team or division tend to be alike. `Levels` says how much so; `Knowledge` gathers, match by
+Whoever has played little tends to be weaker than those who have played much; players of one
+team or division tend to be alike; and the races of a handicap league say how strong the league
+takes its players to be. `Levels` says how much each of these counts; `Knowledge` gathers, match by
 match, what a file says about each player, and makes the means of their priors of it.
 """
 
@@ -15,6 +16,7 @@ import numpy as np
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.ratings.prior_means import PriorMeans
+from evenbreak.ratings.stated_strength import StatedStrength, has_handicaps
 from evenbreak.ratings.results import Results
 
 SETTLED = 50.0
@@ -33,6 +35,9 @@ class Levels:
     newcomers
         how far below an experienced player somebody without a game is expected to be. Of this
         the part 1 / (1 + games / 50) is left after some games.
+    race
+        what part of the difference that a stated race implies is taken as real: 1 where the
+        races are right.
     team_sd, division_sd
         how far apart teams, or divisions, are on average (standard deviation); 0 where they
         do not matter.
@@ -43,10 +48,11 @@ class Levels:
         if a number is not finite, or a standard deviation is not in 0 to 100.
 
     >>> Levels(newcomers=0.4, team_sd=0.2)
-    Levels(newcomers=0.4, team_sd=0.2, division_sd=0.0)
+    Levels(newcomers=0.4, race=0.0, team_sd=0.2, division_sd=0.0)
     """
 
     newcomers: float = 0.0
+    race: float = 0.0
     team_sd: float = 0.0
     division_sd: float = 0.0
 
@@ -77,6 +83,7 @@ class Knowledge:
         self._sides = results.player_a, results.player_b
         self._games = games_of(results)
         self._behind = np.zeros(self._players)
+        self._stated = StatedStrength(results) if levels.race else None
         self._groups = [
             _Groups(results, kind)
             for kind in GROUPS
@@ -84,7 +91,9 @@ class Knowledge:
         ]
 
     def see(self, rows: Any) -> None:
-        """Take in who is in which team and division, as matches say before they are played."""
+        """Take in the races, teams and divisions of matches, known before they are played."""
+        if self._stated is not None:
+            self._stated.see(rows)
         for groups in self._groups:
             groups.see(rows)
 
@@ -101,8 +110,11 @@ class Knowledge:
             np.full(len(one.names), getattr(self._levels, f"{one.kind}_sd"))
             for one in self._groups
         ]
+        mean = -self._levels.newcomers * newness
+        if self._stated is not None:
+            mean += self._levels.race * self._stated.strength()
         whole = PriorMeans(
-            -self._levels.newcomers * newness,
+            mean,
             np.hstack([np.zeros((self._players, 0)), *design]),
             np.concatenate([np.zeros(0), *sds]),
             tuple((one.kind, name) for one in self._groups for name in one.names),
@@ -133,6 +145,17 @@ class _Groups:
         """The share of each player's matches in each group, 0 where no group was stated."""
         total = self._seen.sum(1, keepdims=True)
         return np.divide(self._seen, total, out=np.zeros_like(self._seen), where=total > 0)
+
+
+def known_levels(results: Results) -> tuple[str, ...]:
+    """Return the fields of `Levels` about which results say something."""
+    says = {
+        "race": has_handicaps(results),
+        "division_sd": has_groups(results, "division"),
+        "team_sd": has_groups(results, "team"),
+        "newcomers": True,
+    }
+    return tuple(name for name, one in says.items() if one)
 
 
 def has_groups(results: Results, kind: str) -> bool:
