@@ -94,9 +94,7 @@ class Curvature:
 
     @cached_property
     def _factor(self) -> Any:
-        whole = np.block(
-            [[self.matrix.toarray(), self._across], [self._across.T, self._levels]]
-        )
+        whole = np.block([[self.matrix.toarray(), self._across], [self._across.T, self._levels]])
         return cho_factor(whole, lower=True)
 
     @cached_property

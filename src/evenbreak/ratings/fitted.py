@@ -13,7 +13,7 @@ import numpy as np
 from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.errors import InputError
 from evenbreak.ratings.covariance import Curvature
-from evenbreak.ratings.levels import Levels
+from evenbreak.ratings.levels import Levels, newness
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
 from evenbreak.ratings.pairs import PairCounts
 from evenbreak.ratings.prior_means import PriorMeans
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Group(NamedTuple):
-    """How far the players of a team or division are above the average, before their results.
+    """How far a team or division is above the average one, before its players' results.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class Ratings:
     later: int = 0
     break_advantage: float | None = None
     break_games: float = 0.0
-    levels: Levels = Levels()
+    levels: Levels = field(default_factory=Levels)
     _played: PairCounts | LikelihoodTerms = field(repr=False)
     _skill: Floats = field(repr=False)
     _break_precision: float | None = field(default=None, repr=False)
@@ -230,19 +230,34 @@ class Ratings:
         means = self._means or PriorMeans.none(len(self.players))
         return self.anchor + self.scale.points_per_log_odds * means.expected(self._level)
 
+    @property
+    def newcomer_share(self) -> float:
+        """The part of `levels.newcomers` by which a newcomer is below the average player."""
+        games = (self.games + self.races_won + self.races_lost)[~self.idle]
+        return float((1.0 - newness(games)).mean()) if len(games) else 0.0
+
+    @property
+    def newcomer(self) -> float:
+        """How far below the average of those who have played a newcomer begins, in points."""
+        return self.scale.points(self.levels.newcomers) * self.newcomer_share
+
     @cached_property
     def groups(self) -> tuple[Group, ...]:
-        """Each team and division that `levels` counts: how far above average its players are.
+        """Each team and division that `levels` counts: how far above the average one it is.
 
         Within a kind of group the strongest comes first.
         """
-        if self._means is None:
+        if self._means is None or not self._means.names:
             return ()
-        points = self.scale.points_per_log_odds
-        error = np.sqrt(np.diagonal(self._curvature.level_covariance)) * points
+        kinds = np.array([kind for kind, _ in self._means.names])
+        same = (kinds[:, None] == kinds).astype(float)
+        contrast = np.eye(len(kinds)) - same / same.sum(1)
+        covariance = contrast @ self._curvature.level_covariance @ contrast.T
+        above = self.scale.points_per_log_odds * contrast @ self._level
+        error = self.scale.points_per_log_odds * np.sqrt(np.diagonal(covariance))
         found = [
-            Group(kind, name, points * float(level), float(sd))
-            for (kind, name), level, sd in zip(self._means.names, self._level, error, strict=True)
+            Group(kind, name, float(points), float(sd))
+            for (kind, name), points, sd in zip(self._means.names, above, error, strict=True)
         ]
         return tuple(sorted(found, key=lambda one: (one.kind, -one.above, one.name)))
 

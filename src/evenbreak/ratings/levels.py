@@ -16,8 +16,8 @@ import numpy as np
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.ratings.prior_means import PriorMeans
-from evenbreak.ratings.stated_strength import StatedStrength, has_handicaps
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.stated_strength import StatedStrength, has_handicaps
 
 SETTLED = 50.0
 """Games after which half of a newcomer's disadvantage is gone."""
@@ -66,6 +66,15 @@ class Levels:
         return any(getattr(self, one.name) for one in fields(self))
 
 
+def newness(games: Floats | Ints) -> Floats:
+    """Return what part of a newcomer's disadvantage is left after some games.
+
+    >>> newness(np.array([0, 50, 450]))
+    array([1. , 0.5, 0.1])
+    """
+    return np.asarray(SETTLED / (SETTLED + games))
+
+
 class Knowledge:
     """What is known about each player of a league so far.
 
@@ -104,13 +113,11 @@ class Knowledge:
 
     def means(self) -> PriorMeans:
         """Return the means of the players' priors, 0 on average over those who have played."""
-        newness = SETTLED / (SETTLED + self._behind)
         design = [groups.design for groups in self._groups]
         sds = [
-            np.full(len(one.names), getattr(self._levels, f"{one.kind}_sd"))
-            for one in self._groups
+            np.full(len(one.names), getattr(self._levels, f"{one.kind}_sd")) for one in self._groups
         ]
-        mean = -self._levels.newcomers * newness
+        mean = -self._levels.newcomers * newness(self._behind)
         if self._stated is not None:
             mean += self._levels.race * self._stated.strength()
         whole = PriorMeans(

@@ -20,7 +20,8 @@ from evenbreak.ratings.advantages import (
 )
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.doors import check_results
-from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.fit import PRIOR_SD, fit
+from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
 from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
 from evenbreak.ratings.levels import Levels
@@ -45,6 +46,8 @@ class Validation:
     ----------
     forecasts
         the predictions with the prior `prior_sd`.
+    ratings
+        what `fit` makes of all these matches in the same way.
     prior_sd
         the prior that was given, or else the one that `best_prior` chooses.
     choice
@@ -82,6 +85,7 @@ class Validation:
     """
 
     forecasts: Forecasts
+    ratings: Ratings
     prior_sd: float
     choice: PriorChoice | None
     scored: tuple[Scored, ...]
@@ -147,7 +151,7 @@ def validate(
     """
     check_results(results)
     seed = seed_of(seed)
-    parts = _parts(progress, 3 if prior_sd is None else 2)
+    parts = _parts(progress, 4 if prior_sd is None else 2)
     dated = results.select(~np.isnat(np.asarray(results.date)))
     choice, half_lives = None, ()
     never = None if half_life == "best" else half_life
@@ -189,6 +193,9 @@ def validate(
         )
     return Validation(
         forecasts=walk,
+        ratings=fit(
+            walk.results, prior_sd=walk.prior_sd, half_life=walk.half_life, levels=walk.levels
+        ),
         prior_sd=walk.prior_sd,
         choice=choice,
         scored=tuple(one.scored(cluster, rng) for one in made.values()),

@@ -15,7 +15,7 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, results_options, scale_option
 from evenbreak.cli.kit.systems import read_system
 from evenbreak.cli.kit.values import NUMBER, number_of, refuse
-from evenbreak.cli.league.rate_options import PointsOr, how_to_rate, rated
+from evenbreak.cli.league.rate_options import NumberOr, how_to_rate, rated
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ FIT_ONLY = {
 EXAMPLES = """\b
 Examples:
   evenbreak rate season.csv --scale fargo
-  evenbreak rate season.csv --prior best --half-life 180
+  evenbreak rate season.csv --prior 20 --half-life 180
   evenbreak rate season.csv --anchor "Ann Lee=95" --pair "Ann Lee" "Bo Diaz"
   evenbreak rate --system npl --roster last.csv tonight.csv
 """
@@ -58,7 +58,7 @@ Examples:
 @click.option(
     "--break-advantage",
     metavar="POINTS|fit",
-    type=PointsOr("fit", -1e6),
+    type=NumberOr("fit", -1e6),
     help="How many points better the breaker plays; fit: estimate this, where the file says who "
     "broke.  [default: the break does not matter]",
 )

@@ -11,7 +11,12 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import results_options, scale_option, seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.league.rate_options import half_life_option, prior_in_log_odds, prior_option
+from evenbreak.cli.league.rate_options import (
+    half_life_option,
+    half_life_to_choose,
+    prior_in_log_odds,
+    prior_option,
+)
 from evenbreak.ratings.scale import Scale
 
 EXAMPLES = """\b
@@ -24,7 +29,7 @@ Examples:
 
 @click.command("validate", epilog=EXAMPLES)
 @click.argument("results", metavar="RESULTS.csv")
-@prior_option("best")
+@prior_option
 @half_life_option
 @scale_option()
 @seed_option("The seed of the intervals and simulated seasons.")
@@ -34,7 +39,7 @@ Examples:
 def command(
     results: str,
     prior: float | str | None,
-    half_life: float | None,
+    half_life: float | str | None,
     scale: Scale,
     seed: int,
     reading: dict[str, Any],
@@ -53,7 +58,11 @@ def command(
     try:
         with Progress("steps") as progress:
             found = ratings.validate(
-                file.results, prior_sd=prior_sd, half_life=half_life, seed=seed, progress=progress
+                file.results,
+                prior_sd=prior_sd,
+                half_life=half_life_to_choose(half_life),
+                seed=seed,
+                progress=progress,
             )
     except InputError as error:  # the options have been checked, so it is the data
         raise DataError([f"{file.source}: {error}"]) from None
