@@ -22,7 +22,8 @@ def league(rng, *, team_sd=0.0, below=0.0, races=None, players=36, days=30, a_da
     """
     team = np.arange(players) % TEAMS
     levels = rng.normal(0.0, team_sd, TEAMS) if team_sd else np.zeros(TEAMS)
-    joins = np.where(np.arange(players) % 3 == 2, rng.integers(3, days - 5, players), 0)
+    late = rng.permutation(players) < players // 3
+    joins = np.where(late, rng.integers(days // 10, days - days // 6, players), 0)
     stated = np.zeros(players)
     if races is not None:
         stated = rng.normal(0.0, 0.6, players)

@@ -34,7 +34,7 @@ class HalfLifeGain(NamedTuple):
 
 def half_lives_for(results: Results) -> tuple[float, ...]:
     """Return the half-lives to try: those up to a year, and those that the file is longer than."""
-    dates = np.asarray(results.date)[results.counted]
+    dates = np.zeros(0) if results.date is None else results.date[~np.isnat(results.date)]
     days = float((dates.max() - dates.min()) / np.timedelta64(1, "D")) if len(dates) else 0.0
     return tuple(one for one in HALF_LIVES if one <= max(days, 365.0))
 

@@ -20,7 +20,7 @@ from evenbreak.errors import InputError
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.gains import FEWEST_STRETCHES, gains_over, is_clear
+from evenbreak.ratings.gains import gains_over, is_clear
 from evenbreak.ratings.half_life import half_lives_for
 from evenbreak.ratings.levels import Levels, known_levels
 from evenbreak.ratings.results import Results
@@ -141,8 +141,8 @@ def best_prior(
     Where fewer than 100 games are predicted, or widths four times apart predict equally well,
     there are too few results to choose by, and the width nearest to the default is returned.
 
-    Levels and half-lives are added one after another where the gain of one size at least is above
-    0 with 99% confidence, stretches being resampled.
+    Levels and half-lives are added one after another where they clearly predict better (see
+    `evenbreak.ratings.gains`).
 
     Parameters
     ----------
@@ -255,10 +255,8 @@ class _Search:
     def add(self, name: str, sizes: Sequence[float], way: Mapping[str, Any]) -> Evidence:
         """Return what it gains to let one more thing count."""
         found = self._losses([way, *(_with(way, name, size) for size in sizes)])
-        gains = gains_over(found)
         best = sizes[int(found.means[1:].argmin())]
-        used = len(found.losses) >= FEWEST_STRETCHES and any(map(is_clear, gains))
-        return Evidence(name, tuple(sizes), gains, used, best)
+        return Evidence(name, tuple(sizes), gains_over(found), is_clear(found), best)
 
     def sharpened(self, found: Evidence, way: Mapping[str, Any]) -> Evidence:
         """Return the same with the best size between those tried, and its standard error.

@@ -27,7 +27,7 @@ def implied_difference(results: Results) -> Floats:
     >>> season = Results.from_names(["A", "A"], ["B", "B"], [7, 5], [2, 5], race_a=[7, 5],
     ...     race_b=[3, 5])
     >>> implied_difference(season).round(3)
-    array([0.896, 0.   ])
+    array([0.914, 0.   ])
     """
     race_a, race_b = results.races
     stated = (race_a > 0) & (race_b > 0)

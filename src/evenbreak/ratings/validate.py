@@ -151,17 +151,22 @@ def validate(
     """
     check_results(results)
     seed = seed_of(seed)
-    parts = _parts(progress, 4 if prior_sd is None else 2)
-    dated = results.select(~np.isnat(np.asarray(results.date)))
-    choice, half_lives = None, ()
+    many = 4 if prior_sd is None else 2
+    parts = _parts(progress, many)
+    choice = None
+    half_lives: tuple[HalfLifeGain, ...] = ()
     never = None if half_life == "best" else half_life
+    walk = usual_walk = walk_forward(
+        results,
+        prior_sd=PRIOR_SD if prior_sd is None else prior_sd,
+        half_life=never,
+        progress=next(parts),
+    )
+    dated = results.select(~np.isnat(np.asarray(results.date)))
     if prior_sd is None:
-        usual_walk = walk_forward(results, half_life=never, progress=next(parts))
         choice = best_prior(dated, half_life=half_life, progress=next(parts))
         half_lives = _tested(choice)
-        how = (choice.prior_sd, choice.half_life, choice.levels)
-        walk = usual_walk
-        if how != (PRIOR_SD, never, Levels()):
+        if (choice.prior_sd, choice.half_life, choice.levels) != (PRIOR_SD, never, Levels()):
             walk = walk_forward(
                 results,
                 prior_sd=choice.prior_sd,
@@ -169,12 +174,9 @@ def validate(
                 levels=choice.levels,
                 progress=next(parts),
             )
-    else:
-        walk = usual_walk = walk_forward(
-            results, prior_sd=prior_sd, half_life=never, progress=next(parts)
-        )
     if half_life == "best" and not half_lives:
         half_lives = half_life_gains(dated, walk.prior_sd, progress=next(parts))
+    progress(100 * many, 100 * many)
     rng = np.random.default_rng(seed)
     raced = bool(walk.race_a.any())
     of_all: tuple[Of, ...] = ("game", "match") if raced else ("game",)

@@ -156,9 +156,9 @@ def walk_forward(
             "in the column date, so that earlier dates can predict later ones"
         )
     a, b = season.player_a, season.player_b
-    league = DailyRefit(len(season.players), a, b, precision)
     levels = levels or Levels()
     knowledge = Knowledge(season, levels)
+    league = DailyRefit(len(season.players), a, b, precision, knowledge.means())
     difference, variance = np.zeros(len(season)), np.zeros(len(season))
     starts = np.searchsorted(date_of, np.arange(len(days) + 1))
     for day, (start, end) in enumerate(pairwise(starts)):
