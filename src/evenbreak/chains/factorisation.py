@@ -23,9 +23,10 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from evenbreak.chains.arcs import arcs_of, put_back, sums
-from evenbreak.chains.banded import BandedElimination, band_order
 from evenbreak.chains.certified_lu import CertifiedSolve
 from evenbreak.chains.decimal_elimination import DecimalElimination
+from evenbreak.chains.dissection import bandwidth, dissect, neighbours
+from evenbreak.chains.front_elimination import FrontElimination
 from evenbreak.chains.line_elimination import LineElimination, line_order
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.triangular_solve import TriangularSolve
@@ -84,11 +85,12 @@ class _Piece:
         order = line_order(T)
         if order is not None:
             return LineElimination(T, leak, order)
-        order, width = band_order(T)
-        if width <= _NARROW:
+        graph = neighbours(T)
+        if bandwidth(graph) <= _NARROW:
             return DecimalElimination(arcs_of(T), leak)
-        if size * min(size, 3 * width) <= _MOST_ENTRIES:
-            return BandedElimination(T, leak, order, width)
+        order, fronts = dissect(graph)
+        if sum(front.entries for front in fronts) <= _MOST_ENTRIES:
+            return FrontElimination(T, leak, order, fronts)
         return CertifiedSolve(T, leak)
 
 
