@@ -16,6 +16,8 @@ multifrontal method for sparse matrix solution".
 
 from __future__ import annotations
 
+from bisect import bisect_right
+from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -89,16 +91,16 @@ def dissect(graph: csc_array) -> tuple[Places, list[Front]]:
     order = np.concatenate(groups)
     place = np.empty(len(order), dtype=np.intp)
     place[order] = np.arange(len(order))
-    ends = np.cumsum([len(group) for group in groups])
+    ends = [*accumulate(len(group) for group in groups)]
     inherited: list[list[Places]] = [[] for _ in groups]
     fronts = []
     begin = graph.indptr.tolist()
     first = 0
-    for number, (group, last) in enumerate(zip(groups, ends.tolist(), strict=True)):
+    for number, (group, last) in enumerate(zip(groups, ends, strict=True)):
         near = [place[graph.indices[begin[j] : begin[j + 1]]] for j in group.tolist()]
         touched = np.concatenate(near + inherited[number])
         later = np.unique(touched[touched >= last])
-        parent = int(np.searchsorted(ends, later[0], side="right")) if len(later) else -1
+        parent = bisect_right(ends, later[0]) if len(later) else -1
         if len(later):
             inherited[parent].append(later)
         fronts.append(Front(first, last, later, parent))

@@ -41,11 +41,17 @@ if TYPE_CHECKING:
 
 _ONE_BY_ONE = 64
 """So few states are eliminated one by one."""
+_FEW, _SMALL, _LARGE = 7, 2**18, 2**24
+"""BLAS solves for so few columns, and multiplies so many numbers, without threads.
+
+Waking threads for small matrices can take a hundred times as long as the work itself when the
+cores are busy. From `_LARGE` multiplications on, threads are worth it.
+"""
 _UPPER = np.triu(np.ones((_ONE_BY_ONE, _ONE_BY_ONE), dtype=bool))
 
 
 class _Factors(NamedTuple):
-    """The factors of a front: L (with ones on its diagonal) and U in one array, X and Y."""
+    """The factors of a front: L (with ones on its diagonal) and U in one array, X^T and Y."""
 
     block: Matrix
     onward: Matrix
@@ -86,8 +92,7 @@ class FrontElimination:
             A[-1, :size] = -leak[first:last]
             for states, rest in rests[number]:
                 at = place[states]
-                A[at[:, None], at] += rest[:-1]
-                A[-1, at] += rest[-1]
+                A.T[at[:, None], np.append(at, len(A) - 1)] += rest.T
             rests[number].clear()
             factors, rest = _split(A, size)
             self._steps.append((front, factors))
@@ -100,21 +105,21 @@ class FrontElimination:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
         x = b[self._order]
         for (first, last, later, _), (block, onward, _) in self._steps:
-            x[first:last] = dtrsm(1.0, block, x[first:last], lower=1, diag=1)
-            x[later] -= onward[:-1] @ x[first:last]
+            x[first:last] = _solved(block, x[first:last], "L")
+            x[later] = _less(x[later], onward[:, :-1], x[first:last], transposed=True)
         for (first, last, later, _), (block, _, back) in reversed(self._steps):
-            x[first:last] = dtrsm(1.0, block, x[first:last] - back @ x[later])
+            x[first:last] = _solved(block, _less(x[first:last], back, x[later]), "U")
         return put_back(x, self._order)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
         y = r[self._order]
         for (first, last, later, _), (block, _, back) in self._steps:
-            y[first:last] = dtrsm(1.0, block, y[first:last], trans_a=1)
-            y[later] -= back.T @ y[first:last]
+            y[first:last] = _solved(block, y[first:last], "U", transposed=True)
+            y[later] = _less(y[later], back, y[first:last], transposed=True)
         for (first, last, later, _), (block, onward, _) in reversed(self._steps):
-            right = y[first:last] - onward[:-1].T @ y[later]
-            y[first:last] = dtrsm(1.0, block, right, lower=1, trans_a=1, diag=1)
+            right = _less(y[first:last], onward[:, :-1], y[later])
+            y[first:last] = _solved(block, right, "L", transposed=True)
         return put_back(y, self._order)
 
 
@@ -150,12 +155,9 @@ def _split(A: Matrix, size: int) -> tuple[_Factors, Matrix]:
     B[:size] = A[:size, :size]
     B[size] = A[size:, :size].sum(axis=0)
     block = _factored(B)
-    onward = dtrsm(1.0, block, A[size:, :size], side=1)
-    back = dtrsm(1.0, block, A[:size, size:], lower=1, diag=1)
-    rest = np.asfortranarray(A[size:, size:])
-    if rest.shape[1]:
-        rest = dgemm(-1.0, onward, back, beta=1.0, c=rest, overwrite_c=1)
-    return _Factors(block, onward, back), rest
+    onward = _solved(block, A[size:, :size].T, "U", transposed=True)
+    back = _solved(block, A[:size, size:], "L")
+    return _Factors(block, onward, back), _less(A[size:, size:], onward, back, transposed=True)
 
 
 def _factored(B: Matrix) -> Matrix:
@@ -167,7 +169,7 @@ def _factored(B: Matrix) -> Matrix:
     (block, onward, back), rest = _split(B, half)
     factors = np.empty((size, size), order="F")
     factors[:half, :half] = block
-    factors[half:, :half] = onward[:-1]
+    factors[half:, :half] = onward[:, :-1].T
     factors[:half, half:] = back
     factors[half:, half:] = _factored(rest)
     return factors
@@ -187,5 +189,29 @@ def _factored_one_by_one(B: Matrix) -> Matrix:
             dger(-1.0, shares[:, k], B[k, k + 1 :], a=B[:, k + 1 :], overwrite_a=1)
     factors = np.asfortranarray(shares[:size])
     np.copyto(factors, B[:size], where=_UPPER[:size, :size])
-    factors[np.diag_indices(size)] = pivots
+    np.fill_diagonal(factors, pivots)
     return factors
+
+
+def _less(C: Matrix, A: Matrix, B: Matrix, *, transposed: bool = False) -> Matrix:
+    """Return C - A B (A transposed on request); C may be used up."""
+    C = np.asfortranarray(C)
+    columns = C.shape[1]
+    if not A.size:
+        return C
+    step = columns if A.size * columns >= _LARGE else max(_SMALL // A.size, 1)
+    for k in range(0, columns, step):
+        part = slice(k, k + step)
+        dgemm(-1.0, A, B[:, part], 1.0, C[:, part], trans_a=transposed, overwrite_c=1)
+    return C
+
+
+def _solved(block: Matrix, B: Matrix, part: str, *, transposed: bool = False) -> Matrix:
+    """Return L^-1 B or U^-1 B for a factored block (transposed on request); B may be used up."""
+    B = np.asfortranarray(B)
+    lower, columns = part == "L", B.shape[1]
+    step = columns if block.size * columns >= _LARGE else _FEW
+    for k in range(0, columns, step):
+        right = B[:, k : k + step]
+        dtrsm(1.0, block, right, lower=lower, diag=lower, trans_a=transposed, overwrite_b=1)
+    return B
