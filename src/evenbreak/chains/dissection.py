@@ -17,7 +17,7 @@ multifrontal method for sparse matrix solution".
 from __future__ import annotations
 
 from bisect import bisect_right
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -34,6 +34,8 @@ _MIDDLE = 0.25
 """Each side of a cut, separator included, has at least this share of the states."""
 _WIDEST = 0.5
 """A part is not cut if the separator would hold more than this share of it."""
+_PADDING = 1.05
+"""Two fronts become one if that makes their factors at most so much larger."""
 
 
 class Front(NamedTuple):
@@ -41,13 +43,12 @@ class Front(NamedTuple):
 
     `first` to `last` - 1 are the states, and `later` the later states that they have arcs to or
     from when they are eliminated, increasing. Arcs that arise among these are taken up by the
-    `parent`, the front of the first of them; it is -1 if there are none.
+    front of the first of them.
     """
 
     first: int
     last: int
     later: Places
-    parent: int
 
     @property
     def entries(self) -> int:
@@ -85,27 +86,33 @@ def dissect(graph: csc_array) -> tuple[Places, list[Front]]:
 
     >>> path = csc_array([[0.0, 0.5, 0.0], [1.0, 0.0, 1.0], [0.0, 0.5, 0.0]])
     >>> dissect(neighbours(path))[1]
-    [Front(first=0, last=3, later=array([], dtype=int64), parent=-1)]
+    [Front(first=0, last=3, later=array([], dtype=int32))]
     """
     groups = [*_groups(graph)][::-1]
     order = np.concatenate(groups)
-    place = np.empty(len(order), dtype=np.intp)
-    place[order] = np.arange(len(order))
+    graph = csc_array(graph[:, order][order])
     ends = [*accumulate(len(group) for group in groups)]
     inherited: list[list[Places]] = [[] for _ in groups]
-    fronts = []
-    begin = graph.indptr.tolist()
-    first = 0
-    for number, (group, last) in enumerate(zip(groups, ends, strict=True)):
-        near = [place[graph.indices[begin[j] : begin[j + 1]]] for j in group.tolist()]
-        touched = np.concatenate(near + inherited[number])
+    fronts: list[Front] = []
+    for number, (first, last) in enumerate(pairwise([0, *ends])):
+        own = graph.indices[graph.indptr[first] : graph.indptr[last]]
+        touched = np.concatenate([own, *inherited[number]])
         later = np.unique(touched[touched >= last])
-        parent = bisect_right(ends, later[0]) if len(later) else -1
         if len(later):
-            inherited[parent].append(later)
-        fronts.append(Front(first, last, later, parent))
-        first = last
+            inherited[bisect_right(ends, later[0])].append(later)
+        front = Front(first, last, later)
+        while fronts and _better_together(fronts[-1], front):
+            front = Front(fronts.pop().first, last, later)
+        fronts.append(front)
     return order, fronts
+
+
+def _better_together(front: Front, following: Front) -> bool:
+    """Whether a front passes on nearly all of its arcs to the following one."""
+    if not len(front.later) or front.later[0] >= following.last:
+        return False
+    together = Front(front.first, following.last, following.later)
+    return together.entries <= _PADDING * (front.entries + following.entries)
 
 
 def _groups(graph: csc_array) -> Iterator[Places]:

@@ -20,6 +20,7 @@ References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993; Alfa, Xue and Ye
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -78,12 +79,13 @@ class FrontElimination:
         self._steps: list[tuple[Front, _Factors]] = []
         arcs = _arcs_by_front(T, order, fronts)
         leak = leak[order]
+        ends = [front.last for front in fronts]
         place = np.empty(len(order), dtype=np.intp)  # in the front at hand
         rests: list[list[tuple[Places, Matrix]]] = [[] for _ in fronts]
         for number, (front, (sources, targets, chances)) in enumerate(
             zip(fronts, arcs, strict=True)
         ):
-            first, last, later, parent = front
+            first, last, later = front
             size = last - first
             place[first:last] = np.arange(size)
             place[later] = np.arange(size, size + len(later))
@@ -97,27 +99,27 @@ class FrontElimination:
             factors, rest = _split(A, size)
             self._steps.append((front, factors))
             if len(later):
-                rests[parent].append((later, rest))
+                rests[bisect_right(ends, later[0])].append((later, rest))
         pivots = np.concatenate([factors.block.diagonal() for _, factors in self._steps])
         self.pivots = put_back(pivots, order)
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
         x = b[self._order]
-        for (first, last, later, _), (block, onward, _) in self._steps:
+        for (first, last, later), (block, onward, _) in self._steps:
             x[first:last] = _solved(block, x[first:last], "L")
             x[later] = _less(x[later], onward[:, :-1], x[first:last], transposed=True)
-        for (first, last, later, _), (block, _, back) in reversed(self._steps):
+        for (first, last, later), (block, _, back) in reversed(self._steps):
             x[first:last] = _solved(block, _less(x[first:last], back, x[later]), "U")
         return put_back(x, self._order)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
         y = r[self._order]
-        for (first, last, later, _), (block, _, back) in self._steps:
+        for (first, last, later), (block, _, back) in self._steps:
             y[first:last] = _solved(block, y[first:last], "U", transposed=True)
             y[later] = _less(y[later], back, y[first:last], transposed=True)
-        for (first, last, later, _), (block, onward, _) in reversed(self._steps):
+        for (first, last, later), (block, onward, _) in reversed(self._steps):
             right = _less(y[first:last], onward[:, :-1], y[later])
             y[first:last] = _solved(block, right, "L", transposed=True)
         return put_back(y, self._order)
