@@ -166,6 +166,6 @@ def _cut(crossing: Places, begin: int, end: int) -> int | None:
     size = end - begin
     if size <= _LEAF:
         return None
-    margin = int(_MIDDLE * size)
+    margin = max(int(_MIDDLE * size), 1)
     cut = begin + margin + int(np.argmin(crossing[begin + margin : end - margin]))
     return None if crossing[cut] > _WIDEST * size else cut

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
 _ONE_BY_ONE = 64
 """So few states are eliminated one by one."""
+_TERMS = 128
 _FEW, _SMALL, _LARGE = 7, 2**18, 2**24
 """BLAS solves for so few columns, and multiplies so many numbers, without threads.
 
@@ -196,15 +197,20 @@ def _factored_one_by_one(B: Matrix) -> Matrix:
 
 
 def _less(C: Matrix, A: Matrix, B: Matrix, *, transposed: bool = False) -> Matrix:
-    """Return C - A B (A transposed on request); C may be used up."""
+    """Return C - A B (A transposed on request); C may be used up.
+
+    Only `_TERMS` products at a time are added up one after the other, which keeps rounding
+    errors small.
+    """
     C = np.asfortranarray(C)
-    columns = C.shape[1]
-    if not A.size:
-        return C
-    step = columns if A.size * columns >= _LARGE else max(_SMALL // A.size, 1)
-    for k in range(0, columns, step):
-        part = slice(k, k + step)
-        dgemm(-1.0, A, B[:, part], 1.0, C[:, part], trans_a=transposed, overwrite_c=1)
+    rows, columns = C.shape
+    for j in range(0, len(B) if rows else 0, _TERMS):
+        some = slice(j, j + _TERMS)
+        left = A[some] if transposed else A[:, some]
+        step = columns if left.size * columns >= _LARGE else max(_SMALL // left.size, 1)
+        for k in range(0, columns, step):
+            part = slice(k, k + step)
+            dgemm(-1.0, left, B[some, part], 1.0, C[:, part], trans_a=transposed, overwrite_c=1)
     return C
 
 
