@@ -34,8 +34,6 @@ _MIDDLE = 0.25
 """Each side of a cut, separator included, has at least this share of the states."""
 _WIDEST = 0.5
 """A part is not cut if the separator would hold more than this share of it."""
-_PADDING = 1.05
-"""Two fronts become one if that makes their factors at most so much larger."""
 
 
 class Front(NamedTuple):
@@ -108,11 +106,11 @@ def dissect(graph: csc_array) -> tuple[Places, list[Front]]:
 
 
 def _better_together(front: Front, following: Front) -> bool:
-    """Whether a front passes on nearly all of its arcs to the following one."""
+    """Whether one front for both would hold no more, as where all states are joined."""
     if not len(front.later) or front.later[0] >= following.last:
         return False
     together = Front(front.first, following.last, following.later)
-    return together.entries <= _PADDING * (front.entries + following.entries)
+    return together.entries <= front.entries + following.entries
 
 
 def _groups(graph: csc_array) -> Iterator[Places]:
@@ -132,7 +130,7 @@ def _groups(graph: csc_array) -> Iterator[Places]:
         bounds = np.append(0, np.cumsum(np.bincount(part))).tolist()
         part = np.full(len(order), -1)
         parts = 0
-        for begin, end in zip(bounds[:-1], bounds[1:], strict=True):
+        for begin, end in pairwise(bounds):
             cut = _cut(crossing, begin, end)
             if cut is None:
                 yield states[order[begin:end]]
