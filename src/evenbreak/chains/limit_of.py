@@ -12,7 +12,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.chains.explore import chain_of
-from evenbreak.chains.limits import WAYS, Limit, Way, stochastic_limit
+from evenbreak.chains.limits import Limit, stochastic_limit
+from evenbreak.chains.ways import WAYS, Way
 from evenbreak.checks import one_of
 from evenbreak.game import Game, graph_of
 

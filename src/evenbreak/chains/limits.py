@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from evenbreak.chains.absorption import absorption, closed_classes_reached, ends
 from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.exact import exact_limit
 from evenbreak.chains.stationary import laws_of
+from evenbreak.chains.ways import WAYS, Way
 from evenbreak.checks import one_of
 from evenbreak.errors import AccuracyError, ChainError, InputError
 
@@ -37,9 +38,6 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 Default = TypeVar("Default")
-Way: TypeAlias = Literal["kernel", "elimination", "eigen"]
-"""A way to the limit."""
-WAYS: tuple[Way, ...] = ("kernel", "elimination", "eigen")
 _ERROR_BY_EIGENVECTORS = 1e-12
 
 _SHOWN = 5
@@ -234,7 +232,7 @@ def stochastic_limit(
     if via == "kernel":
         raise ChainError(
             "there is no closed form for this chain and start: its states do not stand in a line "
-            "in the order given, or the start is a density; use via='elimination'"
+            "in the order given, or the start is a density; use elimination"
         )
     structure = chain.structure
     if structure.is_acyclic:
@@ -272,8 +270,7 @@ def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
     if not error <= _ERROR_BY_EIGENVECTORS:
         raise AccuracyError(
             f"the limit by eigenvectors may be wrong by {error:.1e}: the states are too many, or "
-            "other eigenvalues are too close to 1; use via='elimination', which loses no digits "
-            "there"
+            "other eigenvalues are too close to 1; use elimination, which loses no digits there"
         )
     limit = right @ (left @ v)
     missed = float(np.abs(chain.matrix @ limit - limit).max())

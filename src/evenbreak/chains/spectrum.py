@@ -213,7 +213,7 @@ def check_room(k: int, n: int) -> None:
     if k * n > MOST_ENTRIES:
         raise ChainError(
             f"{k} pairs of vectors over {n} states do not fit in memory; ask for fewer, or find "
-            "the limit with via='elimination'"
+            "the limit by elimination (stochastic_limit)"
         )
 
 
@@ -238,7 +238,7 @@ def _check_bound(error: float) -> None:
     if not np.isfinite(error):
         raise AccuracyError(
             "the errors of the eigenvectors of eigenvalue 1 cannot be bounded: the chain is too "
-            "slow or too close to falling apart; use stochastic_limit with via='elimination'"
+            "slow or too close to falling apart; use stochastic_limit, by elimination"
         )
 
 
