@@ -1,4 +1,4 @@
-"""Elimination over arrays: the same laws as for one chain, and doubts where floats are too short."""
+"""Elimination over arrays: laws as of one chain, and doubts where floats are too short."""
 
 import numpy as np
 

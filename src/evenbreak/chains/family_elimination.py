@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 _DENSE_FROM = 8
 """A class of so many states with a quarter of all arcs is eliminated in a dense array."""
-_AT_ONCE = 64
-"""So many dense chains at a time stay in the cache."""
+_AT_ONCE = 512
+"""So many dense chains at a time: the calls of numpy cost little, and the caches still help."""
 _SMALL = 1e-290
 """A float below this, beside the largest, may have lost digits to underflow."""
 
@@ -130,15 +130,22 @@ def _law(rows: list[_Row], count: int) -> tuple[Floats, Bools]:
 def _dense_laws(rows: list[_Row], count: int) -> tuple[Floats, Bools]:
     """Return the laws by elimination in arrays of (source, target, chain)."""
     size = len(rows)
-    all_arcs = np.zeros((size, size, count))
+    chances, absent = [], np.ones((size, size), dtype=bool)
     for j, row in enumerate(rows):
         for i, chance in row.items():
-            all_arcs[j, i] = chance
+            chances.append((j, i, np.broadcast_to(chance, count)))
+            absent[j, i] = False
     law, pivots = np.empty((size, count)), np.ones((size, count))
+    # Used for all parts: fresh memory costs more than the arithmetic.
+    workspace = np.empty((size, size, min(_AT_ONCE, count)))
+    products = np.empty_like(workspace[0])
     for begin in range(0, count, _AT_ONCE):
         part = slice(begin, begin + _AT_ONCE)
-        A = np.ascontiguousarray(all_arcs[:, :, part])
-        product = np.empty(A.shape[1:])
+        A = workspace[:, :, : len(law[0, part])]
+        A[absent] = 0.0
+        for j, i, chance in chances:
+            A[j, i] = chance[part]
+        product = products[:, : A.shape[2]]
         for k in range(size - 1, 0, -1):
             out = A[k, :k]
             pivots[k, part] = pivot = out.sum(axis=0)
