@@ -156,6 +156,11 @@ def test_games_of_your_own_are_never_silently_wrong(way: Callable[[Any], Any]) -
     compare(lambda p: Moody(p, way), p=np.linspace(0.0, 1.0, 41))
 
 
+def test_a_division_by_zero_is_an_error_as_for_floats() -> None:
+    with pytest.raises(ZeroDivisionError):
+        limits_over(lambda p: Moody(p, lambda p: min(0.1 / p, 0.5)), p=np.linspace(0.0, 1.0, 9))
+
+
 def test_a_batch_boundary_changes_nothing() -> None:
     p = np.linspace(0.0, 1.0, 20_001)
     limit = limits_over(OneBall, p1=p, p2=0.5)

@@ -111,7 +111,7 @@ def limits_over(game_of: Callable[..., Game], /, **chances: ArrayLike) -> Family
         if the moves of a game are not probabilities that sum to 1.
     InputError
         if no chance is given, one is not a probability, an array is empty, or the shapes do not
-        broadcast; or `game_of` cannot be called or refuses the chances.
+        broadcast; or `game_of` cannot be called.
 
     Notes
     -----
@@ -173,22 +173,21 @@ class _Family:
         """Yield the limits of all members, those with the same graph together."""
         waiting = [np.arange(k, min(k + _BATCH, count)) for k in range(0, count, _BATCH)]
         while waiting:
-            members = waiting.pop()
-            if len(members) <= _FEW:
-                yield from map(self._alone, members)
-                continue
-            try:
-                found, doubtful = self._together(members)
-            except Disagreement as answer:
-                if answer.true is None:
-                    yield from map(self._alone, members)
+            members, true = waiting.pop(), None
+            if len(members) > _FEW:
+                try:
+                    found, doubtful = self._together(members)
+                except Disagreement as answer:
+                    true = answer.true
+                except Exception:
+                    true = None
                 else:
-                    waiting += [members[answer.true], members[~answer.true]]
-            except Exception:
-                yield from map(self._alone, members)
+                    yield found
+                    members = members[doubtful]
+            if true is None:
+                yield from map(self._alone, members.tolist())
             else:
-                yield found
-                yield from map(self._alone, members[doubtful])
+                waiting += [members[true], members[~true]]
 
     def _game(self, member: int) -> Game:
         return self._game_of(
@@ -205,13 +204,15 @@ class _Family:
         )
 
     def _together(self, members: Places) -> tuple[_Part, Any]:
-        game = self._game_of(
-            **{
-                name: value if isinstance(value, float) else Numbers(value[members])
-                for name, value in self._chances.items()
-            }
-        )
-        states, sources, targets, numbers = moves_of(game, game.start)
+        # Where a float would raise ZeroDivisionError, arrays must not go on either.
+        with np.errstate(divide="raise", invalid="raise"):
+            game = self._game_of(
+                **{
+                    name: value if isinstance(value, float) else Numbers(value[members])
+                    for name, value in self._chances.items()
+                }
+            )
+            states, sources, targets, numbers = moves_of(game, game.start)
         chances = [p.values if isinstance(p, Numbers) else float(p) for p in numbers]
         for k in (0, len(members) // 2, len(members) - 1):
             self._check(int(members[k]), states, sources, targets, [_at(p, k) for p in chances])
