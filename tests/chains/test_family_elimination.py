@@ -1,5 +1,7 @@
 """Elimination over arrays: laws as of one chain, and doubts where floats are too short."""
 
+from fractions import Fraction
+
 import numpy as np
 
 from evenbreak.chains import chain_of, stochastic_limit
@@ -34,3 +36,26 @@ def test_underflow_is_noticed_where_it_happens() -> None:
     ]
     _, doubtful = family_limits(line.structure, sources, targets, chances, 2)
     assert doubtful.tolist() == [False, True]
+
+
+def test_stiff_dense_classes_are_right_entry_by_entry() -> None:
+    tables = 10.0 ** (-12 * np.random.default_rng(3).random((5, 9, 9)))
+    tables /= tables.sum(axis=2, keepdims=True)
+    sources, targets = (places.ravel().tolist() for places in np.indices((9, 9)))
+    structure = chain_of(tables[0], rows="from").structure
+    limits, _ = family_limits(structure, sources, targets, list(tables.reshape(5, -1).T), 5)
+    for table, limit in zip(tables, limits.T, strict=True):
+        np.testing.assert_allclose(limit, exact_law(table), rtol=3e-15)
+
+
+def exact_law(table: np.ndarray) -> list[float]:
+    arcs = [[Fraction(chance) for chance in row] for row in table.tolist()]
+    shares = {}
+    for k in reversed(range(1, len(arcs))):
+        shares[k] = [arcs[j][k] / sum(arcs[k][:k]) for j in range(k)]
+        for j in range(k):
+            arcs[j] = [arcs[j][i] + shares[k][j] * arcs[k][i] for i in range(k)]
+    law = [Fraction(1)]
+    for k in range(1, len(arcs)):
+        law.append(sum((v * s for v, s in zip(law, shares[k], strict=True)), Fraction(0)))
+    return [float(v / sum(law)) for v in law]
