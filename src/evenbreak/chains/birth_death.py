@@ -119,18 +119,20 @@ class BirthDeath:
         The products are formed in long doubles: with equal arcs, each step repeats the rounding
         error of one quotient. None if they leave the range.
         """
-        g = np.ones(hi - lo + 2, dtype=np.longdouble)
+        down, up = (arcs.astype(np.longdouble) for arcs in (self.down[lo - 1 : hi], self.up[lo:]))
+        g = np.ones(len(down) + 1, dtype=np.longdouble)
         with np.errstate(over="ignore"):
-            np.divide(self.down[lo - 1 : hi], self.up[lo : hi + 1], out=g[1:], dtype=np.longdouble)
+            np.divide(down, up[: len(down)], out=g[1:])
             np.multiply.accumulate(g, out=g)
             from_left, from_right = np.add.accumulate(g), np.add.accumulate(g[::-1])[::-1]
         total = from_left[-1]
         if not (np.isfinite(total) and g.min() >= np.finfo(np.longdouble).tiny):
             return None
-        to_left, to_right = from_right[1:] / total, from_left[:-1] / total
+        to_left, to_right = from_right[1:] * (1 / total), from_left[:-1] * (1 / total)
         for chances in (to_left, to_right):
-            # These are 0 as floats, and take the processor a hundred times as long to convert.
-            chances[chances < 2.0**-1074] = 0.0
+            if min(chances[0], chances[-1]) < 2.0**-1074:
+                # Zero as a float, but a hundred times as slow to convert as zero itself.
+                chances[chances < 2.0**-1074] = 0.0
         return to_left, to_right
 
     @cached_property
