@@ -224,7 +224,7 @@ def classes(here: set[str]) -> Iterator[Question]:
             answers[QUANTECON] = lambda c=chain: gth_solve(c.matrix.toarray().T)
         if STORM in here:
             answers[STORM] = storm_law(storm_model(chain, {}))
-        slow = (QUANTECON, *((BARE, STORM, OURS) if name[0] == "5" else ()))
+        slow = (QUANTECON, *((BARE, STORM, OURS) if name.startswith("5,000") else ()))
         yield Question(f"law of {name}", answers, exact / exact.sum(), 5, slow)
 
 
