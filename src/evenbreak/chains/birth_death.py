@@ -88,7 +88,7 @@ class BirthDeath:
         range of a long double, in which they are formed.
         """
         n, cuts = len(self.loops), self._cuts
-        first, last = np.append(0, cuts + 1), np.append(cuts, n - 1)
+        first, last = np.append(0, cuts + 1).astype(np.int32), np.append(cuts, n - 1)
         left, right = np.zeros((2, len(first)), dtype=bool)
         left[1:], right[:-1] = self.down[cuts] > 0.0, self.up[cuts] > 0.0
         if (first < last)[~left & ~right].any():
@@ -119,21 +119,22 @@ class BirthDeath:
         The products are formed in long doubles: with equal arcs, each step repeats the rounding
         error of one quotient. None if they leave the range.
         """
-        down, up = (arcs.astype(np.longdouble) for arcs in (self.down[lo - 1 : hi], self.up[lo:]))
-        g = np.ones(len(down) + 1, dtype=np.longdouble)
+        g = np.empty(hi - lo + 2, dtype=np.longdouble)
+        g[0], g[1:] = 1.0, self.down[lo - 1 : hi]
         with np.errstate(over="ignore"):
-            np.divide(down, up[: len(down)], out=g[1:])
+            g[1:] /= self.up[lo : hi + 1].astype(np.longdouble)
             np.multiply.accumulate(g, out=g)
-            from_left, from_right = np.add.accumulate(g), np.add.accumulate(g[::-1])[::-1]
+            smallest, from_right = g.min(), np.add.accumulate(g[::-1])[::-1]
+            from_left = np.add.accumulate(g, out=g)
         total = from_left[-1]
-        if not (np.isfinite(total) and g.min() >= np.finfo(np.longdouble).tiny):
+        if not (np.isfinite(total) and smallest >= np.finfo(np.longdouble).tiny):
             return None
-        to_left, to_right = from_right[1:] * (1 / total), from_left[:-1] * (1 / total)
-        for chances in (to_left, to_right):
+        for chances in (from_left, from_right):
+            chances *= 1 / total
             if min(chances[0], chances[-1]) < 2.0**-1074:
                 # Zero as a float, but a hundred times as slow to convert as zero itself.
                 chances[chances < 2.0**-1074] = 0.0
-        return to_left, to_right
+        return from_right[1:], from_left[:-1]
 
     @cached_property
     def _cuts(self) -> Places:
