@@ -34,7 +34,7 @@ def chain_answer(chain: Chain, *, steps: int | None = None, warnings: Sequence[s
     The chain ends in 'W' (0.6818) or 'L' (0.3182), after 3.86 steps on average.
     """
     limit = stochastic_limit(chain)
-    mean_steps, doubts = _mean_steps(chain)
+    mean_steps, doubts = mean_steps_of(chain)
     if limit.residual is not None:
         doubts.append(
             f"the limit was solved with residual {limit.residual:.3g}, without a bound for each "
@@ -43,7 +43,7 @@ def chain_answer(chain: Chain, *, steps: int | None = None, warnings: Sequence[s
     states, structure = list(chain.states), chain.structure
     columns = [Column("state", "state", left=True), Column("kind", "kind", left=True)]
     values: list[Sequence[Any]] = [states, structure.kinds]
-    sentences = [_in_the_end(limit, structure.kinds, mean_steps)]
+    sentences = [in_the_end(limit, structure.kinds, mean_steps)]
     density = None
     if steps is not None:
         after = f"after {count_of(steps, 'step')}"
@@ -80,7 +80,7 @@ def chain_answer(chain: Chain, *, steps: int | None = None, warnings: Sequence[s
     )
 
 
-def _mean_steps(chain: Chain) -> tuple[float | None, list[str]]:
+def mean_steps_of(chain: Chain) -> tuple[float | None, list[str]]:
     """Return the mean number of steps to absorption, and why there is none where it is lost."""
     try:
         return steps_to_absorption(chain).mean, []
@@ -89,7 +89,7 @@ def _mean_steps(chain: Chain) -> tuple[float | None, list[str]]:
         return None, [doubt + "certain nevertheless"]
 
 
-def _in_the_end(limit: Limit, kinds: Sequence[str], mean_steps: float | None) -> str:
+def in_the_end(limit: Limit, kinds: Sequence[str], mean_steps: float | None) -> str:
     """Return where the chain ends, or where it is in the long run."""
     where = _places(limit.to_dict())
     if any(p and kind != "absorbing" for p, kind in zip(limit.probability, kinds, strict=True)):
