@@ -115,10 +115,10 @@ def wins_of(road: Road) -> dict[int, float]:
     >>> {player: round(p, 6) for player, p in wins_of(road_of(OneBall(0.4, 0.8))).items()}
     {1: 0.454545, 2: 0.545455}
     """
-    wins: Counter[int] = Counter()
-    for state, winner in road.graph.nodes(data="winner"):
-        if winner is not None:
-            wins[winner] += road.limit[state]
+    wins: dict[int, float] = {}
+    for state, attributes in road.graph.nodes(data=True):
+        if (winner := attributes["winner"]) is not None:
+            wins[winner] = wins.get(winner, 0.0) + road.limit[state]
     return dict(sorted(wins.items()))
 
 
@@ -215,14 +215,16 @@ def eigenvector_table(road: Road) -> Table:
 def arcs_table(road: Road) -> Table:
     """Return the arcs, those out of the start first, because a file of arcs begins there."""
     columns = [Column("source"), Column("target"), Column("probability", exact=True)]
-    arcs = sorted(road.graph.edges(data="probability"), key=lambda arc: arc[0] != road.chain.start)
+    arcs: list[Any] = sorted(
+        road.graph.edges(data="probability"), key=lambda arc: arc[0] != road.chain.start
+    )
     return Table("arcs", columns, arcs)
 
 
 def states_table(road: Road) -> Table:
     """Return the states in the order of the matrix, with all that is known of each."""
     structure = road.chain.structure
-    nodes = [road.graph.nodes[state] for state in road.chain.states]
+    nodes = [attributes for _, attributes in road.graph.nodes(data=True)]
     return Table(
         "states",
         [

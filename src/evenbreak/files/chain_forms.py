@@ -30,7 +30,7 @@ MORE_OF_STATES = dict.fromkeys(("kind", "winner", "class", "class_kind", "period
 def read_chain(
     path: str | Path, *, states: str | Path | None = None, rows: Rows | None = None
 ) -> ArcsFile:
-    """Read a chain; the end of its name says its form.
+    r"""Read a chain; the end of its name says its form.
 
     Parameters
     ----------
@@ -55,8 +55,8 @@ def read_chain(
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder) / "matrix.mtx"
-    ...     _ = path.write_text("%%MatrixMarket matrix coordinate real general\\n2 2 3\\n"
-    ...                         "1 1 0.75\\n2 1 0.25\\n1 2 1\\n")
+    ...     _ = path.write_text("%%MatrixMarket matrix coordinate real general\n2 2 3\n"
+    ...                         "1 1 0.75\n2 1 0.25\n1 2 1\n")
     ...     read_chain(path).probabilities
     array([0.75, 0.25, 1.  ])
     """
@@ -101,23 +101,21 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
     position = {state: k for k, state in enumerate(graph)}
     for j, i, attributes in graph.edges(data=True):
         given = next((attributes[name] for name in names if name in attributes), None)
-        p = float(given) if isinstance(given, int | float) else np.nan
-        if not 0.0 <= p <= 1.0:
+        chance = float(given) if isinstance(given, int | float) else np.nan
+        if not 0.0 <= chance <= 1.0:
             problems.append(
                 f"{source}: the arc {quoted(str(j))} -> {quoted(str(i))} has probability "
                 f"{given!r}; give each arc a number from 0 to 1, named probability"
             )
-        triples.append((position[j], position[i], p))
+        triples.append((position[j], position[i], chance))
     states = [str(state) for state in graph]
     if len(set(states)) < len(states):
         _refuse(source, "has two states that are written alike; give each a name of its own")
     ends = np.array([triple[:2] for triple in triples], dtype=np.int64).reshape(-1, 2)
     sources, targets = ends.T
     p = np.array([triple[2] for triple in triples])
-    problems = problems or [
-        f"{source}: {text}" for text in sum_problems(states, sources, p).values()
-    ]
     _raise_any(problems)
+    _raise_any(f"{source}: {text}" for text in sum_problems(states, sources, p).values())
     starts = [str(state) for state, kind in graph.nodes(data="kind") if kind == "start"]
     return ArcsFile(states, sources, targets, p, source, (), starts[0] if starts else None)
 
@@ -147,13 +145,12 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
     if rows == "from":
         matrix = matrix.T.tocsc()
     n = matrix.shape[0]
-    names, start, more = [str(k + 1) for k in range(n)], None, ()
+    names, start = [str(k + 1) for k in range(n)], None
     if states is not None:
         names, start, more = _states(states, n)
-    targets, sources = (
-        matrix.indices.astype(np.int64),
-        np.repeat(np.arange(n), np.diff(matrix.indptr)),
-    )
+        warnings += more
+    sources = np.repeat(np.arange(n), np.diff(matrix.indptr))
+    targets = matrix.indices.astype(np.int64)
     line = "row" if rows == "from" else "column"
     sums = np.bincount(sources, weights=matrix.data, minlength=n)
     _raise_any(
@@ -161,7 +158,7 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
         "state, with a 1 on the diagonal for a state that is never left"
         for k in np.flatnonzero(np.abs(sums - 1.0) > 1e-9).tolist()
     )
-    return ArcsFile(names, sources, targets, matrix.data, source, (*warnings, *more), start)
+    return ArcsFile(names, sources, targets, matrix.data, source, warnings, start)
 
 
 def _square(content: bytes, source: str) -> csc_array[np.float64]:

@@ -97,7 +97,7 @@ def _with_chances(game: Any, chances: tuple[float, ...]) -> Any:
             return replace(game, shots=chances)
         case Drill(success=(first, *_)):
             base = Drill.progressive if first == 1.0 else Drill.eight_ball
-            return base(*chances, levels=len(game.success))  # type: ignore[misc]
+            return base(*chances, levels=len(game.success))  # type: ignore[arg-type, misc]
         case Rack():
             return Rack(*chances)
     return replace(game, rack=_with_chances(game.rack, chances))

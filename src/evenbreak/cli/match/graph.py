@@ -10,7 +10,7 @@ import click
 from evenbreak import files
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import out_option
+from evenbreak.cli.kit.options import Decorator, out_option
 from evenbreak.cli.kit.terminal import write_folder
 from evenbreak.cli.kit.values import CHANCE, refuse
 from evenbreak.errors import InputError
@@ -51,7 +51,7 @@ Examples:
 """
 
 
-def _chance(name: str, what: str) -> Any:
+def _chance(name: str, what: str) -> Decorator[Any]:
     return click.option(f"--{name}", metavar="P", type=CHANCE, help=what)
 
 
