@@ -10,9 +10,10 @@ import numpy as np
 
 from evenbreak.chains.chain import Chain
 from evenbreak.chains.explore import chain_of
-from evenbreak.chains.limits import WAYS, Limit, stochastic_limit
+from evenbreak.chains.limits import Limit, stochastic_limit
 from evenbreak.chains.mixing import spectral_gap
 from evenbreak.chains.spectrum import Spectrum, spectrum
+from evenbreak.chains.ways import WAYS
 from evenbreak.errors import AccuracyError, ChainError, GameError
 from evenbreak.game import Game, graph_of
 
