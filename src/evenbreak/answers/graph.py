@@ -11,7 +11,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.chain import in_the_end, mean_steps_of
 from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 from evenbreak.answers.road import Road
-from evenbreak.answers.wording import chance, count_of, decimals, listed
+from evenbreak.answers.wording import chance, count_of, decimals, listed, percent
 
 LEADING = 6
 """Eigenvalues that a person reads."""
@@ -43,7 +43,7 @@ def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Ans
     >>> answer = graph_answer("One-ball", road_of(OneBall(0.4, 0.8)))
     >>> print(answer.sentences[0])
     One-ball is a graph of 4 states and 4 arcs.
-    Player 1 wins with chance 0.4545 and player 2 wins with chance 0.5455.
+    Player 1 wins with chance 0.4545 and player 2 with chance 0.5455.
     The chain ends in 'L' (0.5455) or 'W' (0.4545), after 1.82 steps on average.
     >>> print(answer.sentences[2])
     Elimination and the eigenvectors give the same limit, to within 1e-12. The closed form is
@@ -59,8 +59,8 @@ def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Ans
     ]
     wins = wins_of(road)
     if wins:
-        who = [f"Player {player} wins with chance {chance(p)}" for player, p in wins.items()]
-        first.insert(1, listed([who[0], *(words.lower() for words in who[1:])]) + ".")
+        who = [f"player {player} with chance {chance(p)}" for player, p in wins.items()]
+        first.insert(1, f"{listed(who).replace(' with', ' wins with', 1).capitalize()}.")
     return Answer(
         f"From graph to limit: {title[0].lower()}{title[1:]}",
         [
@@ -68,7 +68,7 @@ def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Ans
             _classes_words(road),
             _ways_words(road),
             _spectrum_words(road),
-            Table("", _EIGENVALUE, _eigenvalue_rows(values[:LEADING])),
+            _leading(values[:LEADING]),
         ],
         [
             "Two states are in the same class if each can be reached from the other. The gap is 1 "
@@ -128,11 +128,8 @@ def _classes_words(road: Road) -> str:
     passing = structure.count - closed
     if structure.count == 1:
         period = int(structure.periods[0])
-        again = f"only after multiples of {period} steps" if period > 1 else "at any time later on"
-        return (
-            f"Every state can be reached from every other (one class); a state can return {again} "
-            f"(period {period})."
-        )
+        again = f": a state can return only after a multiple of {period} steps" * (period > 1)
+        return f"Every state can be reached from every other: one class, of period {period}{again}."
     periods = sorted(set(structure.periods[structure.closed].tolist()))
     return (
         f"Its states form {structure.count:,} classes. {closed:,} "
@@ -159,17 +156,29 @@ def _spectrum_words(road: Road) -> str:
     if road.spectrum is None:
         return f"The eigenvalues are not certain: {road.refused['eigenvectors of 1']}."
     values, n = road.spectrum.values, len(road.chain)
-    gap = "" if road.gap is None else f" The gap is {road.gap:.4g}."
-    if "gap" in road.refused:
-        gap = " The gap is too small to be known: one lies next to the unit circle."
+    gap = _gap_words(road)
     if "spectrum" in road.refused:
         return (
             "Only the eigenvectors of eigenvalue 1 are given. The others do not all exist (the "
-            f"matrix of every race is defective), or are not certain.{gap}"
+            f"matrix of a race is defective), or are not certain.{gap}"
         )
     real = "all real" if np.isrealobj(values) else "some of them complex"
     which = "All" if len(values) == n else "The leading"
     return f"{which} {len(values):,} eigenvalues are found, {real}.{gap}"
+
+
+def _gap_words(road: Road) -> str:
+    if road.gap is None:
+        return (
+            " The distance to the limit falls too slowly to measure: an eigenvalue lies next to "
+            "the unit circle."
+        )
+    if road.gap > 1.0 - SAME:
+        return " The limit is reached after a fixed number of steps (the gap is 1)."
+    return (
+        f" In the end the distance to the limit falls by {percent(road.gap)} with each step (the "
+        f"gap is {road.gap:.4g})."
+    )
 
 
 _EIGENVALUE = [
@@ -178,6 +187,14 @@ _EIGENVALUE = [
     Column("imaginary", "imaginary part", lambda part: f"{part:+.6f}i" if part else "", exact=True),
     Column("modulus", "modulus", decimals(6), exact=True),
 ]
+
+
+def _leading(values: Sequence[complex]) -> Table:
+    """Return the leading eigenvalues as a person reads them."""
+    rows = _eigenvalue_rows(values)
+    if not any(complex(value).imag for value in values):
+        return Table("", _EIGENVALUE[:2], [row[:2] for row in rows])
+    return Table("", _EIGENVALUE, rows)
 
 
 def _eigenvalue_rows(values: Iterable[complex]) -> list[tuple[Any, ...]]:

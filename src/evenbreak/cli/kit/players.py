@@ -90,6 +90,15 @@ def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers
     )
 
 
+def refuse_uncertain(players: TwoPlayers) -> None:
+    """Refuse --via where chances are averaged over the errors of ratings: they are no limit."""
+    if players.error:
+        refuse(
+            "--via is for one chain, but with --from the answer is an average over how far the "
+            "ratings may be off; give the two ratings as numbers"
+        )
+
+
 from_option = click.option(
     "--from",
     "from_file",

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from evenbreak import chains, files
 from evenbreak.answers.answer import Answer
+from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import via_option
 from evenbreak.errors import DataError
+
+if TYPE_CHECKING:
+    from evenbreak.chains.matrices import Rows
 
 EXAMPLES = """\b
 Examples:
@@ -18,6 +23,7 @@ Examples:
   evenbreak chain arcs.csv --steps 10
   evenbreak chain graph.graphml
   evenbreak chain matrix.mtx --states states.csv
+  evenbreak chain arcs.csv --via eigen
 """
 
 
@@ -45,9 +51,15 @@ Examples:
     help="What a row of a matrix holds: the chances out of its state, or into it.  [default: to, "
     "so that columns sum to 1]",
 )
+@via_option
 @faces()
 def command(
-    path: str, start: str | None, steps: int | None, states: str | None, rows: Any
+    path: str,
+    start: str | None,
+    steps: int | None,
+    states: str | None,
+    rows: Rows | None,
+    via: Way | None,
 ) -> Answer:
     """Find where any Markov chain ends, or its long-run average, from a file.
 
@@ -69,4 +81,4 @@ def command(
     chain = chains.chain_from_arrays(
         file.states, file.sources, file.targets, file.probabilities, start=start
     )
-    return chain_answer(chain, steps=steps, warnings=file.warnings)
+    return chain_answer(chain, steps=steps, warnings=file.warnings, via=via)
