@@ -12,7 +12,7 @@ from evenbreak.chains.reversible_pairs import reversible_classes
 from evenbreak.errors import AccuracyError
 from evenbreak.games import Ahead, OneBall, Rack
 from evenbreak.handicaps import Ladder, chart, system_of
-from evenbreak.ratings import Scale
+from evenbreak.ratings.scale import scale_of
 
 CHARTS = ("npl_8", "npl_10", "npl_12", "npl_20")
 
@@ -110,7 +110,7 @@ def test_the_national_pool_leagues_ladders(name: str) -> None:
 )
 def test_chart_ladders_in_extended_precision(name: str, points: int, widest: int) -> None:
     """Residuals r of n orthonormal vectors put each value within r of an eigenvalue of S."""
-    system = replace(system_of("npl"), scale=Scale(points))
+    system = replace(system_of("npl"), scale=scale_of(str(points)))
     chain = chain_of(Ladder(system, chart(name), widest=widest))
     found = spectrum(chain)
     n = len(chain)
