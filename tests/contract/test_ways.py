@@ -28,6 +28,8 @@ ROADS = ("elimination", "eigen")
 EXACT = 1e-12
 NPL = ("npl_8", "npl_10", "npl_12", "npl_20")
 MATCHES = {name: game for name, game in CATALOGUE.items() if isinstance(game, Match)}
+LADDERS = {name: Ladder(chart(name)) for name in NPL}
+GAMES = CATALOGUE | LADDERS
 CHANCES = st.floats(0.01, 0.99) | st.sampled_from([0.0, 0.5, 1.0])
 
 
@@ -37,7 +39,7 @@ def has_kernel(game):
 
 
 @pytest.mark.parametrize("via", WAYS)
-@pytest.mark.parametrize("game", CATALOGUE.values(), ids=CATALOGUE.keys())
+@pytest.mark.parametrize("game", GAMES.values(), ids=GAMES.keys())
 def test_a_game_of_the_catalogue_has_one_limit(game, via) -> None:
     expected = stochastic_limit(chain_of(game))
     if via == "kernel" and not has_kernel(game):
@@ -118,7 +120,7 @@ def test_shots_break_formats_and_drills(via) -> None:
 @pytest.mark.parametrize(
     "ladder",
     [
-        *(Ladder(chart(name)) for name in NPL),
+        *LADDERS.values(),
         Ladder("npl", opponents=EQUAL_SKILL),
         Ladder("step 3"),
         Ladder("step 2 1"),

@@ -18,6 +18,9 @@ _WORDS: dict[Way, str] = {
     "was read off its eigenvectors of eigenvalue 1.",
 }
 
+ROUNDING = 1e-14
+"""Differences up to this are rounding; their digits vary from computer to computer."""
+
 DEFECTIVE = (
     "The matrix of a race is defective: it has fewer independent eigenvectors than states. But "
     "all those of eigenvalue 1 exist, and the limit needs no others."
@@ -25,7 +28,7 @@ DEFECTIVE = (
 
 
 def _apart(difference: float) -> str:
-    return f"{difference:.1e}" if difference else "0"
+    return f"{difference:.1e}" if difference > ROUNDING else "rounding only"
 
 
 def by_way(
@@ -63,7 +66,7 @@ off its eigenvectors of eigenvalue 1.
         Quantity(
             f"{beside}_difference",
             apart,
-            f"largest difference from {'the kernel' if beside == 'kernel' else beside}",
+            f"difference from {'the kernel' if beside == 'kernel' else beside}",
             _apart,
         ),
     ]

@@ -59,5 +59,6 @@ def limit_of(
     if via is not None:
         one_of(via, "via", WAYS)
     if via == "eigen" and isinstance(game, Game):
+        start = game.start if start is None else start
         game = graph_of(game, start=start)
     return stochastic_limit(chain_of(game, start=start), via=via)

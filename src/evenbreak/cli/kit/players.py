@@ -64,7 +64,9 @@ def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers
         refuse(f"--from needs two players, and {len(names)} are named; quote a name with blanks")
     file = read_roster(path)
     if scale is not None:
-        refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
+        refuse_other_scale(
+            file, scale, "--scale", "leave --scale out, or correct the file", stated=True
+        )
     elif file.scale is None:
         refuse_levels(file, "say with --scale how many levels double the odds")
     roster = file.roster
