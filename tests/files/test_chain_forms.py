@@ -1,12 +1,10 @@
 """A game written in every form and read back; and what is refused at the door."""
 
-import io
 import json
 
 import networkx as nx
 import numpy as np
 import pytest
-from scipy.io import mmread
 
 from evenbreak.answers.road import road_of
 from evenbreak.chains import Chain, chain_from_arrays, chain_of, stochastic_limit
@@ -19,7 +17,7 @@ from evenbreak.files import (
 )
 from evenbreak.files.arcs import ArcsFile
 from evenbreak.game import Game
-from evenbreak.games import CATALOGUE, Drill, OneBall
+from evenbreak.games import CATALOGUE
 from evenbreak.handicaps import Ladder, chart
 
 GAMES = {**CATALOGUE, "npl_10": Ladder(chart("npl_10")), "npl_20": Ladder(chart("npl_20"))}
@@ -60,27 +58,6 @@ def test_the_limit_is_the_same_when_read_back(tmp_path, game: Game, form: str) -
     np.testing.assert_allclose(
         limit, stochastic_limit(chain_of(game)).probability, rtol=0, atol=1e-15
     )
-
-
-def test_networkx_and_scipy_open_them() -> None:
-    road = road_of(OneBall(0.4, 0.8))
-    graph = nx.read_graphml(io.BytesIO(graphml_bytes(road.graph)))
-    assert graph.nodes["W"] == {"kind": "terminal", "winner": 1}
-    assert graph.nodes["S1"] == {"kind": "start"}
-    linked = nx.node_link_graph(json.loads(node_link_bytes(road.graph)), edges="edges")
-    assert dict(linked.nodes(data=True)) == dict(road.graph.nodes(data=True))
-    for read in (graph, linked):
-        assert list(read.edges(data="probability")) == list(road.graph.edges(data="probability"))
-    content = matrix_market_bytes(road.chain)
-    assert (mmread(io.BytesIO(content)).toarray() == road.chain.matrix.toarray()).all()
-    assert b"% Transition matrix" in content or b"%Transition matrix" in content
-    assert b"column-stochastic" in content
-
-
-def test_they_are_the_same_bytes_each_time() -> None:
-    one, other = (road_of(Drill.progressive(0.8)) for _ in range(2))
-    assert graphml_bytes(one.graph) == graphml_bytes(other.graph)
-    assert matrix_market_bytes(one.chain) == matrix_market_bytes(other.chain)
 
 
 def matrix_file(folder, rows):
