@@ -201,8 +201,8 @@ def stochastic_limit(
     However stiff the chain, each entry is right to a few units in the last place times the
     length of the path to it (seen: 2e-14 over a line of 20,000 states, 3e-13 over 5,000
     states with equal arcs in a wider band). The exceptions are classes of more than some
-    6,000 states without a narrow band: there a sparse factorisation is certified, and if
-    the certificate is worse than 1e-12 the limit carries its `residual`.
+    6,000 states (a grid, 250,000) that no few states cut in two: there a sparse factorisation
+    is certified, and if the certificate is worse than 1e-12 the limit carries its `residual`.
 
     Time and memory are linear in the number of arcs if the classes are single states, lines
     or at most 64 states; see `factorisation` for the others. Reference: O'Cinneide 1993.
