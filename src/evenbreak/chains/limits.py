@@ -181,8 +181,9 @@ def stochastic_limit(
     exact
         whether to calculate in fractions and return them, by state. A chance that `chain_of`
         got as a `Fraction` or as text is taken as it is, a float as the decimal that it
-        prints. The arcs of a `Race` are floats: `win_probability` is exact for matches. Time and the length of the fractions grow with the number of states: for
-        some hundreds of states in a line, or some thousands of scores of a race.
+        prints. The arcs of a `Race` are floats: `win_probability` is exact for matches.
+        Time and the length of the fractions grow with the number of states: for some hundreds
+        of states in a line, or some thousands of scores of a race.
 
     Raises
     ------
