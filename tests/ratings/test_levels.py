@@ -51,9 +51,7 @@ def test_levels_are_those_of_the_whole_covariance():
         contrast[np.arange(len(results)), results.player_a] = 1
         contrast[np.arange(len(results)), results.player_b] = -1
         hessian = contrast.T @ (bend[:, None] * contrast) + np.linalg.inv(prior)
-        skill = skill + np.linalg.solve(
-            hessian, contrast.T @ slope - np.linalg.solve(prior, skill)
-        )
+        skill = skill + np.linalg.solve(hessian, contrast.T @ slope - np.linalg.solve(prior, skill))
     covariance = np.linalg.inv(hessian)
     log_odds = ratings.scale.log_odds
     np.testing.assert_allclose(log_odds(ratings.rating - 80), skill, atol=1e-6)

@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from itertools import pairwise
 from typing import Any, TypeVar
 
 from evenbreak.checks.limits import Limits
 from evenbreak.errors import InputError
 
 Choice = TypeVar("Choice")
+
+
+class ManyAsOne:
+    """Base of numbers that stand for many at once, and that games take like one float.
+
+    All of them answer a comparison alike, or the comparison raises an error of its own (see
+    `evenbreak.chains.family_numbers`).
+    """
+
+    __slots__ = ()
 
 
 def number(
@@ -73,12 +85,12 @@ def number_probability(value: Any, name: str) -> float:
     ...
     evenbreak.errors.InputError: p1 is [0.4, 0.5]; give one number from 0 to 1
     """
-    found = _float(value)
+    found: Any = value if isinstance(value, ManyAsOne) else _float(value)
     if not 0.0 <= found <= 1.0:
         many = isinstance(value, list | tuple) or hasattr(value, "ndim")
         problem = "; give one" if many else ", not a probability; give a"
         raise InputError(f"{name} is {value!r}{problem} number from 0 to 1")
-    return found
+    return found  # type: ignore[no-any-return]
 
 
 def number_probabilities(values: Any, name: str, each: str) -> tuple[float, ...]:
@@ -141,6 +153,28 @@ def whole(
                 f" from {at_least} to {at_most}" if at_least is not None else f", at most {at_most}"
             )
         raise InputError(f"{name} is {value!r}; give {wanted or 'a whole number' + limits}")
+    return found
+
+
+def increasing(values: Iterable[Any], name: str, *, at_least: int | None = 0) -> tuple[int, ...]:
+    """Return whole numbers that increase; each is called by its name and place.
+
+    Raises
+    ------
+    InputError
+        if one is not a whole number within the limit, or not larger than the one before.
+
+    >>> increasing([2, 3, 5], "level")
+    (2, 3, 5)
+    >>> increasing([2, 2], "level")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: level 2 comes after 2; give increasing numbers
+    """
+    found = tuple(whole(one, f"{name} {i}", at_least=at_least) for i, one in enumerate(values, 1))
+    for below, above in pairwise(found):
+        if below >= above:
+            raise InputError(f"{name} {above} comes after {below}; give increasing numbers")
     return found
 
 
