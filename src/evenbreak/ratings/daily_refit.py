@@ -141,9 +141,8 @@ class DailyRefit:
         if design.shape[1]:
             across = -self._precision * design
             levels = np.diag(self._means.precision) - design.T @ across
-            whole = sparse.csr_array(
-                sparse.block_array([[whole, sparse.csr_array(across)], [across.T, levels]])
-            )
+            blocks: Any = [[whole, across], [across.T, levels]]
+            whole = sparse.csr_array(sparse.block_array(blocks))
             diagonal = np.append(diagonal, np.diagonal(levels))
         return lambda right, accuracy: _conjugate_gradients(whole, diagonal, right, accuracy)
 

@@ -151,7 +151,7 @@ class _Groups:
     def design(self) -> Floats:
         """The share of each player's matches in each group, 0 where no group was stated."""
         total = self._seen.sum(1, keepdims=True)
-        return np.divide(self._seen, total, out=np.zeros_like(self._seen), where=total > 0)
+        return np.asarray(self._seen / np.maximum(total, 1.0))
 
 
 def known_levels(results: Results) -> tuple[str, ...]:
@@ -178,7 +178,7 @@ def games_of(results: Results) -> Floats:
     games = (results.score_a + results.score_b).astype(float)
     if results.unscored is not None:
         games = np.where(results.unscored, np.maximum(*results.races), games)
-    return np.where(results.given_away, 0.0, games)
+    return np.asarray(np.where(results.given_away, 0.0, games))
 
 
 def means_of(results: Results, levels: Levels) -> PriorMeans:

@@ -126,7 +126,8 @@ def rated(
     from evenbreak.ratings.fit import PRIOR_SD, fit
 
     days = None if half_life == "none" or half_life is None else float(half_life)
-    choice, how = None, {"prior_sd": PRIOR_SD, "half_life": days}
+    choice = None
+    how: dict[str, Any] = {"prior_sd": PRIOR_SD, "half_life": days}
     if isinstance(prior, float):
         how["prior_sd"] = prior_in_log_odds(prior, scale)
     else:

@@ -28,7 +28,7 @@ Examples:
 
 
 @click.command("validate", epilog=EXAMPLES)
-@click.argument("results", metavar="RESULTS.csv")
+@click.argument("results", metavar="RESULTS.csv...", nargs=-1, required=True)
 @prior_option
 @half_life_option
 @scale_option()
@@ -37,7 +37,7 @@ Examples:
 @plot_option
 @faces()
 def command(
-    results: str,
+    results: tuple[str, ...],
     prior: float | str | None,
     half_life: float | str | None,
     scale: Scale,
@@ -47,14 +47,15 @@ def command(
 ) -> Answer:
     """Find out whether the ratings of a league can be trusted.
 
-    RESULTS.csv is a file as for `rate`, with dates; - reads standard input. Each date is
+    RESULTS.csv is a file as for `rate`, with dates; - reads standard input; several are read
+    as one. Each date is
     predicted from the results of earlier dates alone, and then compared with what happened.
     """
     from evenbreak.cli.kit.progress import Progress
     from evenbreak.errors import DataError, InputError
 
     prior_sd = prior_in_log_odds(prior, scale) if isinstance(prior, float) else None
-    file = files.read_results(results, **reading)
+    file = files.read_seasons(results, **reading)
     try:
         with Progress("steps") as progress:
             found = ratings.validate(
