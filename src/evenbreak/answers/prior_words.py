@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.parts import Column, Part, Show, Table
 from evenbreak.answers.wording import count_of, decimals, listed, percent
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.calibration import Estimate
@@ -37,14 +37,14 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     if levels.newcomers:
         below = ratings.newcomer
         side = "below" if below > 0 else "above"
-        error = _error(choice, "newcomers", points(1.0) * ratings.newcomer_share)
+        error = _error(choice, "newcomers", points(1.0) * ratings.newcomer_share, _ONE, " points")
         yield (
             f"Newcomers are expected to be {_ONE(abs(below))} points {side} the average player"
             f"{error}. Half of what newcomers lack is assumed to be made up after {SETTLED:g} "
             "games."
         )
     if levels.race:
-        error = _error(choice, "race", 100.0, "%")
+        error = _error(choice, "race", 100.0, decimals(0), "%")
         yield (
             f"The stated races count too: {percent(levels.race)} of the difference that they imply "
             f"between two players is taken as real before any result{error}."
@@ -64,11 +64,11 @@ def _group_words(group: Group) -> str:
     )
 
 
-def _error(choice: PriorChoice | None, of: str, unit: float, sign: str = " points") -> str:
+def _error(choice: PriorChoice | None, of: str, unit: float, show: Show, sign: str) -> str:
     """Return how far off what was chosen may be, '' where that is not known."""
     errors = [found.standard_error for found in choice.evidence if found.of == of] if choice else []
     known = next((error for error in errors if error is not None), None)
-    return "" if known is None else f", give or take {_ONE(unit * known).removesuffix('.0')}{sign}"
+    return "" if known is None else f", give or take {show(unit * known)}{sign}"
 
 
 def prior_details(ratings: Ratings, choice: PriorChoice | None) -> Iterator[Part]:
