@@ -24,7 +24,10 @@ GRADIENT = 1e-6
 """How small the gradient has to become, in games, times τ where that is below 1."""
 
 
-VARIANCE_ACCURACY = 1e-5
+AT_ONCE = 32
+"""Columns solved together: few enough to stay in the processor's cache."""
+
+VARIANCE_ACCURACY = 1e-4
 """How exactly to solve for a variance, which is off by the square of what its solution is."""
 
 
@@ -153,22 +156,41 @@ def _conjugate_gradients(matrix: Any, diagonal: Floats, right: Floats, accuracy:
     What is left over of each column is at most `accuracy` times it.
     """
     columns = right[:, None] if right.ndim == 1 else right
-    scale = 1.0 / np.sqrt(diagonal)[:, None]
-    residual = scale * columns
+    scale = 1.0 / np.sqrt(diagonal)
+    rows = np.repeat(np.arange(len(scale)), np.diff(matrix.indptr))
+    unit = sparse.csr_array(
+        (matrix.data * scale[rows] * scale[matrix.indices], matrix.indices, matrix.indptr),
+        shape=matrix.shape,
+    )
+    solution = np.empty_like(columns)
+    for first in range(0, columns.shape[1], AT_ONCE):
+        part = slice(first, first + AT_ONCE)
+        solution[:, part] = _of_unit_diagonal(unit, scale[:, None] * columns[:, part], accuracy)
+    solution *= scale[:, None]
+    return solution.reshape(right.shape)
+
+
+def _of_unit_diagonal(matrix: Any, right: Floats, accuracy: float) -> Floats:
+    """Return the solution of each column by conjugate gradients."""
+    residual, direction = right.copy(), right.copy()
     solution = np.zeros_like(residual)
-    direction = residual.copy()
-    square = (residual**2).sum(0)
+    square = _products(residual, residual)
     enough = accuracy**2 * square
-    for _ in range(2 * len(diagonal) + 100):
+    for _ in range(2 * len(right) + 100):
         if (square <= enough).all():
             break
-        image = scale * (matrix @ (scale * direction))
-        curvature = (direction * image).sum(0)
+        image = matrix @ direction
+        curvature = _products(direction, image)
         length = np.divide(square, curvature, out=np.zeros_like(square), where=curvature > 0)
         solution += length * direction
-        residual -= length * image
-        before, square = square, (residual**2).sum(0)
-        direction = residual + direction * np.divide(
-            square, before, out=np.zeros_like(square), where=before > 0
-        )
-    return (scale * solution).reshape(right.shape)
+        image *= length
+        residual -= image
+        before, square = square, _products(residual, residual)
+        direction *= np.divide(square, before, out=np.zeros_like(square), where=before > 0)
+        direction += residual
+    return solution
+
+
+def _products(one: Floats, other: Floats) -> Floats:
+    """Return the product of each column of one with that of the other."""
+    return np.asarray(np.einsum("ij,ij->j", one, other))
