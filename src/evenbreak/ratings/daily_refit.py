@@ -90,7 +90,8 @@ class DailyRefit:
         """Return the posterior variance of skill a - skill b, for each pair (Laplace)."""
         solve = self._solver(self._curvatures()[1])
         which = np.arange(len(a))
-        right = np.zeros((len(self._point), len(a)))
+        # Half the memory, and so half the time; the variance is off by the error's square.
+        right = np.zeros((len(self._point), len(a)), dtype=np.float32)
         right[a, which] += 1.0
         right[b, which] -= 1.0
         solved = solve(right, VARIANCE_ACCURACY)
@@ -161,7 +162,9 @@ def _conjugate_gradients(matrix: Any, diagonal: Floats, right: Floats, accuracy:
     unit = sparse.csr_array(
         (matrix.data * scale[rows] * scale[matrix.indices], matrix.indices, matrix.indptr),
         shape=matrix.shape,
+        dtype=columns.dtype,
     )
+    scale = scale.astype(columns.dtype)
     solution = np.empty_like(columns)
     for first in range(0, columns.shape[1], AT_ONCE):
         part = slice(first, first + AT_ONCE)
