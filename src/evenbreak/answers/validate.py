@@ -119,6 +119,6 @@ _OF_CHOICE = ("prior_learnt", "prior_range", "log_loss_as_it_went")
 _LEFT_OUT = ("undated", "forfeits", "empty", "unscored")
 _AS_FOUND = (
     *("scored", "usual", "games", "matches", "matches_plug_in", "spots", "gain", "toss_ups"),
-    *("skill", "dispersion", "streaks", "side", "first_column", "breaker", "first_breaks"),
+    *("skill", "form", "dispersion", "streaks", "side", "first_column", "breaker", "first_breaks"),
     *("half_lives", "lengths", "drawn"),
 )

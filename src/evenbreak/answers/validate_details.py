@@ -9,6 +9,7 @@ from evenbreak.answers.validate_judgement import points_text
 from evenbreak.answers.wording import count_of, decimals
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.match_form import MatchForm
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.stretches import STRETCHES
 from evenbreak.ratings.validate import Validation
@@ -42,6 +43,9 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
     if tests:
         yield _TESTS_EXPLAINED
         yield Table("", _TEST_COLUMNS, tests)
+    if found.form is not None:
+        yield _form(found.form, scale)
+        yield _shapes(found.form)
     if found.matches:
         yield _matches(found)
         if found.spots:
@@ -157,6 +161,29 @@ def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
                 (low, high),
                 None,
             )
+
+
+def _form(form: MatchForm, scale: Scale) -> str:
+    v, low, high = form.variance
+    points = scale.points_per_log_odds
+    end = "This is established." if form.established else "This may be luck."
+    return (
+        f"Form of the day: the difference between two players varies from match to match with a "
+        f"standard deviation of {points * form.sd:.0f} points (variance {v:.3f} in squared "
+        f"log-odds, {low:z.3f} to {high:z.3f}), besides the uncertainty of the ratings. {end}"
+    )
+
+
+def _shapes(form: MatchForm) -> Table:
+    """Return deciders, sweeps and lengths, seen and expected."""
+    columns = [
+        Column("of", "", left=True),
+        Column("seen", "seen", lambda one: _span(one, 3, " to ")),
+        Column("said", "expected", decimals(3)),
+        Column("said_with_form", "with form", decimals(3)),
+    ]
+    title = "Scores, with 95% intervals, beside what the ratings expect without and with form:"
+    return Table("", columns, form.shapes, title)
 
 
 def _matches(found: Validation) -> Table:

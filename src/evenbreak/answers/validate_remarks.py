@@ -29,7 +29,14 @@ def remarks(found: Validation, scale: Scale) -> list[str]:
     """Return what there is to say about handicaps, scores, half-life, columns and the prior."""
     levels = level_words(replace(found.ratings, scale=scale), found.choice)
     said = [
-        *(_handicaps(found), _spread(found), *levels, _half_life(found), _first_column(found)),
+        *(
+            _handicaps(found),
+            _spread(found),
+            _form(found, scale),
+            *levels,
+            _half_life(found),
+            _first_column(found),
+        ),
     ]
     return [text for text in (*said, _prior(found, scale)) if text]
 
@@ -84,7 +91,7 @@ def _spread(found: Validation) -> str:
         return ""
     more = 100.0 * (test.seen / test.by_chance - 1.0)
     causes = ["players have good and bad days"]
-    if not found.half_lives or best_half_life(found):
+    if best_half_life(found):
         causes.append("the ratings lag behind")
     if any_winner_breaks(found):
         causes.append("the break is strong under winner breaks")
@@ -92,6 +99,24 @@ def _spread(found: Validation) -> str:
         causes.append("the handicaps know more than these ratings")
     text = f"Match scores vary {more:.0f}% more than expected. Perhaps {listed(causes, 'or')}."
     return " ".join([text, *_lengths(found)])
+
+
+def _form(found: Validation, scale: Scale) -> str:
+    """Return what form of the day means for scores, '' where it is not established."""
+    form = found.form
+    if form is None or not form.established:
+        return ""
+    deciders, sweeps, _ = form.shapes
+    points = form.sd * scale.points_per_log_odds
+    shares = [
+        f"{percent(shape.seen.value)} {words} ({percent(shape.said)} expected without this, "
+        f"{percent(shape.said_with_form)} with it)"
+        for shape, words in ((deciders, "went to the last game"), (sweeps, "were sweeps"))
+    ]
+    return (
+        f"From match to match the difference between two players varies by about {points:.0f} "
+        f"points around that of their ratings. Of {form.races:,} matches {listed(shares)}."
+    )
 
 
 def _lengths(found: Validation) -> Iterator[str]:

@@ -74,6 +74,12 @@ def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
     if spread is not None:
         figures = (spread.races, spread.by_chance, spread.seen)
         rows.append(("dispersion", "match", "scores", *figures, None, None, spread.p_value))
+    if found.form is not None:
+        rows.append(("form", "game", "variance", found.form.races, 0.0, *found.form.variance, None))
+        for shape in found.form.shapes:
+            head = ("score", "match", shape.of, found.form.races)
+            rows.append((*head, shape.said, *shape.seen, None))
+            rows.append(("score_with_form", *head[1:], shape.said_with_form, *shape.seen, None))
     if runs is not None:
         figures = (runs.matches, runs.expected, float(runs.runs))
         rows.append(("streaks", "match", "runs", *figures, None, None, runs.p_value))

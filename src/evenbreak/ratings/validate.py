@@ -25,6 +25,7 @@ from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
 from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
 from evenbreak.ratings.levels import Levels
+from evenbreak.ratings.match_form import MatchForm, match_form
 from evenbreak.ratings.prior import PriorChoice, best_prior
 from evenbreak.ratings.race_lengths import RaceLengths, race_lengths
 from evenbreak.ratings.results import Results
@@ -71,6 +72,8 @@ class Validation:
         the same for matches, by the ratings at face value.
     toss_ups
         how many matches have no favourite and so are in no bin, by what is predicted.
+    form
+        how much chances vary from match to match; None with fewer than 100 races.
     dispersion, streaks, breaker, first_breaks
         whether play inside matches agrees with the model; None where the file does not say.
     side, first_column
@@ -97,6 +100,7 @@ class Validation:
     matches: tuple[CalibrationBin, ...]
     matches_plug_in: tuple[CalibrationBin, ...]
     toss_ups: dict[str, int]
+    form: MatchForm | None
     dispersion: Dispersion | None
     streaks: Streaks | None
     side: Estimate | None
@@ -217,6 +221,7 @@ def validate(
         matches=_calibrated(Predictions.of_walk(walk, "match", "integrated")),
         matches_plug_in=_calibrated(Predictions.of_walk(walk, "match", "plug-in")),
         toss_ups={of: made[of, "integrated"].toss_ups for of in of_all},
+        form=match_form(walk, cluster, np.random.default_rng(seed)),
         dispersion=spread,
         streaks=streaks(walk),
         side=side_advantage(walk),
