@@ -120,5 +120,5 @@ _LEFT_OUT = ("undated", "forfeits", "empty", "unscored")
 _AS_FOUND = (
     *("scored", "usual", "games", "matches", "matches_plug_in", "spots", "gain", "toss_ups"),
     *("skill", "form", "dispersion", "streaks", "side", "first_column", "breaker", "first_breaks"),
-    *("half_lives", "lengths", "drawn"),
+    *("half_lives", "lengths", "experience", "drawn"),
 )

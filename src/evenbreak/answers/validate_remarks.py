@@ -29,14 +29,8 @@ def remarks(found: Validation, scale: Scale) -> list[str]:
     """Return what there is to say about handicaps, scores, half-life, columns and the prior."""
     levels = level_words(replace(found.ratings, scale=scale), found.choice)
     said = [
-        *(
-            _handicaps(found),
-            _spread(found),
-            _form(found, scale),
-            *levels,
-            _half_life(found),
-            _first_column(found),
-        ),
+        *(_handicaps(found), _spread(found), _form(found, scale), *levels),
+        *(_experience(found, scale), _half_life(found), _first_column(found)),
     ]
     return [text for text in (*said, _prior(found, scale)) if text]
 
@@ -141,6 +135,24 @@ def _lengths(found: Validation) -> Iterator[str]:
 def _way(half: RaceLengths) -> int:
     """Return 1 where favourites clearly won more than predicted, -1 where less, else 0."""
     return clearly_off(Estimate(half.share, half.low, half.high), half.predicted)
+
+
+def _experience(found: Validation, scale: Scale) -> str:
+    """Return which players with little experience are overrated or underrated, '' if none are."""
+    for one in found.experience:
+        way = clearly_off(one.stronger, 0.0)
+        if way and one.most is not None:
+            who = "before their first game"
+            if one.most:
+                who = f"after {one.fewest} to {one.most} games"
+            return (
+                f"Players are {'under' if way > 0 else 'over'}rated {who}: against more "
+                f"experienced opponents they won {percent(one.seen)} of their games "
+                f"({percent(one.predicted)} predicted), as if they were "
+                f"{abs(one.stronger.value) * scale.points_per_log_odds:.0f} points "
+                f"{'stronger' if way > 0 else 'weaker'} than rated."
+            )
+    return ""
 
 
 def _half_life(found: Validation) -> str:

@@ -91,7 +91,7 @@ class DailyRefit:
         solve = self._solver(self._curvatures()[1])
         which = np.arange(len(a))
         # Half the memory, and so half the time; the variance is off by the error's square.
-        right = np.zeros((len(self._point), len(a)), dtype=np.float32)
+        right: Any = np.zeros((len(self._point), len(a)), dtype=np.float32)
         right[a, which] += 1.0
         right[b, which] -= 1.0
         solved = solve(right, VARIANCE_ACCURACY)

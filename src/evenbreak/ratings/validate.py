@@ -18,6 +18,7 @@ from evenbreak.ratings.advantages import (
     first_column,
     side_advantage,
 )
+from evenbreak.ratings.by_experience import ByExperience, by_experience
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, fit
@@ -83,6 +84,8 @@ class Validation:
         how often favourites won short races and long ones, where there are both.
     spots
         how often the player with the longer race won.
+    experience
+        how the less experienced player of a match fared, by the games played before.
     drawn
         what the bootstrap resamples: 'dates' or 'matches'.
     """
@@ -109,6 +112,7 @@ class Validation:
     first_breaks: FirstBreaks | None
     spots: tuple[HandicapFairness, ...]
     lengths: tuple[RaceLengths, ...]
+    experience: tuple[ByExperience, ...]
     drawn: Literal["dates", "matches"]
 
 
@@ -230,6 +234,7 @@ def validate(
         first_breaks=first_breaks(walk),
         spots=tuple(handicap_fairness(walk)),
         lengths=tuple(race_lengths(walk)),
+        experience=tuple(by_experience(walk)),
         drawn="dates" if by_dates else "matches",
     )
 
