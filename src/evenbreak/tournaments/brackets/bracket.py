@@ -1,0 +1,220 @@
+"""A bracket: matches with two slots each, and where winners and losers go from there.
+
+A slot holds a player who is known from the start, or whoever a match or a group sends
+there. A player whom nothing sends on has a place. Byes are worked out when a bracket is
+made: every match in it has two players.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from evenbreak.errors import InputError
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+class Place(NamedTuple):
+    """A place, or several that are not played out: 5-6 is `Place(5, 6)`.
+
+    >>> str(Place(1, 1)), str(Place(5, 6)), str(Place(1, 1, "consolation"))
+    ('1', '5-6', 'consolation 1')
+    """
+
+    first: int
+    last: int
+    event: str = ""
+
+    def __str__(self) -> str:
+        span = f"{self.first}" if self.first == self.last else f"{self.first}-{self.last}"
+        return f"{self.event} {span}".lstrip()
+
+
+class Source(NamedTuple):
+    """Where the player of a slot comes from.
+
+    Parameters
+    ----------
+    match
+        the match or group that sends the player.
+    outcome
+        'winner' or 'loser' of a match, or the rank in a group, 1 for its winner.
+    via
+        1 or 2: the player comes only if they sat in this slot of that match; otherwise
+        nobody comes. None: whichever slot it was.
+    """
+
+    match: str
+    outcome: str | int
+    via: int | None = None
+
+
+Slot: TypeAlias = int | Source
+"""A player, by position in the bracket's list from 0 on, or where the player comes from."""
+
+
+@dataclass(frozen=True)
+class Match:
+    """A match of a bracket.
+
+    Parameters
+    ----------
+    name
+        what the match is called: 'W1.1' is the first match of round 1 on the winners' side.
+    side
+        the part of the bracket: 'winners', 'losers', 'final', 'group A'.
+    round
+        its round on that side, from 1 on.
+    slots
+        the two slots.
+    winner_place, loser_place
+        the place of a winner or loser whom no other match or group waits for.
+    """
+
+    name: str
+    side: str
+    round: int
+    slots: tuple[Slot, Slot]
+    winner_place: Place | None = None
+    loser_place: Place | None = None
+
+
+@dataclass(frozen=True)
+class Group:
+    """Players who all meet each other.
+
+    They are ranked by matches won; of those who are level, by the matches won among
+    themselves, and again among those who are still level; then by lot.
+
+    Parameters
+    ----------
+    name
+        what the group is called.
+    members
+        its players, by position.
+    matches
+        the names of its matches.
+    places
+        the place of each rank, best first; None for a rank that goes on.
+    """
+
+    name: str
+    members: tuple[int, ...]
+    matches: tuple[str, ...]
+    places: tuple[Place | None, ...]
+
+
+@dataclass(frozen=True)
+class Bracket:
+    """A tournament's matches, and where winners and losers go.
+
+    Parameters
+    ----------
+    format
+        what kind of tournament it is, for people.
+    players
+        the names, in the order of the seeds.
+    matches
+        the matches, each after all that feed it.
+    groups
+        the groups, where there are any.
+    byes
+        (match, player) for each first match that is not played, for the sheet.
+
+    >>> from evenbreak.tournaments import single_elimination
+    >>> bracket = single_elimination(["Ann", "Bo", "Cy"])
+    >>> bracket.match("F").slots
+    (0, Source(match='W1.2', outcome='winner', via=None))
+    >>> bracket.byes, [str(place) for place in bracket.places]
+    ((('W1.1', 0),), ['1', '2', '3'])
+    >>> list(bracket.graph.edges(data=True))
+    [('W1.2', 'F', {'winner': 2})]
+    """
+
+    format: str
+    players: tuple[str, ...]
+    matches: tuple[Match, ...]
+    groups: tuple[Group, ...] = ()
+    byes: tuple[tuple[str, int], ...] = field(default=(), compare=False)
+
+    @cached_property
+    def places(self) -> tuple[Place, ...]:
+        """All places that can be had, best first; a consolation event's come last."""
+        found = {match.winner_place for match in self.matches}
+        found |= {match.loser_place for match in self.matches}
+        found |= {place for group in self.groups for place in group.places}
+        return tuple(
+            sorted((place for place in found if place), key=lambda p: (p.event, p.first, p.last))
+        )
+
+    @cached_property
+    def graph(self) -> nx.DiGraph[str]:
+        """The matches as a frozen directed graph.
+
+        A node is a match (with its `side`, `round` and `slots`) or a group. An arc says which
+        slot the winner or the loser goes to (`winner=2`, `loser=1`), or where the players of
+        which rank go (`ranks={1: 2}`).
+        """
+        import networkx as nx
+
+        graph: nx.DiGraph[str] = nx.DiGraph()
+        for group in self.groups:
+            graph.add_node(group.name, side="group", round=0, slots=group.members)
+        for match in self.matches:
+            graph.add_node(match.name, side=match.side, round=match.round, slots=match.slots)
+        for group in self.groups:
+            graph.add_edges_from((name, group.name) for name in group.matches)
+        for match in self.matches:
+            for number, slot in enumerate(match.slots, 1):
+                if isinstance(slot, int):
+                    continue
+                graph.add_edge(slot.match, match.name)
+                arc = graph.edges[slot.match, match.name]
+                if isinstance(slot.outcome, str):
+                    arc[slot.outcome] = number
+                else:
+                    arc.setdefault("ranks", {})[slot.outcome] = number
+        return nx.freeze(graph)
+
+    @cached_property
+    def by_name(self) -> dict[str, Match]:
+        """The matches by their names."""
+        return {match.name: match for match in self.matches}
+
+    def match(self, name: str) -> Match:
+        """Return a match by its name.
+
+        Raises
+        ------
+        InputError
+            if the bracket has no match of this name.
+        """
+        if name not in self.by_name:
+            raise InputError(f"match is {name!r}; give one of {some_of(list(self.by_name))}")
+        return self.by_name[name]
+
+    def player(self, name: str) -> int:
+        """Return the position of a player.
+
+        Raises
+        ------
+        InputError
+            if nobody in the bracket has this name.
+        """
+        if name not in self.players:
+            raise InputError(f"player is {name!r}; give one of {some_of(self.players)}")
+        return self.players.index(name)
+
+
+def some_of(names: list[str] | tuple[str, ...]) -> str:
+    """Return names for an error message: all of a few, the first of many.
+
+    >>> some_of([str(n) for n in range(100)])
+    '0, 1, 2, 3, 4, 5, ... 99'
+    """
+    if len(names) <= 20:
+        return ", ".join(names)
+    return ", ".join([*names[:6], f"... {names[-1]}"])

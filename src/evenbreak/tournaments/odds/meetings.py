@@ -1,0 +1,164 @@
+"""Who meets whom in which match, and what places follow from it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from evenbreak.tournaments.brackets.bracket import Bracket, Match, Place, Source
+from evenbreak.tournaments.brackets.standing import NOBODY, Standing
+from evenbreak.tournaments.odds.chances import Chances, Floats
+from evenbreak.tournaments.odds.forward import Flow
+from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players
+
+
+class Meeting(NamedTuple):
+    """Who can meet in a match: pairs, the player in slot 1 first.
+
+    Parameters
+    ----------
+    first, second
+        the players, by position.
+    probability
+        P(these two meet in these slots of this match).
+    first_wins
+        P(the player in slot 1 wins), if they meet.
+    """
+
+    first: Players
+    second: Players
+    probability: Floats
+    first_wins: Floats
+
+    @property
+    def played(self) -> float:
+        """P(the match is played): a second final may not be needed."""
+        return float(self.probability.sum())
+
+
+class GoesOn(NamedTuple):
+    """Whether the bracket has a slot for the winner and the loser, by the slot they sat in."""
+
+    winner: tuple[bool, bool]
+    loser: tuple[bool, bool]
+
+
+def goes_on(bracket: Bracket) -> dict[str, GoesOn]:
+    """Return for each match who goes on from it."""
+    waiting = {slot for match in bracket.matches for slot in match.slots if isinstance(slot, Source)}
+
+    def waited(name: str, outcome: str, sat: int) -> bool:
+        return Source(name, outcome) in waiting or Source(name, outcome, sat) in waiting
+
+    return {
+        match.name: GoesOn(
+            (waited(match.name, "winner", 1), waited(match.name, "winner", 2)),
+            (waited(match.name, "loser", 1), waited(match.name, "loser", 2)),
+        )
+        for match in bracket.matches
+    }
+
+
+def meetings_of_flow(plan: Plan, through: Flow) -> dict[str, Meeting]:
+    """Return the meetings of a plan's matches, given what flowed through it.
+
+    Where it flowed for many draws, they are those of all draws together.
+    """
+    count = len(plan.bracket.players)
+    found = {}
+    for step in plan.steps:
+        if isinstance(step, MatchStep):
+            there = (step.first < count) & (step.second < count)
+            meet, p = through.meet[step.name][there], through.first_wins[step.name][there]
+            if p.ndim > 1:
+                meet = np.broadcast_to(meet.reshape(len(meet), -1), p.shape)
+                won, meet = (meet * p).mean(axis=1), meet.mean(axis=1)
+                p = np.divide(won, meet, out=np.zeros_like(won), where=meet > 0.0)
+            found[step.name] = Meeting(step.first[there], step.second[there], meet, p)
+    return found
+
+
+def group_meetings(bracket: Bracket, chances: Chances) -> dict[str, Meeting]:
+    """Return the meetings within groups: who meets there is known."""
+    found = {}
+    for group in bracket.groups:
+        for name in group.matches:
+            one, other = (np.array([slot], dtype=np.int16) for slot in bracket.by_name[name].slots)
+            p = chances.of(name)[one, other]
+            found[name] = Meeting(one, other, np.ones(1), p if p.ndim == 1 else p.mean(axis=1))
+    return found
+
+
+def settled_ranks(now: Standing) -> dict[str, Floats]:
+    """Return the ranks of the groups that are settled, as certain laws."""
+    found = {}
+    for group in now.bracket.groups:
+        if Source(group.name, 1) in now.sent:
+            ranks = range(1, len(group.members) + 1)
+            order = [now.sent[Source(group.name, rank)] for rank in ranks]
+            found[group.name] = np.equal.outer(group.members, order).astype(float)
+    return found
+
+
+def meetings_so_far(now: Standing) -> dict[str, Meeting]:
+    """Return the meetings that have taken place: one pair each, with chance 1 or 0."""
+    found = {}
+    for name, won in now.winners.items():
+        one, other = now.seats[name]
+        if one is None or other is None or NOBODY in (one, other):
+            pair = np.empty(0, dtype=np.int16)
+            found[name] = Meeting(pair, pair, pair.astype(float), pair.astype(float))
+        else:
+            found[name] = Meeting(
+                np.array([one], dtype=np.int16),
+                np.array([other], dtype=np.int16),
+                np.ones(1),
+                np.array([float(won == one)]),
+            )
+    return found
+
+
+def place_law(
+    bracket: Bracket, meetings: Mapping[str, Meeting], ranks: Mapping[str, Floats]
+) -> Floats:
+    """Return P(each player has each place), shape (players, places).
+
+    Parameters
+    ----------
+    bracket
+        the whole bracket.
+    meetings
+        who meets whom in each match.
+    ranks
+        for each group, ranks[i, k] = P(member i has rank k, from 0 on).
+    """
+    column = {place: k for k, place in enumerate(bracket.places)}
+    law = np.zeros((len(bracket.players), len(column)))
+    in_group = {name for group in bracket.groups for name in group.matches}
+    going = goes_on(bracket)
+    for match in bracket.matches:
+        if match.name not in in_group:
+            _add_places(law, column, match, meetings[match.name], going[match.name])
+    for group in bracket.groups:
+        for rank, place in enumerate(group.places):
+            if place is not None and rank < len(group.members):
+                law[list(group.members), column[place]] += ranks[group.name][:, rank]
+    return law
+
+
+def _add_places(
+    law: Floats, column: dict[Place, int], match: Match, meeting: Meeting, going: GoesOn
+) -> None:
+    won = meeting.probability * meeting.first_wins
+    lost = meeting.probability - won
+    leaving = (
+        (match.winner_place, going.winner[0], meeting.first, won),
+        (match.winner_place, going.winner[1], meeting.second, lost),
+        (match.loser_place, going.loser[0], meeting.first, lost),
+        (match.loser_place, going.loser[1], meeting.second, won),
+    )
+    for place, on, players, chance in leaving:
+        if place is not None and not on:
+            law[:, column[place]] += np.bincount(players, chance, len(law))

@@ -1,0 +1,349 @@
+"""The joint states of open slots, worked out once: everything but the chances.
+
+A plan says for each match which states its slots' joint law has, which two players meet in
+each, and to which state a win of either leads. It depends on the bracket and the results
+so far, not on the chances, so that one plan serves many draws of ratings.
+"""
+
+from __future__ import annotations
+
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array
+
+from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Source
+from evenbreak.tournaments.odds.group_law import rank_states
+from evenbreak.tournaments.odds.order import elimination_order
+
+Players: TypeAlias = NDArray[np.int16]
+Index: TypeAlias = NDArray[np.int32]
+
+_SPARE = 8  # a table of all keys is used if it is at most this much longer than the keys
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """What follows if the player in one of the slots wins.
+
+    Parameters
+    ----------
+    rows
+        the states in which they can win; None: all.
+    to
+        the state that follows each of them.
+    winner_goes_on, loser_goes_on
+        whether the bracket has a slot for the winner and for the loser.
+    """
+
+    rows: Index | None
+    to: Index
+    winner_goes_on: bool
+    loser_goes_on: bool
+
+
+@dataclass(frozen=True, eq=False)
+class MatchStep:
+    """A match: its states are the pairs of states of the parts that it joins.
+
+    Parameters
+    ----------
+    name
+        the match.
+    joins
+        the steps whose open slots it joins, none, one or two.
+    first, second
+        the distinct pairs who can meet, slot 1's player and slot 2's.
+    pair
+        which of them meets in each state; None: state and pair are the same.
+    branches
+        what follows if slot 1's player wins, if slot 2's does.
+    size
+        how many states there are after it.
+    slots
+        the slots that are open after it, together with others' if it joined them.
+    columns
+        who sits in each of these slots, in each state.
+    """
+
+    name: str
+    joins: tuple[int, ...]
+    first: Players
+    second: Players
+    pair: Index | None
+    branches: tuple[Branch, Branch]
+    size: int
+    slots: tuple[Source, ...]
+    columns: tuple[Players, ...]
+
+    @cached_property
+    def scatter(self) -> tuple[csc_array, csc_array]:
+        """The two branches as matrices that add up what arrives in each state after."""
+        one, other = (adding_up(branch.to, self.size) for branch in self.branches)
+        return one, other
+
+    @cached_property
+    def meeting(self) -> csc_array | None:
+        """The matrix that adds up states of the same pair; None where there is nothing to add."""
+        return None if self.pair is None else adding_up(self.pair, len(self.first))
+
+
+@dataclass(frozen=True, eq=False)
+class GroupStep:
+    """A group: who has each rank that goes on.
+
+    Parameters
+    ----------
+    group
+        the group.
+    pairs
+        who meets in each of its matches, by seat in the group.
+    ranks
+        the ranks that go on, from 0 on.
+    size, slots, columns
+        as for a match.
+    """
+
+    group: Group
+    pairs: tuple[tuple[int, int], ...]
+    ranks: tuple[int, ...]
+    size: int
+    slots: tuple[Source, ...]
+    columns: tuple[Players, ...]
+
+    joins: tuple[int, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The group's name."""
+        return self.group.name
+
+
+Step: TypeAlias = MatchStep | GroupStep
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """The steps in their order."""
+
+    bracket: Bracket
+    steps: tuple[Step, ...]
+
+    @property
+    def states(self) -> int:
+        """How many states all steps have together."""
+        return sum(step.size for step in self.steps)
+
+
+def adding_up(index: Index, size: int) -> csc_array:
+    """Return the matrix that adds up rows with the same index."""
+    count = len(index)
+    return csc_array(
+        (np.ones(count), index, np.arange(count + 1, dtype=np.int32)), shape=(size, count)
+    )
+
+
+class _Table(NamedTuple):
+    step: int
+    size: int
+    columns: dict[Source, Players]
+
+
+@lru_cache(maxsize=8)
+def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan:
+    """Return the plan of a bracket.
+
+    Parameters
+    ----------
+    bracket
+        the matches still to be played, with the players who are known in their slots.
+    assumed
+        results of matches whose players are not known yet.
+
+    >>> from evenbreak.tournaments import double_elimination
+    >>> plan = plan_of(double_elimination(4))
+    >>> [(step.name, step.size) for step in plan.steps]
+    [('W1.1', 2), ('W1.2', 2), ('L1.1', 8), ('W2.1', 16), ('L2.1', 12), ('F', 13), ('F2', 1)]
+    """
+    outlets: dict[str, list[Source]] = {}
+    for match in bracket.matches:
+        for slot in match.slots:
+            if isinstance(slot, Source):
+                outlets.setdefault(slot.match, []).append(slot)
+    groups = {group.name: group for group in bracket.groups}
+    results = dict(assumed)
+    steps: list[Step] = []
+    home: dict[Source, _Table] = {}
+    for name in elimination_order(bracket).names:
+        step: Step
+        if name in groups:
+            step = _group_step(bracket, groups[name], outlets.get(name, []))
+        else:
+            match = bracket.by_name[name]
+            tables = _tables(match, home)
+            step = _match_step(
+                bracket, match, tables, outlets.get(name, []), results.get(name)
+            )
+        table = _Table(len(steps), step.size, dict(zip(step.slots, step.columns, strict=True)))
+        home.update(dict.fromkeys(step.slots, table))
+        steps.append(step)
+    return Plan(bracket, tuple(steps))
+
+
+def _tables(match: Match, home: dict[Source, _Table]) -> list[_Table]:
+    found: dict[int, _Table] = {}
+    for slot in match.slots:
+        if isinstance(slot, Source):
+            found[home[slot].step] = home[slot]
+    return list(found.values())
+
+
+def _group_step(bracket: Bracket, group: Group, outlets: list[Source]) -> GroupStep:
+    seat = {player: k for k, player in enumerate(group.members)}
+    slots = [bracket.by_name[name].slots for name in group.matches]
+    pairs = tuple((seat[one], seat[other]) for one, other in slots)  # type: ignore[index]
+    outlets = sorted(outlets, key=lambda slot: slot.outcome)
+    ranks = tuple(int(slot.outcome) - 1 for slot in outlets)
+    states, _ = rank_states(len(seat), pairs, ranks)
+    players = np.array(group.members, dtype=np.int16)[states]
+    return GroupStep(group, pairs, ranks, len(states), tuple(outlets), tuple(players.T))
+
+
+def _match_step(
+    bracket: Bracket,
+    match: Match,
+    tables: list[_Table],
+    outlets: list[Source],
+    result: int | None,
+) -> MatchStep:
+    nobody = len(bracket.players)
+    size, columns = _joined(tables)
+    first, second = (
+        columns.pop(slot)
+        if isinstance(slot, Source)
+        else np.full(size, slot if slot >= 0 else nobody, dtype=np.int16)
+        for slot in match.slots
+    )
+    pair_keys = first.astype(np.int32) * (nobody + 1) + second
+    if columns or size == 1:
+        distinct, pair = _numbered([pair_keys], (nobody + 1) ** 2)
+    else:  # every state is a pair of its own
+        distinct, pair = pair_keys, [None]
+    rows = _branch_rows(first, second, nobody, result)
+    sat = first, second
+    after: list[dict[Source, Players]] = [{}, {}]
+    for slot, column in columns.items():
+        for k in (0, 1):
+            after[k][slot] = _taken(column, rows[k])
+    for slot in outlets:
+        for k in (0, 1):
+            seat = k if slot.outcome == "winner" else 1 - k
+            comes = slot.via is None or slot.via == seat + 1
+            column = sat[seat] if comes else np.full(size, nobody, dtype=np.int16)
+            after[k][slot] = _taken(column, rows[k])
+    keys, top = _keys(after, [size if part is None else len(part) for part in rows], nobody + 1)
+    states, to = _numbered(keys, top)
+    kept = _representatives(to, len(states))
+    branches = tuple(
+        Branch(
+            rows[k],
+            to[k],
+            any(s.outcome == "winner" and s.via in (None, k + 1) for s in outlets),
+            any(s.outcome == "loser" and s.via in (None, 2 - k) for s in outlets),
+        )
+        for k in (0, 1)
+    )
+    slots = tuple(after[0])
+    return MatchStep(
+        match.name,
+        tuple(table.step for table in tables),
+        (distinct // (nobody + 1)).astype(np.int16),
+        (distinct % (nobody + 1)).astype(np.int16),
+        pair[0],
+        (branches[0], branches[1]),
+        len(states),
+        slots,
+        tuple(np.concatenate([after[0][slot], after[1][slot]])[kept] for slot in slots),
+    )
+
+
+def _joined(tables: list[_Table]) -> tuple[int, dict[Source, Players]]:
+    """Return the states of one or two parts together: all pairs of theirs."""
+    if not tables:
+        return 1, {}
+    if len(tables) == 1:
+        return tables[0].size, dict(tables[0].columns)
+    one, other = tables
+    columns = {slot: np.repeat(column, other.size) for slot, column in one.columns.items()}
+    columns |= {slot: np.tile(column, one.size) for slot, column in other.columns.items()}
+    return one.size * other.size, columns
+
+
+def _branch_rows(
+    first: Players, second: Players, nobody: int, result: int | None
+) -> tuple[Index | None, Index | None]:
+    """Return the states in which slot 1's and slot 2's player can win; None: all."""
+    one_there, other_there = first != nobody, second != nobody
+    can = [one_there | ~other_there, other_there]
+    if result is not None:
+        can = [can[0] & (first == result), can[1] & (second == result)]
+    one, other = (
+        None if allowed.all() else np.flatnonzero(allowed).astype(np.int32) for allowed in can
+    )
+    return one, other
+
+
+def _taken(column: Players, rows: Index | None) -> Players:
+    return column if rows is None else column[rows]
+
+
+def _keys(
+    after: list[dict[Source, Players]], lengths: list[int], base: int
+) -> tuple[list[NDArray[np.int64]], int]:
+    """Return a number for each state of each branch, alike for alike states, and their bound."""
+    keys = [np.zeros(length, dtype=np.int64) for length in lengths]
+    top = 1
+    for slot in after[0]:
+        columns = [part[slot] for part in after]
+        there = np.zeros(base, dtype=bool)
+        for column in columns:
+            there[column] = True
+        code = np.cumsum(there) - 1
+        many = int(code[-1]) + 1
+        if top * many >= 1 << 62:
+            distinct, to = _numbered(keys, top)
+            keys, top = [part.astype(np.int64) for part in to], len(distinct)
+        keys = [key * many + code[column] for key, column in zip(keys, columns, strict=True)]
+        top *= many
+    return keys, top
+
+
+def _numbered(
+    keys: list[NDArray[np.int64]] | list[Index], top: int
+) -> tuple[NDArray[np.int64], list[Index]]:
+    """Return the distinct keys, ascending, and for each list the position of its keys in them."""
+    if top <= _SPARE * sum(map(len, keys)) + 1000:
+        there = np.zeros(top, dtype=bool)
+        for part in keys:
+            there[part] = True
+        distinct = np.flatnonzero(there)
+        place = np.empty(top, dtype=np.int32)
+        place[distinct] = np.arange(len(distinct), dtype=np.int32)
+        return distinct, [place[part] for part in keys]
+    distinct, place = np.unique(np.concatenate(keys), return_inverse=True)
+    cuts = np.cumsum([len(part) for part in keys])[:-1]
+    return distinct, [part.astype(np.int32) for part in np.split(place, cuts)]
+
+
+def _representatives(to: list[Index], states: int) -> NDArray[np.int64]:
+    """Return for each state after a match one of those from which it is reached."""
+    kept = np.empty(states, dtype=np.int64)
+    kept[to[1]] = np.arange(len(to[0]), len(to[0]) + len(to[1]))
+    kept[to[0]] = np.arange(len(to[0]))
+    return kept
+
+

@@ -1,0 +1,259 @@
+"""Title odds: P(each place) for each player, from any point of a tournament.
+
+The players of each slot are random variables and the matches tie them together; working
+out one match after the other and keeping the joint law of the open slots only, all places
+are exact. Where that would take too many states, the first rounds are drawn by lot and
+the rest of each draw is exact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Bracket, Place
+from evenbreak.tournaments.brackets.standing import Results, Standing, standing
+from evenbreak.tournaments.odds.backward import conditional
+from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
+from evenbreak.tournaments.odds.drawn import batch_law, drawn_tallies, mean_and_error
+from evenbreak.tournaments.odds.forward import flow
+from evenbreak.tournaments.odds.group_law import MOST_MATCHES
+from evenbreak.tournaments.odds.meetings import (
+    Meeting,
+    group_meetings,
+    meetings_of_flow,
+    meetings_so_far,
+    place_law,
+    settled_ranks,
+)
+from evenbreak.tournaments.odds.order import elimination_order
+from evenbreak.tournaments.odds.plan import plan_of
+
+MOST_STATES = 2e7
+"""The estimate of joint states up to which odds are exact."""
+
+DRAWS = 10_000
+"""How often the first rounds are drawn where they are."""
+
+
+@dataclass(frozen=True, eq=False)
+class TitleOdds:
+    """Who finishes where.
+
+    Parameters
+    ----------
+    bracket
+        the tournament.
+    p_place
+        P(a player has a place), a row for each player and a column for each of
+        `bracket.places`.
+    meetings
+        who meets whom in each match, with what chance.
+    draws
+        how often the first rounds were drawn; 0 where all is exact.
+    error
+        the standard errors of `p_place`; zeros where it is exact.
+    """
+
+    bracket: Bracket
+    p_place: Floats
+    meetings: Mapping[str, Meeting]
+    draws: int
+    error: Floats
+
+    @property
+    def exact(self) -> bool:
+        """Whether the odds are exact, without pseudo-random numbers."""
+        return self.draws == 0
+
+    @property
+    def title(self) -> Floats:
+        """P(each player wins the tournament)."""
+        return self.place(Place(1, 1))
+
+    def place(self, place: Place) -> Floats:
+        """Return P(each player has this place), one of `bracket.places`."""
+        return self.p_place[:, self.bracket.places.index(place)]
+
+    @property
+    def p_second_final(self) -> float:
+        """P(a second final is played); 0 where the bracket has none."""
+        return self.meetings["F2"].played if "F2" in self.meetings else 0.0
+
+    @property
+    def matches_mean(self) -> float:
+        """The expected number of matches, those played so far with them."""
+        return float(sum(meeting.played for meeting in self.meetings.values()))
+
+    def expected_meetings(self) -> Floats:
+        """Return how often two players are expected to meet, a symmetric table."""
+        count = len(self.bracket.players)
+        table = np.zeros((count, count))
+        for meeting in self.meetings.values():
+            np.add.at(table, (meeting.first, meeting.second), meeting.probability)
+        return table + table.T
+
+    def expected_prize(self, payouts: Sequence[float]) -> Floats:
+        """Return each player's expected prize.
+
+        Parameters
+        ----------
+        payouts
+            the money for first place, second, ...; places that are not played out share what
+            is paid for them equally.
+        """
+        return self.p_place @ prizes(self.bracket, payouts)
+
+
+def prizes(bracket: Bracket, payouts: Sequence[float]) -> Floats:
+    """Return the prize of each of the bracket's places.
+
+    >>> from evenbreak.tournaments import single_elimination
+    >>> prizes(single_elimination(8), [50, 30, 15, 5])
+    array([50., 30., 10.,  0.])
+    """
+    paid = np.zeros(len(bracket.players) + 1)
+    given = np.asarray(payouts, dtype=float)
+    if given.ndim != 1 or len(given) > len(bracket.players) or not np.isfinite(given).all():
+        raise InputError(
+            f"payouts is {payouts!r}; give an amount for each paid place, at most "
+            f"{len(bracket.players)} of them"
+        )
+    paid[: len(given)] = given
+    sums = np.concatenate([[0.0], np.cumsum(paid)])
+    return np.array(
+        [
+            0.0
+            if place.event
+            else (sums[min(place.last, len(paid))] - sums[place.first - 1])
+            / (place.last - place.first + 1)
+            for place in bracket.places
+        ]
+    )
+
+
+def title_odds(
+    bracket: Bracket,
+    win: Wins,
+    *,
+    results: Results | None = None,
+    live: Mapping[str, float] | None = None,
+    walkovers: float | Mapping[str, float] = 0.0,
+    most_states: float = MOST_STATES,
+    draws: int = DRAWS,
+    rng: np.random.Generator | None = None,
+) -> TitleOdds:
+    """Return who finishes where, with what chance.
+
+    Parameters
+    ----------
+    bracket
+        the tournament.
+    win
+        P(i beats j) for every two players, in the bracket's order: a table of shape (n, n), or
+        a function of two names; or a mapping with one of these for each match by name.
+    results
+        the results so far: the winner of each match that is decided. A result of a match
+        whose players are not known yet is taken as 'what if': all is given that it happens.
+    live
+        the chance of the player in slot 1, for matches under way.
+    walkovers
+        the chance that a match is a walkover, won by either player as likely: one for all, or by
+        the match's name. Of real double-elimination matches 4.7 % are.
+    most_states
+        how many joint states may be open, by estimate, before the first rounds are drawn
+        by lot instead.
+    draws
+        how often they are drawn then.
+    rng
+        where pseudo-random numbers come from then; None: a generator with the seed 0.
+
+    Raises
+    ------
+    InputError
+        if a chance or a result cannot be used, or what is assumed cannot happen.
+
+    Notes
+    -----
+    The method is variable elimination on a factor graph: R. Dechter (1999), "Bucket
+    elimination: a unifying framework for reasoning", Artificial Intelligence 113. See
+    docs/explanation/brackets.md.
+
+    >>> from evenbreak.tournaments import double_elimination
+    >>> strength = np.array([4.0, 3.0, 2.0, 1.0])
+    >>> win = strength[:, None] / (strength[:, None] + strength)
+    >>> odds = title_odds(double_elimination(["Ann", "Bo", "Cy", "Di"]), win)
+    >>> odds.title.round(4), round(odds.p_second_final, 4)
+    (array([0.5343, 0.3005, 0.1347, 0.0305]), 0.4694)
+    >>> title_odds(odds.bracket, win, results={"W1.1": "Di"}).title.round(4)
+    array([0.2016, 0.4399, 0.2214, 0.1371])
+    """
+    now = standing(bracket, results)
+    chances = chances_of(now, win, live=live, walkovers=walkovers)
+    return odds_now(
+        now,
+        chances,
+        most_states=most_states,
+        draws=whole(draws, "draws", at_least=100),
+        rng=rng or np.random.default_rng(0),
+    )
+
+
+def odds_now(
+    now: Standing,
+    chances: Chances,
+    *,
+    most_states: float = MOST_STATES,
+    draws: int = DRAWS,
+    rng: np.random.Generator | None = None,
+) -> TitleOdds:
+    """Return who finishes where, from where the tournament stands.
+
+    Parameters
+    ----------
+    now
+        where it stands.
+    chances
+        the chances of the matches still to be played.
+    most_states, draws, rng
+        as in `title_odds`.
+    """
+    remaining = now.remaining
+    too_large = any(len(group.matches) > MOST_MATCHES for group in remaining.groups)
+    if too_large or elimination_order(remaining).states > most_states:
+        return _drawn(now, chances, draws, rng or np.random.default_rng(0))
+    plan = plan_of(remaining, tuple(now.assumed.items()))
+    through = flow(plan, chances, keep=bool(now.assumed))
+    if now.assumed:
+        through = conditional(plan, chances, through)
+    meetings = meetings_so_far(now) | group_meetings(remaining, chances)
+    meetings |= meetings_of_flow(plan, through)
+    law = place_law(now.bracket, meetings, settled_ranks(now) | through.ranks)
+    return TitleOdds(now.bracket, law, _in_order(now.bracket, meetings), 0, np.zeros_like(law))
+
+
+def _drawn(
+    now: Standing, chances: Chances, draws: int, rng: np.random.Generator
+) -> TitleOdds:
+    if now.assumed:
+        raise InputError(
+            f"results has {next(iter(now.assumed))!r}, whose players are not known yet; the odds of "
+            "this bracket are drawn by lot, so give results of matches that can be played"
+        )
+    so_far, ranks = meetings_so_far(now), settled_ranks(now)
+    tallies = drawn_tallies(now.remaining, chances, draws, rng)
+    laws = [batch_law(now.bracket, tally, chances, so_far, ranks) for tally in tallies]
+    law, error = mean_and_error(laws)
+    total, *others = tallies
+    for tally in others:
+        total.add(tally)
+    meetings = so_far | total.meetings(chances)
+    return TitleOdds(now.bracket, law, _in_order(now.bracket, meetings), total.draws, error)
+
+
+def _in_order(bracket: Bracket, meetings: Mapping[str, Meeting]) -> dict[str, Meeting]:
+    return {match.name: meetings[match.name] for match in bracket.matches}
