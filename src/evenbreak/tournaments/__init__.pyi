@@ -5,10 +5,12 @@ from .brackets.bracket import Place as Place
 from .brackets.bracket import Source as Source
 from .brackets.double import double_elimination as double_elimination
 from .brackets.double import pods as pods
+from .brackets.groups import groups_then_knockout as groups_then_knockout
+from .brackets.groups import round_robin as round_robin
 from .brackets.knockout import consolation as consolation
 from .brackets.knockout import king_of_the_hill as king_of_the_hill
 from .brackets.knockout import single_elimination as single_elimination
-from .brackets.groups import groups_then_knockout as groups_then_knockout
-from .brackets.groups import round_robin as round_robin
+from .odds.rematches import Rematches as Rematches
+from .odds.rematches import expected_rematches as expected_rematches
 from .odds.title import TitleOdds as TitleOdds
 from .odds.title import title_odds as title_odds

@@ -97,6 +97,8 @@ class Group:
         its players, by position.
     matches
         the names of its matches.
+    pairs
+        who meets in each of them, by position.
     places
         the place of each rank, best first; None for a rank that goes on.
     """
@@ -104,6 +106,7 @@ class Group:
     name: str
     members: tuple[int, ...]
     matches: tuple[str, ...]
+    pairs: tuple[tuple[int, int], ...]
     places: tuple[Place | None, ...]
 
 
@@ -177,7 +180,8 @@ class Bracket:
                     arc[slot.outcome] = number
                 else:
                     arc.setdefault("ranks", {})[slot.outcome] = number
-        return nx.freeze(graph)
+        frozen: nx.DiGraph[str] = nx.freeze(graph)
+        return frozen
 
     @cached_property
     def by_name(self) -> dict[str, Match]:

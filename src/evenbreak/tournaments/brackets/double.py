@@ -126,7 +126,9 @@ def pods(
     entrants = checked_lines(lines, len(names))
     if len(entrants) < 2 * size:
         raise InputError(f"players has {len(names)} names; give more than {size}, or smaller pods")
-    drafts, winning, losing, ranks = double_down(list(entrants), 2 * len(entrants) // size, drops)
+    orders = drop_orders(len(entrants), drops, pod=size)
+    last = 2 * len(entrants) // size
+    drafts, winning, losing, ranks = double_down(list(entrants), last, orders)
     field: list[DraftSlot]
     if qualifiers == 2:
         shift = _half_shift(losing)
@@ -184,11 +186,12 @@ def _to_the_end(
 ) -> tuple[list[Draft], list[Rank]]:
     drafts, (best,), (other,), ranks = double_down(entrants, 2, drops)
     drafts.append(Draft("F", "final", 1, (best, other)))
-    first, second = (winner("F"),), (loser("F"),)
+    finals = ["F"]
     if true_final:
         again = (Source("F", "loser", via=1), Source("F", "winner", via=2))
         drafts.append(Draft("F2", "second final", 2, again))
-        first, second = (*first, winner("F2")), (*second, loser("F2"))
+        finals.append("F2")
+    first, second = (tuple(map(outcome, finals)) for outcome in (winner, loser))
     return drafts, [Rank(first, 1), Rank(second, 1), *ranks]
 
 

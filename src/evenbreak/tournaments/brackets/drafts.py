@@ -33,7 +33,7 @@ class Rank(NamedTuple):
     """Those who leave the tournament at one point, and how many they are; None: as listed."""
 
     leaving: tuple[Source, ...]
-    count: int | None = None
+    seats: int | None = None
 
 
 def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tuple[str, ...]:
@@ -48,9 +48,10 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
     """
     if isinstance(players, str):
         raise InputError(f"players is {players!r}; give a list of names, or how many there are")
-    if not hasattr(players, "__len__"):
-        players = [str(k) for k in range(1, whole(players, "players") + 1)]
-    names = tuple(str(player) for player in players)
+    if isinstance(players, Sequence):
+        names = tuple(str(player) for player in players)
+    else:
+        names = tuple(str(k) for k in range(1, whole(players, "players") + 1))
     if not fewest <= len(names) <= MOST:
         raise InputError(f"players has {len(names)} names; give {fewest} to {MOST}")
     seen: set[str] = set()
@@ -134,9 +135,9 @@ def _places(
 ) -> dict[Source, Place]:
     places: dict[Source, Place] = {}
     first = 1
-    for leaving, count in ranks:
+    for leaving, seats in ranks:
         there = [source for source in leaving if source not in sent]
-        last = first - 1 + (len(there) if count is None else count)
+        last = first - 1 + (len(there) if seats is None else seats)
         places |= dict.fromkeys(there, Place(first, last, event))
         first = last + 1 if there else first
     return places

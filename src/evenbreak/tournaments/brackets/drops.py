@@ -1,13 +1,15 @@
-"""Where the losers of the winners' side drop to: the orders in use.
+"""Where the losers of the winners' side drop to.
 
 Whoever drops into the match of somebody they have just beaten meets them again at once.
-An order sends each round's losers elsewhere; how well it does is measured by the rematches
+An order sends each round's losers elsewhere. All orders here are flips: match i, counted
+from 0, goes to i XOR mask. The mask 1 swaps neighbours, half the matches is a shift by
+half, all bits reverse the round, 0 is straight. How good an order is shows in the rematches
 to be expected among equal players (`expected_rematches`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Literal, TypeAlias, get_args
 
 from evenbreak.errors import InputError
@@ -16,45 +18,33 @@ Drops: TypeAlias = Literal["fewest rematches", "usual", "straight"]
 DROPS: tuple[Drops, ...] = get_args(Drops)
 """The patterns of drops, by name."""
 
-
-def _straight(matches: list[int]) -> list[int]:
-    return matches
-
-
-def _reverse(matches: list[int]) -> list[int]:
-    return matches[::-1]
-
-
-def _half_shift(matches: list[int]) -> list[int]:
-    half = len(matches) // 2
-    return matches[half:] + matches[:half]
-
-
-def _reverse_halves(matches: list[int]) -> list[int]:
-    half = len(matches) // 2
-    return matches[:half][::-1] + matches[half:][::-1]
-
-
-def _flip_pairs(matches: list[int]) -> list[int]:
-    return [match for pair in zip(matches[1::2], matches[::2], strict=True) for match in pair]
-
-
-Order: TypeAlias = Callable[[list[int]], list[int]]
-
-# One order for each round of drops but the last, which has one match.
-_USUAL: dict[int, tuple[Order, ...]] = {
-    16: (_reverse_halves, _reverse),
-    32: (_reverse, _half_shift, _straight),
-    64: (_reverse, _half_shift, _reverse, _straight),
-    128: (_reverse, _half_shift, _flip_pairs, _flip_pairs, _flip_pairs),
-    256: (_reverse, _half_shift, _flip_pairs, _flip_pairs, _flip_pairs, _flip_pairs),
-}
-_FEWEST: dict[int, tuple[Order, ...]] = {
-    16: (_reverse, _straight),
+# The masks of the rounds of drops, for each number of lines; later rounds are straight.
+_MASKS: dict[Drops, dict[int, tuple[int, ...]]] = {
+    # All flips of 16 to 64 lines were compared; of more lines, those that a search led to.
+    "fewest rematches": {
+        8: (1,),
+        16: (3, 0),
+        32: (3, 3, 0),
+        64: (15, 4, 1, 1),
+        128: (31, 3, 2, 2, 0),
+        256: (63, 24, 3, 2, 2, 0),
+    },
+    # The default of most programs.
+    "usual": {
+        8: (1,),
+        16: (1, 1),
+        32: (7, 2, 0),
+        64: (15, 4, 3, 0),
+        128: (31, 8, 1, 1, 1),
+        256: (63, 16, 1, 1, 1, 1),
+    },
+    "straight": {},
 }
 
 
-def drop_orders(size: int, drops: Drops | Sequence[Sequence[int]]) -> list[list[int]]:
+def drop_orders(
+    size: int, drops: Drops | Sequence[Sequence[int]], *, pod: int | None = None
+) -> list[list[int]]:
     """Return for each round of drops which match's loser goes to each match, from 1 on.
 
     Parameters
@@ -63,8 +53,10 @@ def drop_orders(size: int, drops: Drops | Sequence[Sequence[int]]) -> list[list[
         the lines of the bracket, a power of 2.
     drops
         'straight': the loser of the i-th match drops to the i-th match. 'usual': what most
-        programs do. 'fewest rematches': the order of reversals and shifts that has the
-        fewest expected rematches among equal players. Or the orders themselves.
+        programs do. 'fewest rematches': the flips with the fewest expected rematches among
+        equal players. Or the orders themselves, the first rounds at least.
+    pod
+        the lines of a pod that nobody leaves; None: all lines.
 
     Raises
     ------
@@ -76,20 +68,22 @@ def drop_orders(size: int, drops: Drops | Sequence[Sequence[int]]) -> list[list[
     >>> drop_orders(16, "usual")
     [[2, 1, 4, 3], [2, 1], [1]]
     """
-    rounds = [list(range(1, size // 2**r + 1)) for r in range(2, size.bit_length())]
+    counts = [size // 2**r for r in range(2, size.bit_length())]
     if isinstance(drops, str):
         if drops not in DROPS:
             listed = ", ".join(repr(name) for name in DROPS)
             raise InputError(f"drops is {drops!r}; give {listed}, or the orders themselves")
-        table = {"fewest rematches": _FEWEST, "usual": _USUAL, "straight": {}}[drops]
-        reversed_once = (_reverse,) if drops != "straight" else ()
-        orders = table.get(size, reversed_once)
-        padded = [*orders, *[_straight] * (len(rounds) - len(orders))][: len(rounds)]
-        return [order(matches) for order, matches in zip(padded, rounds, strict=True)]
+        masks = [*_MASKS[drops].get(pod or size, ()), *[0] * len(counts)]
+        return [
+            [(i ^ mask) + 1 for i in range(count)]
+            for mask, count in zip(masks, counts, strict=False)
+        ]
     given = [list(order) for order in drops]
-    for number, (order, matches) in enumerate(zip(given, rounds, strict=False), 1):
-        if sorted(order) != matches:
+    if len(given) > len(counts):
+        raise InputError(f"drops has {len(given)} orders; give {len(counts)} at most")
+    for number, (order, count) in enumerate(zip(given, counts, strict=False), 1):
+        if sorted(order) != list(range(1, count + 1)):
             raise InputError(
-                f"drops has {order} for its round {number}; give 1 to {len(matches)}, each once"
+                f"drops has {order} for its round {number}; give 1 to {count}, each once"
             )
-    return given + rounds[len(given) :]
+    return given + [list(range(1, count + 1)) for count in counts[len(given) :]]

@@ -126,17 +126,14 @@ def _group(
 ) -> tuple[Group, list[Match]]:
     prefix = f"{name}:" if prefix is None else prefix
     rounds = rounds_of_circle(len(members)) * whole(times, "times", at_least=1)
+    pairs = [(members[one], members[other]) for round_ in rounds for one, other in round_]
+    numbers = [(k, i) for k, round_ in enumerate(rounds, 1) for i in range(1, len(round_) + 1)]
     matches = [
-        Match(
-            f"{prefix}{number}.{i}",
-            f"group {name}" if side is None else side,
-            number,
-            (members[one], members[other]),
-        )
-        for number, pairs in enumerate(rounds, 1)
-        for i, (one, other) in enumerate(pairs, 1)
+        Match(f"{prefix}{number}.{i}", f"group {name}" if side is None else side, number, pair)
+        for (number, i), pair in zip(numbers, pairs, strict=True)
     ]
-    return Group(name, members, tuple(match.name for match in matches), places), matches
+    names = tuple(match.name for match in matches)
+    return Group(name, members, names, tuple(pairs), places), matches
 
 
 def _dealt(players: int, groups: int, number: int) -> list[int]:

@@ -82,9 +82,7 @@ def consolation(
             byes = [slot for slot in (1, 2) if _had_bye(drafts, draft, slot)]
             losers += [Source(draft.name, "loser", via=slot) for slot in byes]
     extra, extra_ranks = knockout(_with_byes(losers), "C", "consolation", last="CF")
-    return bracket_of(
-        "consolation", names, [*drafts, *extra], ranks, consolation=extra_ranks
-    )
+    return bracket_of("consolation", names, [*drafts, *extra], ranks, consolation=extra_ranks)
 
 
 def king_of_the_hill(players: Sequence[str] | int) -> Bracket:
@@ -141,7 +139,8 @@ def knockout(
     while len(slots) > 1:
         number = len(rounds) + 1
         final = len(slots) == 2
-        names = [last] if final else [f"{letter}{number}.{i}" for i in range(1, len(slots) // 2 + 1)]
+        names = [f"{letter}{number}.{i}" for i in range(1, len(slots) // 2 + 1)]
+        names = [last] if final else names
         drafts += [
             Draft(name, "final" if final and last == "F" else side, number, (one, other))
             for name, one, other in zip(names, slots[::2], slots[1::2], strict=True)

@@ -49,9 +49,7 @@ def seeded_lines(players: int) -> list[int | None]:
     >>> seeded_lines(3)
     [0, None, 1, 2]
     """
-    return [
-        seed - 1 if seed <= players else None for seed in standard_lines(bracket_size(players))
-    ]
+    return [seed - 1 if seed <= players else None for seed in standard_lines(bracket_size(players))]
 
 
 def by_rating(players: Sequence[Name], ratings: Sequence[float]) -> list[Name]:
@@ -116,9 +114,9 @@ def apart_by_club(players: Sequence[Name], clubs: Sequence[str | None]) -> list[
     order = np.arange(len(players))
     while True:
         gains = _gains(early[: len(players), : len(players)], club[order], tier)
-        i, j = np.unravel_index(gains.argmin(), gains.shape)
+        i, j = divmod(int(gains.argmin()), len(players))
         if gains[i, j] > -1e-12:
-            return [players[k] for k in order]
+            return [players[k] for k in order.tolist()]
         order[[i, j]] = order[[j, i]]
 
 

@@ -57,7 +57,7 @@ class Standing:
     def remaining(self) -> Bracket:
         """The matches that are not decided, with the players who are known in their slots."""
         matches = tuple(
-            replace(match, slots=tuple(self._slot(slot) for slot in match.slots))
+            replace(match, slots=(self._slot(match.slots[0]), self._slot(match.slots[1])))
             for match in self.bracket.matches
             if match.name not in self.winners or self._open_group(match.name)
         )
@@ -172,9 +172,7 @@ def _settled_ranks(
                 "in the order of their ranks"
             )
     else:
-        pairs = [bracket.by_name[name].slots for name in group.matches]
-        won = [winners[name] for name in group.matches]
-        places = ranked(group.members, pairs, won)  # type: ignore[arg-type]
+        places = ranked(group.members, group.pairs, [winners[name] for name in group.matches])
         if len(set(places)) < len(places):
             return {}
         order = [player for _, player in sorted(zip(places, group.members, strict=True))]

@@ -107,9 +107,7 @@ def conditional(plan: Plan, chances: Chances, through: Flow) -> Flow:
         if they cannot happen, or there are groups to be played.
     """
     if any(isinstance(step, GroupStep) for step in plan.steps):
-        raise InputError(
-            "results has a match after the groups; give it once the groups are played"
-        )
+        raise InputError("results has a match after the groups; give it once the groups are played")
     if not float(through.total) > 0.0:
         raise InputError("results cannot all happen; give results that agree with each other")
     at_end = {
@@ -127,9 +125,7 @@ def conditional(plan: Plan, chances: Chances, through: Flow) -> Flow:
     return Flow(meet, first_wins, through.ranks, np.ones(()), {})
 
 
-def _followed(
-    step: MatchStep, side: int, after: Floats, pay: Floats | None, states: int
-) -> Floats:
+def _followed(step: MatchStep, side: int, after: Floats, pay: Floats | None, states: int) -> Floats:
     """Return the value of each state before, given that the player in a slot wins."""
     branch = step.branches[side]
     value = after[branch.to]

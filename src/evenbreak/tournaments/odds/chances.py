@@ -164,5 +164,3 @@ def _decided(won: int, count: int) -> Floats:
     table = np.full((count + 1, count + 1), 0.5)
     table[won, :], table[:, won] = 1.0, 0.0
     return table
-
-

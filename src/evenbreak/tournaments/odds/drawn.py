@@ -1,26 +1,30 @@
 """Odds by drawing the first rounds: each draw's later rounds are worked out exactly.
 
 Averaging what is exact given the draw varies less than playing all of it out by lot
-(Rao & Blackwell). All draws share one plan: only who is who differs between them. Draws
-come in batches, each spread evenly over the luck of each match (a Latin hypercube), and the
-standard errors are those of the mean of the batches.
+(Rao & Blackwell). Three things make it vary less still: each batch of draws is spread evenly
+over the luck of each match (a Latin hypercube); the chance of each player to come through
+the first rounds to each slot is known exactly, and what a draw has too much of it is taken
+out by regression (control variates); and all draws share one plan, so that many fit in a
+second. Standard errors are those of the mean of batches.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
+from evenbreak.tournaments.brackets.bracket import Bracket, Place, Slot, Source
+from evenbreak.tournaments.brackets.standing import Standing
 from evenbreak.tournaments.odds.chances import Chances, Floats
+from evenbreak.tournaments.odds.controls import controls_of
+from evenbreak.tournaments.odds.cut import Cut, cut_before
 from evenbreak.tournaments.odds.forward import Flow, flow
-from evenbreak.tournaments.odds.meetings import Meeting, place_law
-from evenbreak.tournaments.odds.order import elimination_order
-from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players, plan_of
+from evenbreak.tournaments.odds.meetings import GoesOn, Meeting, goes_on
+from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players, adding_up, plan_of
 from evenbreak.tournaments.odds.play import PlayedOut, play_out
 
 _STATES_A_DRAW = 1e5
@@ -31,156 +35,199 @@ _CELLS = 4_000_000
 """States times draws that are worked out at once."""
 
 
-class Cut(NamedTuple):
-    """A bracket cut in two.
+class DrawnOdds(NamedTuple):
+    """What the draws say.
 
     Parameters
     ----------
-    early
-        the matches and groups that are drawn.
-    rest
-        the later ones, as a bracket whose players are the slots that the early ones fill.
-    entrants
-        what fills each of these: a source or a player.
+    p_place, error
+        P(each player has each place), without what is certain already, and its standard error.
+    meetings
+        who meets whom.
+    draws
+        how many draws there were.
     """
 
-    early: frozenset[str]
-    rest: Bracket
-    entrants: tuple[Slot, ...]
+    p_place: Floats
+    error: Floats
+    meetings: dict[str, Meeting]
+    draws: int
 
 
 @dataclass
-class Tally:
-    """Who met in each match, counted over draws."""
+class _Batch:
+    """What one batch of draws comes to: places by draw, and who met in each match."""
 
-    first: dict[str, Players]
-    second: dict[str, Players]
+    places: Floats
     counts: dict[str, Floats] = field(default_factory=dict)
-    ranks: dict[str, Floats] = field(default_factory=dict)
-    draws: int = 0
-
-    def meetings(self, chances: Chances) -> dict[str, Meeting]:
-        """Return the meetings of all draws so far."""
-        found = {}
-        for name, count in self.counts.items():
-            one, other = np.nonzero(count)
-            first, second = self.first[name][one], self.second[name][other]
-            p = chances.of(name)[first, second]
-            found[name] = Meeting(first, second, count[one, other] / self.draws, p)
-        return found
-
-    def add(self, batch: Tally) -> None:
-        """Add another tally of the same bracket."""
-        self.draws += batch.draws
-        for mine, others in ((self.counts, batch.counts), (self.ranks, batch.ranks)):
-            for name, count in others.items():
-                mine[name] = mine[name] + count if name in mine else count
 
 
-def cut_bracket(bracket: Bracket, most_states: float = _STATES_A_DRAW) -> Cut:
-    """Return the bracket cut as early as the work on its later part allows.
-
-    It is cut by the number of matches that are still to come after a match, at most. Groups
-    are always early.
-    """
-    to_come = _to_come(bracket)
-    for height in range(max(to_come.values(), default=0) - 1, 0, -1):
-        cut = _cut_at(bracket, to_come, height)
-        if elimination_order(cut.rest).states <= most_states:
-            return cut
-    return _cut_at(bracket, to_come, 0)
-
-
-def _to_come(bracket: Bracket) -> dict[str, int]:
-    """Return for each match how many matches its players can still have, with it."""
-    grouped = {name for group in bracket.groups for name in group.matches}
-    longest: dict[str, int] = {}
-    for match in reversed(bracket.matches):
-        longest[match.name] = 1 + longest.get(match.name, 0)
-        for slot in match.slots:
-            if isinstance(slot, Source):
-                longest[slot.match] = max(longest.get(slot.match, 0), longest[match.name])
-    top = max(longest.values(), default=0) + 1
-    return longest | dict.fromkeys([*grouped, *(group.name for group in bracket.groups)], top)
-
-
-def _cut_at(bracket: Bracket, to_come: Mapping[str, int], height: int) -> Cut:
-    early = frozenset(name for name, count in to_come.items() if count > height)
-    number: dict[Slot, int] = {}
-
-    def seat(slot: Slot) -> Slot:
-        if (isinstance(slot, Source) and slot.match not in early) or slot == -1:
-            return slot
-        return number.setdefault(slot, len(number))
-
-    later = tuple(
-        replace(match, slots=(seat(match.slots[0]), seat(match.slots[1])))
-        for match in bracket.matches
-        if match.name not in early
-    )
-    rest = Bracket(bracket.format, tuple(map(str, range(len(number)))), later)
-    return Cut(early, rest, tuple(number))
-
-
-def drawn_tallies(
-    bracket: Bracket, chances: Chances, draws: int, rng: np.random.Generator
-) -> list[Tally]:
-    """Return the tallies of batches of draws.
+def drawn_odds(now: Standing, chances: Chances, draws: int, rng: np.random.Generator) -> DrawnOdds:
+    """Return the odds of the matches still to be played.
 
     Parameters
     ----------
-    bracket
-        the matches still to be played.
+    now
+        where the tournament stands.
     chances
-        their chances.
+        the chances of the matches still to be played.
     draws
-        how many draws in all.
+        how many draws, in 40 batches.
     rng
         where pseudo-random numbers come from.
     """
-    cut = cut_bracket(bracket)
-    plan = plan_of(cut.rest)
-    largest = max((step.size for step in plan.steps), default=1)
-    batch = max(2, -(-draws // _BATCHES))
-    at_once = max(1, min(batch, _CELLS // largest))
-    first, second = who_can_sit(bracket)
-    tallies = []
+    bracket = now.remaining
+    drawing = _Drawing(now, bracket, chances, cut_before(bracket, _STATES_A_DRAW))
+    controls = controls_of(now, bracket, drawing.cut.early, chances)
+    size = max(2, -(-draws // _BATCHES))
+    counts: dict[str, Floats] = {}
     for _ in range(_BATCHES):
-        tally = Tally(first, second, draws=batch)
-        played = play_out(bracket, chances, rng, batch, only=cut.early)
-        _count_played(tally, bracket, played)
-        for start in range(0, batch, at_once):
-            rows = slice(start, min(batch, start + at_once))
-            _count_rest(tally, cut, plan, chances, played, rows, len(bracket.players))
-        tallies.append(tally)
-    return tallies
+        played = play_out(bracket, chances, rng, size, only=drawing.cut.early)
+        batch = drawing.batch(played, size)
+        controls.add(played, batch.places)
+        for name, count in batch.counts.items():
+            counts[name] = counts.get(name, 0.0) + count
+    mean, error = controls.estimate()
+    shape = len(bracket.players), len(drawing.column)
+    meetings = drawing.meetings(counts, size * _BATCHES)
+    return DrawnOdds(mean.reshape(shape), error.reshape(shape), meetings, size * _BATCHES)
 
 
-def mean_and_error(laws: list[Floats]) -> tuple[Floats, Floats]:
-    """Return the mean of batches and its standard error."""
-    stacked = np.stack(laws)
-    error: Floats = stacked.std(axis=0, ddof=1) / np.sqrt(len(laws))
-    mean: Floats = stacked.mean(axis=0)
-    return mean, error
+class _Drawing:
+    """What all batches share."""
+
+    def __init__(self, now: Standing, bracket: Bracket, chances: Chances, cut: Cut) -> None:
+        self.bracket, self.chances, self.cut = bracket, chances, cut
+        self.column = {place: k for k, place in enumerate(now.bracket.places)}
+        self.going = goes_on(now.bracket)
+        self.plan: Plan = plan_of(cut.rest)
+        self.first, self.second = who_can_sit(bracket)
+        self.nobody = len(bracket.players)
+        largest = max((step.size for step in self.plan.steps), default=1)
+        self.at_once = max(1, _CELLS // largest)
+
+    def batch(self, played: PlayedOut, size: int) -> _Batch:
+        """Return what a batch comes to, given how its first rounds went."""
+        batch = _Batch(np.zeros((size, self.nobody + 1, len(self.column))))
+        self._early(batch, played, size)
+        for start in range(0, size, self.at_once):
+            if self.plan.steps:
+                self._rest(batch, played, slice(start, min(size, start + self.at_once)))
+        batch.places = batch.places[:, :-1].reshape(size, -1)
+        return batch
+
+    def meetings(self, counts: Mapping[str, Floats], draws: int) -> dict[str, Meeting]:
+        """Return the meetings counted over all draws."""
+        found = {}
+        for name, count in counts.items():
+            one, other = np.nonzero(count)
+            first, second = self.first[name][one], self.second[name][other]
+            p = self.chances.of(name)[first, second]
+            found[name] = Meeting(first, second, count[one, other] / draws, p)
+        return found
+
+    def _early(self, batch: _Batch, played: PlayedOut, size: int) -> None:
+        ones, rows = np.ones(size), np.arange(size)
+        grouped = {name for group in self.bracket.groups for name in group.matches}
+        for name, first in played.first.items():
+            second = played.second[name]
+            self._count(batch, name, first, second, ones)
+            if name not in grouped:
+                match, won = self.bracket.by_name[name], played.first_won[name]
+                places = match.winner_place, match.loser_place
+                for k, players in early_places(self.going[name], places, first, second, won):
+                    batch.places[rows, players, self.column[k]] = 1.0
+        for group in self.bracket.groups:
+            for rank, place in enumerate(group.places[: len(group.members)]):
+                if place is not None:
+                    who = played.order[group.name][:, rank]
+                    batch.places[rows, who, self.column[place]] = 1.0
+
+    def _rest(self, batch: _Batch, played: PlayedOut, rows: slice) -> None:
+        """Add the later rounds, exact given what was drawn."""
+        many = rows.stop - rows.start
+        who = np.full((len(self.cut.entrants) + 1, many), self.nobody)
+        for k, slot in enumerate(self.cut.entrants):
+            who[k] = played.sent[slot][rows] if isinstance(slot, Source) else slot
+        through: Flow = flow(self.plan, self._tables(who))
+        law = np.zeros((len(who), len(self.column), many))
+        for step in self.plan.steps:
+            if isinstance(step, MatchStep):
+                shape = len(step.first), many
+                meet = np.broadcast_to(through.meet[step.name].reshape(shape[0], -1), shape)
+                first, second = who[step.first].ravel(), who[step.second].ravel()
+                self._count(batch, step.name, first, second, meet.ravel())
+                self._add_places(law, step, meet, through.first_wins[step.name])
+        draws = np.arange(rows.start, rows.stop)
+        for k, players in enumerate(who[:-1]):
+            batch.places[draws, players] += law[k].T
+
+    def _tables(self, who: NDArray[np.int64]) -> Chances:
+        """Return the chances of the entrants of each draw."""
+        made: dict[int, Floats] = {}
+        tables: dict[str, Floats] = {}
+        for match in self.cut.rest.matches:
+            table = self.chances.of(match.name)
+            if id(table) not in made:
+                made[id(table)] = table[who[:, None, :], who[None, :, :]]
+            tables[match.name] = made[id(table)]
+        return Chances(tables)
+
+    def _add_places(self, law: Floats, step: MatchStep, meet: Floats, p: Floats) -> None:
+        match, going = self.bracket.by_name[step.name], self.going[step.name]
+        won = meet * p
+        lost = meet - won
+        for place, on, players, mass in (
+            (match.winner_place, going.winner[0], step.first, won),
+            (match.winner_place, going.winner[1], step.second, lost),
+            (match.loser_place, going.loser[0], step.first, lost),
+            (match.loser_place, going.loser[1], step.second, won),
+        ):
+            if place is not None and not on:
+                added: Floats = adding_up(players.astype(np.int32), len(law)) @ mass
+                law[:, self.column[place]] += added
+
+    def _count(
+        self,
+        batch: _Batch,
+        name: str,
+        first: NDArray[np.integer],
+        second: NDArray[np.integer],
+        weight: Floats,
+    ) -> None:
+        seats = []
+        for players in (self.first[name], self.second[name]):
+            seat = np.full(self.nobody + 1, len(players))
+            seat[players] = np.arange(len(players))
+            seats.append(seat)
+        shape = len(self.first[name]) + 1, len(self.second[name]) + 1
+        cell = seats[0][first] * shape[1] + seats[1][second]
+        counts = np.bincount(cell, weight, shape[0] * shape[1]).reshape(shape)[:-1, :-1]
+        before = batch.counts.get(name)
+        batch.counts[name] = counts if before is None else before + counts
 
 
-def batch_law(
-    whole: Bracket,
-    tally: Tally,
-    chances: Chances,
-    so_far: Mapping[str, Meeting],
-    ranks: Mapping[str, Floats],
-) -> Floats:
-    """Return the places of one batch."""
-    mine = {name: count / tally.draws for name, count in tally.ranks.items()}
-    return place_law(whole, {**so_far, **tally.meetings(chances)}, {**ranks, **mine})
+def early_places(
+    going: GoesOn,
+    places: tuple[Place | None, Place | None],
+    first: Players,
+    second: Players,
+    won: NDArray[np.bool_],
+) -> list[tuple[Place, Players]]:
+    """Return who leaves a match for a place, in each draw; nobody where they go on."""
+    found = []
+    ends = zip(places, (going.winner, going.loser), (won, ~won), strict=True)
+    for place, on, sat_in_1 in ends:
+        if place is not None and not all(on):
+            stays = np.where(sat_in_1, not on[0], not on[1])
+            who = np.where(sat_in_1, first, second)
+            found.append((place, np.where(stays, who, -1).astype(np.int16)))
+    return found
 
 
 def who_can_sit(bracket: Bracket) -> tuple[dict[str, Players], dict[str, Players]]:
     """Return the players who can sit in slot 1 and in slot 2 of each match, ascending."""
-    sent: dict[str, int] = {group.name: 0 for group in bracket.groups}
-    for group in bracket.groups:
-        sent[group.name] = sum(1 << player for player in group.members)
+    sent = {group.name: sum(1 << player for player in group.members) for group in bracket.groups}
     sides: tuple[dict[str, Players], dict[str, Players]] = ({}, {})
     for match in bracket.matches:
         masks = [_mask(slot, sent) for slot in match.slots]
@@ -195,72 +242,3 @@ def _mask(slot: Slot, sent: dict[str, int]) -> int:
     if isinstance(slot, Source):
         return sent[slot.match]
     return 1 << slot if slot >= 0 else 0
-
-
-def _count_played(tally: Tally, bracket: Bracket, played: PlayedOut) -> None:
-    ones = np.ones(tally.draws)
-    for name, first in played.first.items():
-        _count(tally, name, first, played.second[name], ones, len(bracket.players))
-    for group in bracket.groups:
-        order = played.order[group.name]
-        tally.ranks[group.name] = np.array(
-            [(order == player).sum(axis=0) for player in group.members], dtype=float
-        )
-
-
-def _count_rest(
-    tally: Tally,
-    cut: Cut,
-    plan: Plan,
-    chances: Chances,
-    played: PlayedOut,
-    rows: slice,
-    nobody: int,
-) -> None:
-    """Add the meetings of the later rounds, exact given what was drawn."""
-    if not plan.steps:
-        return
-    many = rows.stop - rows.start
-    who = np.array(
-        [
-            played.sent[slot][rows] if isinstance(slot, Source) else np.full(many, slot)
-            for slot in cut.entrants
-        ]
-        + [np.full(many, nobody)]
-    )
-    tables: dict[int, Floats] = {}
-    of_match: dict[str, Floats] = {}
-    for match in cut.rest.matches:
-        table = chances.of(match.name)
-        if id(table) not in tables:
-            tables[id(table)] = table[who[:, None, :], who[None, :, :]]
-        of_match[match.name] = tables[id(table)]
-    through: Flow = flow(plan, Chances(of_match))
-    for step in plan.steps:
-        if isinstance(step, MatchStep):
-            meet = np.broadcast_to(
-                through.meet[step.name].reshape(len(step.first), -1), (len(step.first), many)
-            )
-            first, second = who[step.first].ravel(), who[step.second].ravel()
-            _count(tally, step.name, first, second, meet.ravel(), nobody)
-
-
-def _count(
-    tally: Tally,
-    name: str,
-    first: NDArray[np.integer],
-    second: NDArray[np.integer],
-    weight: Floats,
-    nobody: int,
-) -> None:
-    shape = len(tally.first[name]) + 1, len(tally.second[name]) + 1
-    seats = []
-    for players in (tally.first[name], tally.second[name]):
-        seat = np.full(nobody + 1, len(players))
-        seat[players] = np.arange(len(players))
-        seats.append(seat)
-    cell = seats[0][first] * shape[1] + seats[1][second]
-    counts = np.bincount(cell, weight, shape[0] * shape[1]).reshape(shape)[:-1, :-1]
-    tally.counts[name] = tally.counts.get(name, 0.0) + counts
-
-

@@ -74,7 +74,7 @@ def flow(plan: Plan, chances: Chances, *, keep: bool = False) -> Flow:
     total = np.ones(())
     for number, step in enumerate(plan.steps):
         if isinstance(step, GroupStep):
-            masses[number], ranks[step.name] = group_law(plan, step, chances)
+            masses[number], ranks[step.name] = group_law(step, chances)
         else:
             mass = joined([masses.pop(k) for k in step.joins])
             p = chances.of(step.name)[step.first, step.second]
@@ -117,7 +117,7 @@ def gathered(step: MatchStep, side: int, mass: Floats) -> Floats:
     branch: Branch = step.branches[side]
     moved = mass if branch.rows is None else mass[branch.rows]
     if mass.ndim == 1:
-        return np.bincount(branch.to, moved, step.size)
+        return np.bincount(branch.to, moved, step.size).astype(float, copy=False)
     arrived: Floats = step.scatter[side] @ moved
     return arrived
 
@@ -126,19 +126,16 @@ def _pairs(step: MatchStep, mass: Floats) -> Floats:
     if step.pair is None or step.meeting is None:
         return mass
     if mass.ndim == 1:
-        return np.bincount(step.pair, mass, len(step.first))
+        return np.bincount(step.pair, mass, len(step.first)).astype(float, copy=False)
     met: Floats = step.meeting @ mass
     return met
 
 
-def group_law(plan: Plan, step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
+def group_law(step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
     """Return the law of who goes on from a group, and who has which rank."""
-    slots = [plan.bracket.by_name[name].slots for name in step.group.matches]
-    each = [
-        chances.of(name)[one, other]
-        for name, (one, other) in zip(step.group.matches, slots, strict=True)
-    ]
-    results = result_law(np.broadcast_arrays(*each))
+    matches = zip(step.group.matches, step.group.pairs, strict=True)
+    each = np.broadcast_arrays(*(chances.of(name)[pair] for name, pair in matches))
+    results = result_law(each)
     members = len(step.group.members)
     laws = rank_laws(members, step.pairs)
     orders = _summed(laws.order_of, results, len(laws.orders))
@@ -156,6 +153,6 @@ def group_law(plan: Plan, step: GroupStep, chances: Chances) -> tuple[Floats, Fl
 
 def _summed(index: Index, mass: Floats, size: int) -> Floats:
     if mass.ndim == 1:
-        return np.bincount(index, mass, size)
+        return np.bincount(index, mass, size).astype(float, copy=False)
     sums: Floats = adding_up(index.astype(np.int32), size) @ mass
     return sums

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from itertools import permutations
 from typing import NamedTuple
@@ -111,7 +112,7 @@ def _lots(ahead: tuple[int, ...], ranks: tuple[int, ...]) -> dict[tuple[int, ...
     return laws
 
 
-def result_law(chances: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+def result_law(chances: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """Return the chance of each result of a group's matches.
 
     Parameters

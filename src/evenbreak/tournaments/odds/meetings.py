@@ -47,7 +47,8 @@ class GoesOn(NamedTuple):
 
 def goes_on(bracket: Bracket) -> dict[str, GoesOn]:
     """Return for each match who goes on from it."""
-    waiting = {slot for match in bracket.matches for slot in match.slots if isinstance(slot, Source)}
+    slots = [slot for match in bracket.matches for slot in match.slots]
+    waiting = {slot for slot in slots if isinstance(slot, Source)}
 
     def waited(name: str, outcome: str, sat: int) -> bool:
         return Source(name, outcome) in waiting or Source(name, outcome, sat) in waiting
@@ -84,8 +85,8 @@ def group_meetings(bracket: Bracket, chances: Chances) -> dict[str, Meeting]:
     """Return the meetings within groups: who meets there is known."""
     found = {}
     for group in bracket.groups:
-        for name in group.matches:
-            one, other = (np.array([slot], dtype=np.int16) for slot in bracket.by_name[name].slots)
+        for name, pair in zip(group.matches, group.pairs, strict=True):
+            one, other = (np.array([player], dtype=np.int16) for player in pair)
             p = chances.of(name)[one, other]
             found[name] = Meeting(one, other, np.ones(1), p if p.ndim == 1 else p.mean(axis=1))
     return found
@@ -130,20 +131,20 @@ def place_law(
     bracket
         the whole bracket.
     meetings
-        who meets whom in each match.
+        who meets whom, in the matches that count.
     ranks
-        for each group, ranks[i, k] = P(member i has rank k, from 0 on).
+        for each group that counts, ranks[i, k] = P(member i has rank k, from 0 on).
     """
     column = {place: k for k, place in enumerate(bracket.places)}
     law = np.zeros((len(bracket.players), len(column)))
     in_group = {name for group in bracket.groups for name in group.matches}
     going = goes_on(bracket)
     for match in bracket.matches:
-        if match.name not in in_group:
+        if match.name in meetings and match.name not in in_group:
             _add_places(law, column, match, meetings[match.name], going[match.name])
     for group in bracket.groups:
         for rank, place in enumerate(group.places):
-            if place is not None and rank < len(group.members):
+            if place is not None and group.name in ranks and rank < len(group.members):
                 law[list(group.members), column[place]] += ranks[group.name][:, rank]
     return law
 

@@ -62,9 +62,7 @@ class _Search:
     def __init__(self, bracket: Bracket) -> None:
         in_group = {name for group in bracket.groups for name in group.matches}
         self.items: dict[str, Match | Group] = {group.name: group for group in bracket.groups}
-        self.items |= {
-            match.name: match for match in bracket.matches if match.name not in in_group
-        }
+        self.items |= {match.name: match for match in bracket.matches if match.name not in in_group}
         self.rank = {name: k for k, name in enumerate(self.items)}
         self.home: dict[Source, _Part] = {}
         self.nobody = 1 << len(bracket.players)
@@ -101,8 +99,10 @@ class _Search:
         self.version[name] += 1
         self.states += total
         self.done.append(name)
-        for slot in self.items[name].slots if isinstance(self.items[name], Match) else ():
-            self.home.pop(slot, None)  # type: ignore[arg-type, call-overload]
+        item = self.items[name]
+        for taken in item.slots if isinstance(item, Match) else ():
+            if isinstance(taken, Source):
+                del self.home[taken]
         waiting = set()
         for slot in cost.after.slots:
             self.home[slot] = cost.after
@@ -130,7 +130,8 @@ class _Search:
             joined *= part.size
             slots |= part.slots
         for taken in item.slots:
-            slots.pop(taken, None)  # type: ignore[arg-type]
+            if isinstance(taken, Source):
+                del slots[taken]
         both = can_sit[0] | can_sit[1]
         for outlet in self.outlets[item.name]:
             slots[outlet] = both if outlet.via is None else can_sit[outlet.via - 1] | self.nobody

@@ -7,7 +7,6 @@ so far, not on the chances, so that one plan serves many draws of ratings.
 
 from __future__ import annotations
 
-
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple, TypeAlias
@@ -36,14 +35,10 @@ class Branch:
         the states in which they can win; None: all.
     to
         the state that follows each of them.
-    winner_goes_on, loser_goes_on
-        whether the bracket has a slot for the winner and for the loser.
     """
 
     rows: Index | None
     to: Index
-    winner_goes_on: bool
-    loser_goes_on: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,13 +176,11 @@ def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan
     for name in elimination_order(bracket).names:
         step: Step
         if name in groups:
-            step = _group_step(bracket, groups[name], outlets.get(name, []))
+            step = _group_step(groups[name], outlets.get(name, []))
         else:
             match = bracket.by_name[name]
             tables = _tables(match, home)
-            step = _match_step(
-                bracket, match, tables, outlets.get(name, []), results.get(name)
-            )
+            step = _match_step(bracket, match, tables, outlets.get(name, []), results.get(name))
         table = _Table(len(steps), step.size, dict(zip(step.slots, step.columns, strict=True)))
         home.update(dict.fromkeys(step.slots, table))
         steps.append(step)
@@ -202,10 +195,9 @@ def _tables(match: Match, home: dict[Source, _Table]) -> list[_Table]:
     return list(found.values())
 
 
-def _group_step(bracket: Bracket, group: Group, outlets: list[Source]) -> GroupStep:
+def _group_step(group: Group, outlets: list[Source]) -> GroupStep:
     seat = {player: k for k, player in enumerate(group.members)}
-    slots = [bracket.by_name[name].slots for name in group.matches]
-    pairs = tuple((seat[one], seat[other]) for one, other in slots)  # type: ignore[index]
+    pairs = tuple((seat[one], seat[other]) for one, other in group.pairs)
     outlets = sorted(outlets, key=lambda slot: slot.outcome)
     ranks = tuple(int(slot.outcome) - 1 for slot in outlets)
     states, _ = rank_states(len(seat), pairs, ranks)
@@ -228,11 +220,12 @@ def _match_step(
         else np.full(size, slot if slot >= 0 else nobody, dtype=np.int16)
         for slot in match.slots
     )
-    pair_keys = first.astype(np.int32) * (nobody + 1) + second
+    pair_keys = first.astype(np.int64) * (nobody + 1) + second
     if columns or size == 1:
-        distinct, pair = _numbered([pair_keys], (nobody + 1) ** 2)
+        distinct, numbered = _numbered([pair_keys], (nobody + 1) ** 2)
+        pair: Index | None = numbered[0]
     else:  # every state is a pair of its own
-        distinct, pair = pair_keys, [None]
+        distinct, pair = pair_keys, None
     rows = _branch_rows(first, second, nobody, result)
     sat = first, second
     after: list[dict[Source, Players]] = [{}, {}]
@@ -248,23 +241,14 @@ def _match_step(
     keys, top = _keys(after, [size if part is None else len(part) for part in rows], nobody + 1)
     states, to = _numbered(keys, top)
     kept = _representatives(to, len(states))
-    branches = tuple(
-        Branch(
-            rows[k],
-            to[k],
-            any(s.outcome == "winner" and s.via in (None, k + 1) for s in outlets),
-            any(s.outcome == "loser" and s.via in (None, 2 - k) for s in outlets),
-        )
-        for k in (0, 1)
-    )
     slots = tuple(after[0])
     return MatchStep(
         match.name,
         tuple(table.step for table in tables),
         (distinct // (nobody + 1)).astype(np.int16),
         (distinct % (nobody + 1)).astype(np.int16),
-        pair[0],
-        (branches[0], branches[1]),
+        pair,
+        (Branch(rows[0], to[0]), Branch(rows[1], to[1])),
         len(states),
         slots,
         tuple(np.concatenate([after[0][slot], after[1][slot]])[kept] for slot in slots),
@@ -345,5 +329,3 @@ def _representatives(to: list[Index], states: int) -> NDArray[np.int64]:
     kept[to[1]] = np.arange(len(to[0]), len(to[0]) + len(to[1]))
     kept[to[0]] = np.arange(len(to[0]))
     return kept
-
-

@@ -104,7 +104,7 @@ def play_out(
             sent[slot] = player
         if match.name in last_of_group:
             group = last_of_group[match.name]
-            order[group.name] = _ordered(group, first, second, first_won, rng)
+            order[group.name] = _ordered(group, first_won, rng)
             for slot in outlets.get(group.name, ()):
                 sent[slot] = order[group.name][:, int(slot.outcome) - 1]
     return PlayedOut(first, second, first_won, sent, order)
@@ -118,16 +118,14 @@ def spread_evenly(rng: np.random.Generator, runs: int) -> Floats:
 
 def _ordered(
     group: Group,
-    first: dict[str, Players],
-    second: dict[str, Players],
     first_won: dict[str, NDArray[np.bool_]],
     rng: np.random.Generator,
 ) -> Players:
     seat = {player: k for k, player in enumerate(group.members)}
-    runs = len(first[group.matches[0]])
+    runs = len(first_won[group.matches[0]])
     beats = np.zeros((runs, len(seat), len(seat)), dtype=np.int16)
-    for name in group.matches:
-        one, other = seat[int(first[name][0])], seat[int(second[name][0])]
+    for name, pair in zip(group.matches, group.pairs, strict=True):
+        one, other = seat[pair[0]], seat[pair[1]]
         beats[:, one, other] += first_won[name]
         beats[:, other, one] += ~first_won[name]
     lots = players_ahead(beats) + rng.random((runs, len(seat)))

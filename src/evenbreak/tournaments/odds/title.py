@@ -19,7 +19,7 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.odds.backward import conditional
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
-from evenbreak.tournaments.odds.drawn import batch_law, drawn_tallies, mean_and_error
+from evenbreak.tournaments.odds.drawn import drawn_odds
 from evenbreak.tournaments.odds.forward import flow
 from evenbreak.tournaments.odds.group_law import MOST_MATCHES
 from evenbreak.tournaments.odds.meetings import (
@@ -232,27 +232,22 @@ def odds_now(
         through = conditional(plan, chances, through)
     meetings = meetings_so_far(now) | group_meetings(remaining, chances)
     meetings |= meetings_of_flow(plan, through)
-    law = place_law(now.bracket, meetings, settled_ranks(now) | through.ranks)
+    law = place_law(now.bracket, meetings, {**settled_ranks(now), **through.ranks})
     return TitleOdds(now.bracket, law, _in_order(now.bracket, meetings), 0, np.zeros_like(law))
 
 
-def _drawn(
-    now: Standing, chances: Chances, draws: int, rng: np.random.Generator
-) -> TitleOdds:
+def _drawn(now: Standing, chances: Chances, draws: int, rng: np.random.Generator) -> TitleOdds:
     if now.assumed:
         raise InputError(
-            f"results has {next(iter(now.assumed))!r}, whose players are not known yet; the odds of "
-            "this bracket are drawn by lot, so give results of matches that can be played"
+            f"results has {next(iter(now.assumed))!r}, whose players are not known yet; the odds "
+            "of this bracket are drawn by lot, so give results of matches that can be played"
         )
-    so_far, ranks = meetings_so_far(now), settled_ranks(now)
-    tallies = drawn_tallies(now.remaining, chances, draws, rng)
-    laws = [batch_law(now.bracket, tally, chances, so_far, ranks) for tally in tallies]
-    law, error = mean_and_error(laws)
-    total, *others = tallies
-    for tally in others:
-        total.add(tally)
-    meetings = so_far | total.meetings(chances)
-    return TitleOdds(now.bracket, law, _in_order(now.bracket, meetings), total.draws, error)
+    drawn = drawn_odds(now, chances, draws, rng)
+    meetings: dict[str, Meeting] = meetings_so_far(now)
+    certain = place_law(now.bracket, meetings, settled_ranks(now))
+    meetings |= drawn.meetings
+    law = certain + drawn.p_place
+    return TitleOdds(now.bracket, law, _in_order(now.bracket, meetings), drawn.draws, drawn.error)
 
 
 def _in_order(bracket: Bracket, meetings: Mapping[str, Meeting]) -> dict[str, Meeting]:
