@@ -10,6 +10,8 @@ from .brackets.groups import round_robin as round_robin
 from .brackets.knockout import consolation as consolation
 from .brackets.knockout import king_of_the_hill as king_of_the_hill
 from .brackets.knockout import single_elimination as single_elimination
+from .odds.leverage import Leverage as Leverage
+from .odds.leverage import leverages as leverages
 from .odds.rematches import Rematches as Rematches
 from .odds.rematches import expected_rematches as expected_rematches
 from .odds.title import TitleOdds as TitleOdds

@@ -12,18 +12,26 @@ In other words: the derivative of the expected reward, by going back through the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import NamedTuple, TypeAlias
+from collections.abc import Mapping
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.tournaments.odds.chances import Chances, Floats
 from evenbreak.tournaments.odds.forward import Flow, joined
+from evenbreak.tournaments.odds.group_law import rank_laws, rank_states, result_law
 from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
 
-Rewards: TypeAlias = Callable[[MatchStep], tuple[Floats, Floats]]
-"""What each pair of a match is paid if slot 1's player wins, and if slot 2's does."""
+
+class Rewards(Protocol):
+    """What results pay: several kinds of reward at once."""
+
+    def of_match(self, step: MatchStep) -> tuple[Floats, Floats]:
+        """Return what is paid if slot 1's player wins, and if slot 2's does; (pairs, kinds)."""
+
+    def of_group(self, step: GroupStep) -> Floats:
+        """Return what each order of a group pays on average over the lots; (orders, kinds)."""
 
 
 class Worth(NamedTuple):
@@ -57,7 +65,7 @@ def worth(
     at_end
         the value of the last state of each step that leaves no slot open.
     rewards
-        what results pay; arrays of shape (pairs, kinds).
+        what results pay.
     kinds
         how many kinds of reward are followed at once.
     """
@@ -67,14 +75,14 @@ def worth(
         step = plan.steps[number]
         if not step.slots:
             values[number] = np.full((step.size, kinds), at_end[number])
-        if isinstance(step, GroupStep):
-            values.pop(number)
-            continue
         after = values.pop(number)
+        if isinstance(step, GroupStep):
+            found |= _group_worth(step, chances, after, rewards)
+            continue
         parts = [through.after[k] for k in step.joins]
         mass = joined(parts)
         p = chances.of(step.name)[step.first, step.second]
-        pay = rewards(step) if rewards else None
+        pay = rewards.of_match(step) if rewards else None
         branch = [
             _followed(step, side, after, None if pay is None else pay[side], len(mass))
             for side in (0, 1)
@@ -136,6 +144,28 @@ def _followed(step: MatchStep, side: int, after: Floats, pay: Floats | None, sta
     if pay is not None:
         value = value + (pay if step.pair is None else pay[step.pair])
     return value
+
+
+def _group_worth(
+    step: GroupStep, chances: Chances, after: Floats, rewards: Rewards | None
+) -> dict[str, Worth]:
+    """Return what the results of a group's matches are worth."""
+    members = len(step.group.members)
+    _, shares = rank_states(members, step.pairs, step.ranks)
+    value: Floats = shares.T @ after
+    if rewards:
+        value = value + rewards.of_group(step)
+    of_result = value[rank_laws(members, step.pairs).order_of]
+    matches = list(zip(step.group.matches, step.group.pairs, strict=True))
+    each = [np.asarray(chances.of(name)[pair]) for name, pair in matches]
+    found = {}
+    for k, (name, _) in enumerate(matches):
+        sides = []
+        for chance in (1.0, 0.0):
+            law = result_law([*each[:k], np.array(chance), *each[k + 1 :]])
+            sides.append((law @ of_result)[None, :])
+        found[name] = Worth(*sides)
+    return found
 
 
 def _by_pair(step: MatchStep, mass: Floats, value: Floats) -> Floats:

@@ -23,8 +23,8 @@ from evenbreak.tournaments.odds.chances import Chances, Floats
 from evenbreak.tournaments.odds.controls import controls_of
 from evenbreak.tournaments.odds.cut import Cut, cut_before
 from evenbreak.tournaments.odds.forward import Flow, flow
-from evenbreak.tournaments.odds.meetings import GoesOn, Meeting, goes_on
-from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players, adding_up, plan_of
+from evenbreak.tournaments.odds.meetings import GoesOn, Meeting, add_places, goes_on
+from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players, plan_of
 from evenbreak.tournaments.odds.play import PlayedOut, play_out
 
 _STATES_A_DRAW = 1e5
@@ -62,7 +62,14 @@ class _Batch:
     counts: dict[str, Floats] = field(default_factory=dict)
 
 
-def drawn_odds(now: Standing, chances: Chances, draws: int, rng: np.random.Generator) -> DrawnOdds:
+def drawn_odds(
+    now: Standing,
+    chances: Chances,
+    draws: int,
+    rng: np.random.Generator,
+    *,
+    batches: int = _BATCHES,
+) -> DrawnOdds:
     """Return the odds of the matches still to be played.
 
     Parameters
@@ -72,16 +79,18 @@ def drawn_odds(now: Standing, chances: Chances, draws: int, rng: np.random.Gener
     chances
         the chances of the matches still to be played.
     draws
-        how many draws, in 40 batches.
+        how many draws at least.
     rng
         where pseudo-random numbers come from.
+    batches
+        in how many batches, two or more.
     """
     bracket = now.remaining
     drawing = _Drawing(now, bracket, chances, cut_before(bracket, _STATES_A_DRAW))
     controls = controls_of(now, bracket, drawing.cut.early, chances)
-    size = max(2, -(-draws // _BATCHES))
+    size = max(2, -(-draws // batches))
     counts: dict[str, Floats] = {}
-    for _ in range(_BATCHES):
+    for _ in range(batches):
         played = play_out(bracket, chances, rng, size, only=drawing.cut.early)
         batch = drawing.batch(played, size)
         controls.add(played, batch.places)
@@ -89,8 +98,8 @@ def drawn_odds(now: Standing, chances: Chances, draws: int, rng: np.random.Gener
             counts[name] = counts.get(name, 0.0) + count
     mean, error = controls.estimate()
     shape = len(bracket.players), len(drawing.column)
-    meetings = drawing.meetings(counts, size * _BATCHES)
-    return DrawnOdds(mean.reshape(shape), error.reshape(shape), meetings, size * _BATCHES)
+    meetings = drawing.meetings(counts, size * batches)
+    return DrawnOdds(mean.reshape(shape), error.reshape(shape), meetings, size * batches)
 
 
 class _Drawing:
@@ -157,7 +166,9 @@ class _Drawing:
                 meet = np.broadcast_to(through.meet[step.name].reshape(shape[0], -1), shape)
                 first, second = who[step.first].ravel(), who[step.second].ravel()
                 self._count(batch, step.name, first, second, meet.ravel())
-                self._add_places(law, step, meet, through.first_wins[step.name])
+                match, going = self.bracket.by_name[step.name], self.going[step.name]
+                meeting = Meeting(step.first, step.second, meet, through.first_wins[step.name])
+                add_places(law, self.column, match, going, meeting)
         draws = np.arange(rows.start, rows.stop)
         for k, players in enumerate(who[:-1]):
             batch.places[draws, players] += law[k].T
@@ -172,20 +183,6 @@ class _Drawing:
                 made[id(table)] = table[who[:, None, :], who[None, :, :]]
             tables[match.name] = made[id(table)]
         return Chances(tables)
-
-    def _add_places(self, law: Floats, step: MatchStep, meet: Floats, p: Floats) -> None:
-        match, going = self.bracket.by_name[step.name], self.going[step.name]
-        won = meet * p
-        lost = meet - won
-        for place, on, players, mass in (
-            (match.winner_place, going.winner[0], step.first, won),
-            (match.winner_place, going.winner[1], step.second, lost),
-            (match.loser_place, going.loser[0], step.first, lost),
-            (match.loser_place, going.loser[1], step.second, won),
-        ):
-            if place is not None and not on:
-                added: Floats = adding_up(players.astype(np.int32), len(law)) @ mass
-                law[:, self.column[place]] += added
 
     def _count(
         self,
@@ -202,7 +199,8 @@ class _Drawing:
             seats.append(seat)
         shape = len(self.first[name]) + 1, len(self.second[name]) + 1
         cell = seats[0][first] * shape[1] + seats[1][second]
-        counts = np.bincount(cell, weight, shape[0] * shape[1]).reshape(shape)[:-1, :-1]
+        counts = np.bincount(cell, weight, shape[0] * shape[1]).astype(float, copy=False)
+        counts = counts.reshape(shape)[:-1, :-1]
         before = batch.counts.get(name)
         batch.counts[name] = counts if before is None else before + counts
 

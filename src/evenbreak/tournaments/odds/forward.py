@@ -138,7 +138,7 @@ def group_law(step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
     results = result_law(each)
     members = len(step.group.members)
     laws = rank_laws(members, step.pairs)
-    orders = _summed(laws.order_of, results, len(laws.orders))
+    orders = summed(laws.order_of, results, len(laws.orders))
     _, shares = rank_states(members, step.pairs, step.ranks)
     ranks = np.zeros((members, members, *results.shape[1:]))
     for member in range(members):
@@ -147,11 +147,12 @@ def group_law(step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
         for lot in range(int(level.max())):
             there = level > lot
             share = orders[there] / level[there].reshape(-1, *[1] * (orders.ndim - 1))
-            ranks[member] += _summed(ahead[there] + lot, share, members)
+            ranks[member] += summed(ahead[there] + lot, share, members)
     return shares @ orders, ranks
 
 
-def _summed(index: Index, mass: Floats, size: int) -> Floats:
+def summed(index: Index, mass: Floats, size: int) -> Floats:
+    """Return the sums of the masses with the same index."""
     if mass.ndim == 1:
         return np.bincount(index, mass, size).astype(float, copy=False)
     sums: Floats = adding_up(index.astype(np.int32), size) @ mass

@@ -10,7 +10,7 @@ import numpy as np
 from evenbreak.tournaments.brackets.bracket import Bracket, Match, Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Standing
 from evenbreak.tournaments.odds.chances import Chances, Floats
-from evenbreak.tournaments.odds.forward import Flow
+from evenbreak.tournaments.odds.forward import Flow, summed
 from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players
 
 
@@ -22,7 +22,7 @@ class Meeting(NamedTuple):
     first, second
         the players, by position.
     probability
-        P(these two meet in these slots of this match).
+        P(these two meet in these slots of this match); with a last axis where there are draws.
     first_wins
         P(the player in slot 1 wins), if they meet.
     """
@@ -63,21 +63,27 @@ def goes_on(bracket: Bracket) -> dict[str, GoesOn]:
 
 
 def meetings_of_flow(plan: Plan, through: Flow) -> dict[str, Meeting]:
-    """Return the meetings of a plan's matches, given what flowed through it.
-
-    Where it flowed for many draws, they are those of all draws together.
-    """
+    """Return the meetings of a plan's matches, given what flowed through it."""
     count = len(plan.bracket.players)
     found = {}
     for step in plan.steps:
         if isinstance(step, MatchStep):
             there = (step.first < count) & (step.second < count)
             meet, p = through.meet[step.name][there], through.first_wins[step.name][there]
-            if p.ndim > 1:
-                meet = np.broadcast_to(meet.reshape(len(meet), -1), p.shape)
-                won, meet = (meet * p).mean(axis=1), meet.mean(axis=1)
-                p = np.divide(won, meet, out=np.zeros_like(won), where=meet > 0.0)
+            if p.ndim > meet.ndim:
+                meet = np.broadcast_to(meet[:, None], p.shape)
             found[step.name] = Meeting(step.first[there], step.second[there], meet, p)
+    return found
+
+
+def averaged(meetings: Mapping[str, Meeting]) -> dict[str, Meeting]:
+    """Return meetings as they are on average over the draws."""
+    found = {}
+    for name, (first, second, meet, p) in meetings.items():
+        if p.ndim > 1:
+            won, meet = (meet * p).mean(axis=1), meet.mean(axis=1)
+            p = np.divide(won, meet, out=np.full_like(won, 0.5), where=meet > 0.0)
+        found[name] = Meeting(first, second, meet, p)
     return found
 
 
@@ -88,7 +94,7 @@ def group_meetings(bracket: Bracket, chances: Chances) -> dict[str, Meeting]:
         for name, pair in zip(group.matches, group.pairs, strict=True):
             one, other = (np.array([player], dtype=np.int16) for player in pair)
             p = chances.of(name)[one, other]
-            found[name] = Meeting(one, other, np.ones(1), p if p.ndim == 1 else p.mean(axis=1))
+            found[name] = Meeting(one, other, np.ones(p.shape), p)
     return found
 
 
@@ -124,7 +130,7 @@ def meetings_so_far(now: Standing) -> dict[str, Meeting]:
 def place_law(
     bracket: Bracket, meetings: Mapping[str, Meeting], ranks: Mapping[str, Floats]
 ) -> Floats:
-    """Return P(each player has each place), shape (players, places).
+    """Return P(each player has each place), shape (players, places) or (players, places, draws).
 
     Parameters
     ----------
@@ -136,30 +142,38 @@ def place_law(
         for each group that counts, ranks[i, k] = P(member i has rank k, from 0 on).
     """
     column = {place: k for k, place in enumerate(bracket.places)}
-    law = np.zeros((len(bracket.players), len(column)))
+    draws = [part.probability.shape[1:] for part in meetings.values()]
+    draws += [part.shape[2:] for part in ranks.values()]
+    shape = max(draws, default=())
+    law = np.zeros((len(bracket.players), len(column), *shape))
     in_group = {name for group in bracket.groups for name in group.matches}
     going = goes_on(bracket)
     for match in bracket.matches:
         if match.name in meetings and match.name not in in_group:
-            _add_places(law, column, match, meetings[match.name], going[match.name])
+            add_places(law, column, match, going[match.name], meetings[match.name])
     for group in bracket.groups:
         for rank, place in enumerate(group.places):
             if place is not None and group.name in ranks and rank < len(group.members):
-                law[list(group.members), column[place]] += ranks[group.name][:, rank]
+                share = ranks[group.name][:, rank]
+                more = share.shape[1:] or (1,) * len(shape)
+                law[list(group.members), column[place]] += share.reshape(len(share), *more)
     return law
 
 
-def _add_places(
-    law: Floats, column: dict[Place, int], match: Match, meeting: Meeting, going: GoesOn
+def add_places(
+    law: Floats, column: Mapping[Place, int], match: Match, going: GoesOn, meeting: Meeting
 ) -> None:
+    """Add to a law of places what a match decides: whoever does not go on has a place."""
     won = meeting.probability * meeting.first_wins
     lost = meeting.probability - won
-    leaving = (
+    for place, on, players, mass in (
         (match.winner_place, going.winner[0], meeting.first, won),
         (match.winner_place, going.winner[1], meeting.second, lost),
         (match.loser_place, going.loser[0], meeting.first, lost),
         (match.loser_place, going.loser[1], meeting.second, won),
-    )
-    for place, on, players, chance in leaving:
+    ):
         if place is not None and not on:
-            law[:, column[place]] += np.bincount(players, chance, len(law))
+            added = summed(players.astype(np.int32), mass, len(law))
+            law[:, column[place]] += added.reshape(
+                len(law), *added.shape[1:] or [1] * (law.ndim - 2)
+            )

@@ -41,7 +41,7 @@ DRAWS = 10_000
 
 
 @dataclass(frozen=True, eq=False)
-class TitleOdds:
+class PlaceOdds:
     """Who finishes where.
 
     Parameters
@@ -51,19 +51,16 @@ class TitleOdds:
     p_place
         P(a player has a place), a row for each player and a column for each of
         `bracket.places`.
-    meetings
-        who meets whom in each match, with what chance.
-    draws
-        how often the first rounds were drawn; 0 where all is exact.
     error
         the standard errors of `p_place`; zeros where it is exact.
+    draws
+        how many draws by lot the odds are averaged over; 0 where they are exact.
     """
 
     bracket: Bracket
     p_place: Floats
-    meetings: Mapping[str, Meeting]
-    draws: int
     error: Floats
+    draws: int
 
     @property
     def exact(self) -> bool:
@@ -78,6 +75,32 @@ class TitleOdds:
     def place(self, place: Place) -> Floats:
         """Return P(each player has this place), one of `bracket.places`."""
         return self.p_place[:, self.bracket.places.index(place)]
+
+    def expected_prize(self, payouts: Sequence[float]) -> Floats:
+        """Return each player's expected prize.
+
+        Parameters
+        ----------
+        payouts
+            the money for first place, second, ...; places that are not played out share what
+            is paid for them equally.
+        """
+        return self.p_place @ prizes(self.bracket, payouts)
+
+
+@dataclass(frozen=True, eq=False)
+class TitleOdds(PlaceOdds):
+    """Who finishes where, and who meets whom.
+
+    Parameters
+    ----------
+    meetings
+        who meets whom in each match, with what chance.
+
+    The other parameters are those of `PlaceOdds`.
+    """
+
+    meetings: Mapping[str, Meeting]
 
     @property
     def p_second_final(self) -> float:
@@ -96,17 +119,6 @@ class TitleOdds:
         for meeting in self.meetings.values():
             np.add.at(table, (meeting.first, meeting.second), meeting.probability)
         return table + table.T
-
-    def expected_prize(self, payouts: Sequence[float]) -> Floats:
-        """Return each player's expected prize.
-
-        Parameters
-        ----------
-        payouts
-            the money for first place, second, ...; places that are not played out share what
-            is paid for them equally.
-        """
-        return self.p_place @ prizes(self.bracket, payouts)
 
 
 def prizes(bracket: Bracket, payouts: Sequence[float]) -> Floats:
@@ -233,7 +245,7 @@ def odds_now(
     meetings = meetings_so_far(now) | group_meetings(remaining, chances)
     meetings |= meetings_of_flow(plan, through)
     law = place_law(now.bracket, meetings, {**settled_ranks(now), **through.ranks})
-    return TitleOdds(now.bracket, law, _in_order(now.bracket, meetings), 0, np.zeros_like(law))
+    return TitleOdds(now.bracket, law, np.zeros_like(law), 0, _in_order(now.bracket, meetings))
 
 
 def _drawn(now: Standing, chances: Chances, draws: int, rng: np.random.Generator) -> TitleOdds:
@@ -247,7 +259,7 @@ def _drawn(now: Standing, chances: Chances, draws: int, rng: np.random.Generator
     certain = place_law(now.bracket, meetings, settled_ranks(now))
     meetings |= drawn.meetings
     law = certain + drawn.p_place
-    return TitleOdds(now.bracket, law, _in_order(now.bracket, meetings), drawn.draws, drawn.error)
+    return TitleOdds(now.bracket, law, drawn.error, drawn.draws, _in_order(now.bracket, meetings))
 
 
 def _in_order(bracket: Bracket, meetings: Mapping[str, Meeting]) -> dict[str, Meeting]:
