@@ -30,7 +30,9 @@ from evenbreak.tournaments.odds.play import PlayedOut, play_out
 _STATES_A_DRAW = 1e5
 """The estimate of joint states up to which the rest of a draw is exact."""
 
-_BATCHES = 40
+BATCHES = 40
+"""How many batches the draws come in."""
+
 _CELLS = 4_000_000
 """States times draws that are worked out at once."""
 
@@ -68,7 +70,7 @@ def drawn_odds(
     draws: int,
     rng: np.random.Generator,
     *,
-    batches: int = _BATCHES,
+    batches: int = BATCHES,
 ) -> DrawnOdds:
     """Return the odds of the matches still to be played.
 

@@ -19,7 +19,7 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.odds.backward import conditional
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
-from evenbreak.tournaments.odds.drawn import drawn_odds
+from evenbreak.tournaments.odds.drawn import BATCHES, drawn_odds
 from evenbreak.tournaments.odds.forward import flow
 from evenbreak.tournaments.odds.group_law import MOST_MATCHES
 from evenbreak.tournaments.odds.meetings import (
@@ -222,6 +222,7 @@ def odds_now(
     most_states: float = MOST_STATES,
     draws: int = DRAWS,
     rng: np.random.Generator | None = None,
+    batches: int = BATCHES,
 ) -> TitleOdds:
     """Return who finishes where, from where the tournament stands.
 
@@ -233,11 +234,13 @@ def odds_now(
         the chances of the matches still to be played.
     most_states, draws, rng
         as in `title_odds`.
+    batches
+        how many batches the draws come in.
     """
     remaining = now.remaining
     too_large = any(len(group.matches) > MOST_MATCHES for group in remaining.groups)
     if too_large or elimination_order(remaining).states > most_states:
-        return _drawn(now, chances, draws, rng or np.random.default_rng(0))
+        return _drawn(now, chances, draws, rng or np.random.default_rng(0), batches)
     plan = plan_of(remaining, tuple(now.assumed.items()))
     through = flow(plan, chances, keep=bool(now.assumed))
     if now.assumed:
@@ -248,13 +251,15 @@ def odds_now(
     return TitleOdds(now.bracket, law, np.zeros_like(law), 0, _in_order(now.bracket, meetings))
 
 
-def _drawn(now: Standing, chances: Chances, draws: int, rng: np.random.Generator) -> TitleOdds:
+def _drawn(
+    now: Standing, chances: Chances, draws: int, rng: np.random.Generator, batches: int
+) -> TitleOdds:
     if now.assumed:
         raise InputError(
             f"results has {next(iter(now.assumed))!r}, whose players are not known yet; the odds "
             "of this bracket are drawn by lot, so give results of matches that can be played"
         )
-    drawn = drawn_odds(now, chances, draws, rng)
+    drawn = drawn_odds(now, chances, draws, rng, batches=batches)
     meetings: dict[str, Meeting] = meetings_so_far(now)
     certain = place_law(now.bracket, meetings, settled_ranks(now))
     meetings |= drawn.meetings
