@@ -45,6 +45,7 @@ def play_out(
     runs: int,
     *,
     only: Collection[str] | None = None,
+    given: Mapping[str, NDArray[np.bool_]] | None = None,
 ) -> PlayedOut:
     """Play a bracket out.
 
@@ -64,6 +65,8 @@ def play_out(
         how often.
     only
         play these matches and groups; they are all that feed them too. None: all.
+    given
+        for matches whose result is drawn elsewhere, whether slot 1's player wins in each run.
 
     Notes
     -----
@@ -93,21 +96,30 @@ def play_out(
         if only is not None and match.name not in only:
             continue
         one, other = seated(match.slots[0]), seated(match.slots[1])
-        won = luck < chances.of(match.name)[one, other]
+        if given is not None and match.name in given:
+            won = given[match.name]
+        else:
+            won = luck < chances.of(match.name)[one, other]
         first[match.name], second[match.name], first_won[match.name] = one, other, won
-        winner, loser = np.where(won, one, other), np.where(won, other, one)
         for slot in outlets.get(match.name, ()):
-            player = winner if slot.outcome == "winner" else loser
-            if slot.via is not None:
-                sat_in_1 = won if slot.outcome == "winner" else ~won
-                player = np.where(sat_in_1 == (slot.via == 1), player, nobody).astype(np.int16)
-            sent[slot] = player
+            sent[slot] = _sent_on(slot, one, other, won, nobody)
         if match.name in last_of_group:
             group = last_of_group[match.name]
             order[group.name] = _ordered(group, first_won, rng)
             for slot in outlets.get(group.name, ()):
                 sent[slot] = order[group.name][:, int(slot.outcome) - 1]
     return PlayedOut(first, second, first_won, sent, order)
+
+
+def _sent_on(
+    slot: Source, one: Players, other: Players, won: NDArray[np.bool_], nobody: int
+) -> Players:
+    """Return who comes from a match to a slot that waits for its winner or loser."""
+    from_1 = won if slot.outcome == "winner" else ~won
+    player = np.where(from_1, one, other)
+    if slot.via is not None:
+        player = np.where(from_1 == (slot.via == 1), player, nobody)
+    return player.astype(np.int16)
 
 
 def spread_evenly(rng: np.random.Generator, runs: int) -> Floats:
