@@ -27,9 +27,8 @@ from evenbreak.tournaments.brackets.standing import standing
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
 from evenbreak.tournaments.odds.forward import flow
 from evenbreak.tournaments.odds.meetings import group_meetings, meetings_of_flow, place_law
-from evenbreak.tournaments.odds.order import elimination_order
-from evenbreak.tournaments.odds.plan import plan_of
-from evenbreak.tournaments.odds.title import MOST_STATES, PlaceOdds, odds_now
+from evenbreak.tournaments.odds.plan import exact_plan
+from evenbreak.tournaments.odds.title import PlaceOdds, odds_now
 
 _MOST_PLAYERS = 16
 _FEW_DRAWS = 5040
@@ -195,12 +194,12 @@ def _permutations(count: int) -> Iterator[tuple[int, ...]]:
 
 def _laws(bracket: Bracket, chances: Chances, orders: Ints) -> Iterator[Floats]:
     """Yield the places of the players, for some draws at a time; the last axis is draws."""
-    if elimination_order(bracket).states > MOST_STATES:
+    plan = exact_plan(bracket)
+    if plan is None:
         for order in orders:
             law = odds_now(standing(bracket), _seated(chances, order[:, None])).p_place
             yield law[np.argsort(order)][:, :, None]
         return
-    plan = plan_of(bracket)
     at_once = max(1, _CELLS // max(step.size for step in plan.steps))
     for start in range(0, len(orders), at_once):
         seated = orders[start : start + at_once].T

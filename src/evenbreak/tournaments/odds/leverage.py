@@ -18,7 +18,7 @@ from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, s
 from evenbreak.tournaments.odds.backward import Worth, worth
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
 from evenbreak.tournaments.odds.forward import Flow, flow
-from evenbreak.tournaments.odds.group_law import MOST_MATCHES, rank_laws
+from evenbreak.tournaments.odds.group_law import rank_laws
 from evenbreak.tournaments.odds.meetings import (
     goes_on,
     group_meetings,
@@ -27,12 +27,11 @@ from evenbreak.tournaments.odds.meetings import (
     place_law,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.order import elimination_order
-from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan, plan_of
+from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan, exact_plan
 from evenbreak.tournaments.odds.title import prizes
 
-MOST_STATES = 5e6
-"""The estimate of joint states up to which leverages are worked out."""
+MOST_STATES = 2e7
+"""How many joint states times players one match may have for leverages to be worked out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,10 +97,8 @@ def leverages(
     F None None [0.25 0.25 0.25 0.25]
     """
     now = standing(bracket, results)
-    remaining = now.remaining
-    _check(now, remaining)
+    plan = _plan(now)
     chances = chances_of(now, win, live=live, walkovers=walkovers)
-    plan = plan_of(remaining)
     through = flow(plan, chances, keep=True)
     title = [float(place == Place(1, 1)) for place in bracket.places]
     value = np.array(title) if payouts is None else prizes(bracket, payouts)
@@ -111,21 +108,22 @@ def leverages(
     expected = _expected(now, plan, chances, through, value)
     return [
         _lever(now, chances, name, found[name], through, expected)
-        for name in (match.name for match in remaining.matches)
+        for name in (match.name for match in plan.bracket.matches)
         if name not in now.winners
     ]
 
 
-def _check(now: Standing, remaining: Bracket) -> None:
+def _plan(now: Standing) -> Plan:
     if now.assumed:
         name = next(iter(now.assumed))
         raise InputError(f"results has {name!r}; give results of matches whose players are known")
-    too_large = any(len(group.matches) > MOST_MATCHES for group in remaining.groups)
-    if too_large or elimination_order(remaining).states > MOST_STATES:
+    plan = exact_plan(now.remaining, (), MOST_STATES / len(now.bracket.players))
+    if plan is None:
         raise InputError(
             "bracket is too large for leverages at this point; ask again after a few results, or "
             "compare title_odds with and without a result"
         )
+    return plan
 
 
 def _expected(now: Standing, plan: Plan, chances: Chances, through: Flow, value: Floats) -> Floats:

@@ -7,6 +7,7 @@ so far, not on the chances, so that one plan serves many draws of ratings.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple, TypeAlias
@@ -16,12 +17,16 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Source
-from evenbreak.tournaments.odds.group_law import rank_states
+from evenbreak.tournaments.odds.group_law import MOST_MATCHES, rank_states
 from evenbreak.tournaments.odds.order import elimination_order
 
 Players: TypeAlias = NDArray[np.int16]
 Index: TypeAlias = NDArray[np.int32]
 
+MOST_STATES = 1e7
+"""How many joint states one match may have before it: some hundred megabytes."""
+
+_PESSIMISM = 30.0  # the estimate may be so many times the states that there are
 _SPARE = 8  # a table of all keys is used if it is at most this much longer than the keys
 
 
@@ -148,9 +153,8 @@ class _Table(NamedTuple):
     columns: dict[Source, Players]
 
 
-@lru_cache(maxsize=8)
 def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan:
-    """Return the plan of a bracket.
+    """Return the plan of a bracket, however many states it has.
 
     Parameters
     ----------
@@ -164,6 +168,34 @@ def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan
     >>> [(step.name, step.size) for step in plan.steps]
     [('W1.1', 2), ('W1.2', 2), ('L1.1', 8), ('W2.1', 16), ('L2.1', 12), ('F', 13), ('F2', 1)]
     """
+    plan = exact_plan(bracket, assumed, math.inf)
+    assert plan is not None  # noqa: S101 - nothing is too many
+    return plan
+
+
+@lru_cache(maxsize=16)
+def exact_plan(
+    bracket: Bracket,
+    assumed: tuple[tuple[str, int], ...] = (),
+    most_states: float = MOST_STATES,
+) -> Plan | None:
+    """Return the plan of a bracket, or None if it would take too many states.
+
+    It is refused at once if the estimate is far beyond, and otherwise before the first law
+    that would be too large: so many states of one match, or three times as many of all.
+
+    Parameters
+    ----------
+    bracket, assumed
+        as in `plan_of`.
+    most_states
+        how many joint states one match may have before it.
+    """
+    if any(len(group.matches) > MOST_MATCHES for group in bracket.groups):
+        return None
+    order = elimination_order(bracket)
+    if order.states > _PESSIMISM * most_states:
+        return None
     outlets: dict[str, list[Source]] = {}
     for match in bracket.matches:
         for slot in match.slots:
@@ -173,13 +205,18 @@ def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan
     results = dict(assumed)
     steps: list[Step] = []
     home: dict[Source, _Table] = {}
-    for name in elimination_order(bracket).names:
+    total = 0
+    for name in order.names:
         step: Step
         if name in groups:
             step = _group_step(groups[name], outlets.get(name, []))
         else:
             match = bracket.by_name[name]
             tables = _tables(match, home)
+            states = math.prod(table.size for table in tables)
+            total += states
+            if states > most_states or total > 3.0 * most_states:
+                return None
             step = _match_step(bracket, match, tables, outlets.get(name, []), results.get(name))
         table = _Table(len(steps), step.size, dict(zip(step.slots, step.columns, strict=True)))
         home.update(dict.fromkeys(step.slots, table))

@@ -17,13 +17,11 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, standing
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
 from evenbreak.tournaments.odds.forward import gathered, group_law, joined, split
-from evenbreak.tournaments.odds.group_law import MOST_MATCHES
-from evenbreak.tournaments.odds.order import elimination_order
-from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan, plan_of
+from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan, exact_plan
 from evenbreak.tournaments.odds.play import play_out
 
-MOST_STATES = 3e6
-"""The estimate of joint states up to which rematches are exact."""
+MOST_STATES = 5e5
+"""How many joint states one match may have for rematches to be exact."""
 
 _RUNS, _BATCHES = 40_000, 20
 
@@ -83,10 +81,10 @@ def expected_rematches(
     equal = np.full((len(bracket.players), len(bracket.players)), 0.5)
     chances = chances_of(now, equal if win is None else win)
     remaining = now.remaining
-    too_large = any(len(group.matches) > MOST_MATCHES for group in remaining.groups)
-    if too_large or elimination_order(remaining).states > MOST_STATES:
+    plan = exact_plan(remaining, (), MOST_STATES)
+    if plan is None:
         return _played_out(now, chances, rng or np.random.default_rng(0))
-    again = _met_again(plan_of(remaining), chances, _met_so_far(now))
+    again = _met_again(plan, chances, _met_so_far(now))
     return Rematches({name: p for name, p in again.items() if name != "F2"}, 0.0)
 
 

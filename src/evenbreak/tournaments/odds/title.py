@@ -21,7 +21,6 @@ from evenbreak.tournaments.odds.backward import conditional
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
 from evenbreak.tournaments.odds.drawn import BATCHES, drawn_odds
 from evenbreak.tournaments.odds.forward import flow
-from evenbreak.tournaments.odds.group_law import MOST_MATCHES
 from evenbreak.tournaments.odds.meetings import (
     Meeting,
     group_meetings,
@@ -30,14 +29,13 @@ from evenbreak.tournaments.odds.meetings import (
     place_law,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.order import elimination_order
-from evenbreak.tournaments.odds.plan import plan_of
-
-MOST_STATES = 2e7
-"""The estimate of joint states up to which odds are exact."""
+from evenbreak.tournaments.odds.plan import MOST_STATES, exact_plan
 
 DRAWS = 10_000
 """How often the first rounds are drawn where they are."""
+
+WALKOVERS = 0.047
+"""The part of real double-elimination matches that is not played (one city, 2017-2025)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,10 +173,10 @@ def title_odds(
         the chance of the player in slot 1, for matches under way.
     walkovers
         the chance that a match is a walkover, won by either player as likely: one for all, or by
-        the match's name. Of real double-elimination matches 4.7 % are.
+        the match's name; see `WALKOVERS`.
     most_states
-        how many joint states may be open, by estimate, before the first rounds are drawn
-        by lot instead.
+        how many joint states of open slots one match may have; beyond that the first rounds
+        are drawn by lot instead.
     draws
         how often they are drawn then.
     rng
@@ -238,10 +236,9 @@ def odds_now(
         how many batches the draws come in.
     """
     remaining = now.remaining
-    too_large = any(len(group.matches) > MOST_MATCHES for group in remaining.groups)
-    if too_large or elimination_order(remaining).states > most_states:
+    plan = exact_plan(remaining, tuple(now.assumed.items()), most_states)
+    if plan is None:
         return _drawn(now, chances, draws, rng or np.random.default_rng(0), batches)
-    plan = plan_of(remaining, tuple(now.assumed.items()))
     through = flow(plan, chances, keep=bool(now.assumed))
     if now.assumed:
         through = conditional(plan, chances, through)

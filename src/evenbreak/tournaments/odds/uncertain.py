@@ -19,7 +19,6 @@ from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
 from evenbreak.tournaments.odds.forward import flow
-from evenbreak.tournaments.odds.group_law import MOST_MATCHES
 from evenbreak.tournaments.odds.meetings import (
     Meeting,
     averaged,
@@ -29,12 +28,12 @@ from evenbreak.tournaments.odds.meetings import (
     place_law,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.order import elimination_order
-from evenbreak.tournaments.odds.plan import plan_of
-from evenbreak.tournaments.odds.title import MOST_STATES, TitleOdds, odds_now
+from evenbreak.tournaments.odds.plan import Plan, exact_plan
+from evenbreak.tournaments.odds.title import TitleOdds, odds_now
 
 _CELLS = 4_000_000
 _DRAWS_EACH = 100
+_MOST_STATES = 1e6
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,14 +107,14 @@ def over_ratings(
         chances_of(now, win_of(row), live=live, walkovers=walkovers) for row in (mean, *drawn)
     ]
     remaining = now.remaining
-    too_large = any(len(group.matches) > MOST_MATCHES for group in remaining.groups)
+    plan = exact_plan(remaining, (), _MOST_STATES)
     sure = odds_now(now, tables[0], rng=rng)
-    if too_large or elimination_order(remaining).states > MOST_STATES:
+    if plan is None:
         each = [odds_now(now, part, draws=_DRAWS_EACH, rng=rng, batches=2) for part in tables[1:]]
         laws = np.stack([odds.p_place for odds in each], axis=2)
         meetings = sure.meetings
     else:
-        laws, meetings = _exactly(now, remaining, tables[1:])
+        laws, meetings = _exactly(now, plan, tables[1:])
     of_pair = laws.reshape(*laws.shape[:2], 2, pairs).mean(axis=2)
     error = of_pair.std(axis=2, ddof=1) / np.sqrt(pairs)
     odds = TitleOdds(bracket, laws.mean(axis=2), error, 2 * pairs, meetings)
@@ -143,11 +142,8 @@ def _errors(spread: ArrayLike, players: int, pairs: int, rng: np.random.Generato
     return np.concatenate([errors, -errors])
 
 
-def _exactly(
-    now: Standing, remaining: Bracket, tables: list[Chances]
-) -> tuple[Floats, dict[str, Meeting]]:
+def _exactly(now: Standing, plan: Plan, tables: list[Chances]) -> tuple[Floats, dict[str, Meeting]]:
     """Return the places for each draw, and the meetings averaged over them."""
-    plan = plan_of(remaining)
     at_once = max(1, _CELLS // max((step.size for step in plan.steps), default=1))
     laws: list[Floats] = []
     sums: dict[str, Meeting] = {}
@@ -155,7 +151,7 @@ def _exactly(
         part = tables[start : start + at_once]
         chances = _stacked(part)
         through = flow(plan, chances)
-        meetings = meetings_of_flow(plan, through) | group_meetings(remaining, chances)
+        meetings = meetings_of_flow(plan, through) | group_meetings(plan.bracket, chances)
         certain = meetings_so_far(now)
         ranks = {**settled_ranks(now), **through.ranks}
         law = place_law(now.bracket, {**certain, **meetings}, ranks)
