@@ -65,6 +65,7 @@ from .odds.races import MatchLaw as MatchLaw
 from .odds.races import Races as Races
 from .odds.races import chances_given as chances_given
 from .odds.races import match_laws as match_laws
+from .odds.redraws import redraw_odds as redraw_odds
 from .odds.rematches import Rematches as Rematches
 from .odds.rematches import expected_rematches as expected_rematches
 from .odds.swiss_odds import SwissOdds as SwissOdds

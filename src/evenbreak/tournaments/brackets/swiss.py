@@ -56,7 +56,7 @@ class Swiss:
         how many rounds are played.
     system
         how rounds are paired: 'dutch' by the rules of chess (FIDE C.04.3), or 'casual', which
-        is simpler and a hundred times as fast.
+        is simpler, a hundred times as fast, and now and then lets two players meet again.
     """
 
     players: tuple[str, ...]

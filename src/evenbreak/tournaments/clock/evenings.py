@@ -183,7 +183,7 @@ def _under_way(
         raise InputError(f"{match.match} started at {match.started:g}; it is {clock:g} now")
     ends = np.concatenate([laws[match.match].ends[one, other], laws[match.match].ends[other, one]])
     games = np.tile(np.arange(len(ends) // 2), 2)
-    median = evening[:, None] * (pace.overhead + pace.per_game * games)
+    median = evening[:, None] * np.maximum(pace.overhead + pace.per_game * games, 1e-9)
     with np.errstate(divide="ignore"):
         passed = np.log(elapsed / median) / max(pace.match_sd, 1e-9)
     lasts = ndtr(-passed)  # P(it takes longer than it has)

@@ -8,8 +8,10 @@ so far, not on the chances, so that one plan serves many draws of ratings.
 from __future__ import annotations
 
 import math
+from collections import OrderedDict
+from collections.abc import Hashable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -27,6 +29,7 @@ MOST_STATES = 1e7
 """How many joint states one match may have before it: some hundred megabytes."""
 
 _PESSIMISM = 30.0  # the estimate may be so many times the states that there are
+_MOST_KEPT = 2_000_000  # states of the plans that are kept, beside the last
 _SPARE = 8  # a table of all keys is used if it is at most this much longer than the keys
 
 
@@ -173,7 +176,9 @@ def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan
     return plan
 
 
-@lru_cache(maxsize=16)
+_KEPT: OrderedDict[Hashable, Plan | None] = OrderedDict()
+
+
 def exact_plan(
     bracket: Bracket,
     assumed: tuple[tuple[str, int], ...] = (),
@@ -190,7 +195,25 @@ def exact_plan(
         as in `plan_of`.
     most_states
         how many joint states one match may have before it.
+
+    Plans are kept for the next question, as many as there is room for.
     """
+    question = bracket, assumed, most_states
+    if question not in _KEPT:
+        _KEPT[question] = _worked_out(bracket, assumed, most_states)
+        while len(_KEPT) > 1 and (len(_KEPT) > 64 or _kept_states() > _MOST_KEPT):
+            _KEPT.popitem(last=False)
+    _KEPT.move_to_end(question)
+    return _KEPT[question]
+
+
+def _kept_states() -> int:
+    return sum(plan.states for plan in _KEPT.values() if plan)
+
+
+def _worked_out(
+    bracket: Bracket, assumed: tuple[tuple[str, int], ...], most_states: float
+) -> Plan | None:
     if any(len(group.matches) > MOST_MATCHES for group in bracket.groups):
         return None
     order = elimination_order(bracket)

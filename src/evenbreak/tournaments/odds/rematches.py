@@ -20,7 +20,7 @@ from evenbreak.tournaments.odds.forward import gathered, group_law, joined, spli
 from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan, exact_plan
 from evenbreak.tournaments.odds.play import play_out
 
-MOST_STATES = 5e5
+MOST_STATES = 1.5e6
 """How many joint states one match may have for rematches to be exact."""
 
 _RUNS, _BATCHES = 40_000, 20
