@@ -1,5 +1,10 @@
 """Sphinx settings: MyST pages, autodoc for the interface, furo."""
 
+import ast
+from pathlib import Path
+
+from sphinx.util.docutils import SphinxDirective
+
 import evenbreak
 
 project = "evenbreak"
@@ -26,7 +31,7 @@ napoleon_attr_annotations = False
 # A docstring's words in single backquotes are code.
 default_role = "literal"
 nitpicky = False
-# Many classes have a field `games`: where one is named, no other is meant.
+# Many classes have a field `games`; a class that names its own means no other.
 suppress_warnings = ["ref.python"]
 
 html_theme = "furo"
@@ -34,14 +39,35 @@ html_title = f"evenbreak {release}"
 html_static_path: list[str] = []
 
 
+class Room(SphinxDirective):
+    """`{room} games`: the public names of a room, module by module, as its stub lists them."""
+
+    required_arguments = 1
+
+    def run(self) -> list:
+        """Return the documentation of each module with the names that are public."""
+        [room] = self.arguments
+        stub = Path(evenbreak.__file__).parent / room / "__init__.pyi"
+        self.env.note_dependency(str(stub))
+        public: dict[str, list[str]] = {}
+        for line in ast.parse(stub.read_text("utf-8")).body:
+            names = [alias.name for alias in line.names]
+            public.setdefault(line.module, []).extend(names)
+        text = "\n".join(
+            f".. automodule:: evenbreak.{room}.{module}\n   :members: {', '.join(names)}\n"
+            for module, names in public.items()
+        )
+        return self.parse_text_to_nodes(f"```{{eval-rst}}\n{text}```\n")
+
+
 FIELDS = {"Parameters", "Attributes", "Returns", "Yields", "Raises"}
 
 
 def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
-    """Rewrite a docstring where napoleon would misread it.
+    """Rewrite docstrings that napoleon would misread.
 
-    It takes `a: b` in the first line of an attribute for a type, and a paragraph or examples that
-    follow a section of fields for one more field.
+    It reads `a: b` in the first line of an attribute as a type, and a paragraph or an example
+    after a section of fields as one more field.
     """
     if what in {"attribute", "data", "property"}:
         lines[:0] = ["..", ""]
@@ -60,5 +86,6 @@ def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
 
 
 def setup(app) -> None:
-    """Run before napoleon does, whose priority is 500."""
+    """Add the directive, and run `prepare` before napoleon, whose priority is 500."""
+    app.add_directive("room", Room)
     app.connect("autodoc-process-docstring", prepare, priority=100)

@@ -87,7 +87,7 @@ def test_a_game_that_is_over_has_one_terminal_state() -> None:
 def test_the_most_states() -> None:
     race = Race(3, 3, Rack(0.5))
     assert len(graph_of(race, max_states=15)) == 15
-    with pytest.raises(GameError, match="more than 14 states; is its graph finite"):
+    with pytest.raises(GameError, match="more than 14 states"):
         graph_of(race, max_states=14)
 
 
@@ -125,5 +125,5 @@ def test_a_sum_that_misses_one_by_rounding_is_a_probability() -> None:
 
 
 def test_what_is_no_game_is_refused() -> None:
-    with pytest.raises(GameError, match=r"Rack\(p1=0\.5, p2=None\) is no game"):
+    with pytest.raises(GameError, match=r"Rack\(p1=0\.5, p2=None\) is not a game"):
         graph_of(Rack(0.5))  # type: ignore[arg-type]

@@ -9,8 +9,7 @@ from pathlib import Path
 import networkx as nx
 from matplotlib.figure import Figure
 
-from evenbreak.answers.fair_pairs import RaceLimits, matchups_frame, most_active
-from evenbreak.answers.frames import ratings_frame
+from evenbreak.answers import OfferedRaces, Sheet, most_active
 from evenbreak.files.results import read_results
 from evenbreak.games import Ahead, OneBall, Race, Rack
 from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling
@@ -20,7 +19,7 @@ from evenbreak.plots.diagram import draw, image_bytes
 from evenbreak.plots.ladders import SettlingCurve, ladder_figure
 from evenbreak.plots.traced_shot import shot_on_table
 from evenbreak.ratings import fit
-from evenbreak.sheets.pdf_sheet import sheet_pages
+from evenbreak.sheets import sheet_pages
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE.parents[1] / "data" / "demo_league.csv"
@@ -39,9 +38,8 @@ def sheet() -> Figure:
     """Draw the page that `evenbreak report` writes for the demo league."""
     file = read_results(RESULTS)
     ratings = fit(file.results)
-    limits = RaceLimits(race_to=7)
-    paired = matchups_frame(ratings, most_active(ratings, 10), limits)
-    (page,) = sheet_pages(file, ratings, limits, ratings_frame(ratings), paired)
+    sheet = Sheet.of(file, ratings, OfferedRaces(race_to=7), most_active(ratings, 10))
+    (page,) = sheet_pages(sheet)
     return page
 
 

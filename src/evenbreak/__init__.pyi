@@ -12,9 +12,9 @@ from . import ratings as ratings
 from . import sheets as sheets
 from . import source_text as source_text
 from . import stats as stats
+from .chains.absorption import absorption as absorption
+from .chains.absorption import expected_visits as expected_visits
 from .chains.explore import chain_of as chain_of
-from .chains.limits import absorption as absorption
-from .chains.limits import expected_visits as expected_visits
 from .chains.limits import limit_matrix as limit_matrix
 from .chains.limits import stochastic_limit as stochastic_limit
 from .chains.mixing import mixing_time as mixing_time
@@ -68,7 +68,7 @@ from .matches.win import win_probability as win_probability
 from .practice.breaks import compare_break_formats as compare_break_formats
 from .practice.drills import drill_statistics as drill_statistics
 from .practice.log_analysis import analyse_log as analyse_log
-from .practice.shots import Shot as Shot
+from .practice.shots import ShotChoice as ShotChoice
 from .practice.shots import compare_shots as compare_shots
 from .ratings.fit import fit as fit
 from .ratings.prior import best_prior as best_prior

@@ -1,8 +1,8 @@
-"""What can go wrong, as a small hierarchy.
+"""The errors that this package raises, as a small hierarchy.
 
-Every error says what was wrong, where, and how to mend it. All of them are
-`EvenbreakError`; those that a wrong value causes are also `ValueError`, so that
-code which knows nothing of this package catches them too.
+Every message says what was wrong, where, and how to correct it. All of them are
+`EvenbreakError`; those caused by a wrong value are also `ValueError`, so that code which
+knows nothing of this package catches them too.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Iterable
 
 
 class EvenbreakError(Exception):
-    """Base of every error that this package raises on purpose."""
+    """The base of every error that this package raises on purpose."""
 
 
 class InputError(EvenbreakError, ValueError):
@@ -23,19 +23,19 @@ class GameError(EvenbreakError, ValueError):
 
 
 class ChainError(EvenbreakError, ValueError):
-    """Arcs or a matrix are not a Markov chain, or a question does not apply to this one."""
+    """Arcs or a matrix do not make a Markov chain, or the question does not apply to it."""
 
 
 class AccuracyError(EvenbreakError, ArithmeticError):
-    """The answer cannot be vouched for by the method asked for."""
+    """The method asked for cannot guarantee the accuracy of the answer."""
 
 
 class WorkerError(EvenbreakError, RuntimeError):
-    """Those who were to do the work, processes or a cluster, cannot be reached or are gone."""
+    """The processes or the cluster that should do the work cannot be reached or have stopped."""
 
 
 class DataError(EvenbreakError, ValueError):
-    """A file cannot be used; `problems` lists all that is wrong with it, a line each.
+    """A file cannot be used; `problems` lists everything that is wrong with it, one line each.
 
     >>> error = DataError(["r.csv:2: score_a 'x' is not a whole number; write 0, 1, 2, ..."])
     >>> error.problems
@@ -44,4 +44,7 @@ class DataError(EvenbreakError, ValueError):
 
     def __init__(self, problems: Iterable[str]) -> None:
         self.problems = tuple(problems)
-        super().__init__("\n".join(self.problems))
+        super().__init__(self.problems)  # what a copy in another process is made from
+
+    def __str__(self) -> str:
+        return "\n".join(self.problems)

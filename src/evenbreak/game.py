@@ -1,9 +1,9 @@
 """What a game is, and its diagram.
 
-A game is a directed graph that is described rather than stored: where it starts,
-what can come next with what probability, and who has won where nothing more can
-come. Any object that answers these three is a game; so is any `networkx.DiGraph`
-whose arcs carry a `probability`.
+A game is a directed graph that is described rather than stored: where it starts, what can
+happen next and with what probability, and who has won once it is over. Any object that
+answers these three questions is a game, and so is any `networkx.DiGraph` whose arcs carry
+a `probability`.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ if TYPE_CHECKING:
     import networkx as nx
     from numpy.typing import NDArray
 
-_ONE = 1.0 + 1e-9  # a sum of chances may miss 1 by rounding
+_ONE = 1.0 + 1e-9  # a sum of probabilities may miss 1 by rounding
 
 State: TypeAlias = Hashable
-"""A situation of a game: a small tuple, string or number that prints well."""
+"""A situation in a game: a small tuple, string or number that prints well."""
 
 
 @runtime_checkable
 class Game(Protocol):
-    """Anything that says where it starts, what can come next, and who has won."""
+    """Anything that says where it starts, what can happen next, and who has won."""
 
     @property
     def start(self) -> Any:
@@ -33,21 +33,21 @@ class Game(Protocol):
         ...
 
     def moves(self, state: Any) -> Mapping[Any, float]:
-        """Return the probability of each next state, given `state`; empty where it is over."""
+        """Return the probability of each next state, given `state`; empty if the game is over."""
         ...
 
     def winner(self, state: Any) -> int | None:
-        """Return who has won in `state`: 1, 2, or None for nobody (yet)."""
+        """Return who has won in `state`: 1, 2, or None."""
         ...
 
 
 class ArcArrays(NamedTuple):
-    """The arcs of a game as arrays, for games of many states.
+    """The arcs of a game as arrays, for games with many states.
 
-    `sources[k]`, `targets[k]` are positions in `states`; `probabilities[k]` > 0 is the
-    probability of the target, given the source. States without arcs are terminal. A
-    game may offer a method `arcs()` that returns these, or None for "walk my moves";
-    its states are then the start and all that can be reached from it.
+    `sources[k]` and `targets[k]` are positions in `states`; `probabilities[k]` > 0 is the
+    probability of the target, given the source. States without arcs are terminal. A game
+    may have a method `arcs()` that returns these, for the start and every state that can
+    be reached from it, or None if its moves have to be walked.
     """
 
     states: Sequence[Any]
@@ -62,12 +62,12 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     Parameters
     ----------
     game
-        the game: its own arrays are taken where it offers them, its moves are walked
-        breadth-first where not. Moves of probability zero are left out.
+        the game. If it has arrays of its own, these are used; otherwise its moves are
+        walked breadth-first. Moves of probability zero are left out.
     start
-        the state to start from; the game's own if None.
+        the state to start from; None: the game's own start.
     max_states
-        give up beyond this many states: the game may be endless.
+        give up beyond this many states; the game may be endless.
 
     Returns
     -------
@@ -77,8 +77,8 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     Raises
     ------
     GameError
-        if `game` is none, more than `max_states` states can be reached, a probability is
-        not a number from 0 to 1, or a state has moves of which none has a chance.
+        if `game` is not a game, more than `max_states` states can be reached, a probability
+        is not a number from 0 to 1, or all moves from a state have probability zero.
 
     >>> from evenbreak.games import Rack, Race
     >>> arcs = arcs_of(Race(2, 1, Rack(0.75)))
@@ -92,7 +92,7 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     2 4 0.75
     """
     if not hasattr(game, "moves"):
-        raise GameError(f"{game!r} is no game; give an object with start, moves and winner")
+        raise GameError(f"{game!r} is not a game; give an object with start, moves and winner")
     offer = getattr(game, "arcs", None)
     if offer is not None and (start is None or start == game.start):
         arcs: ArcArrays | None = offer()
@@ -129,8 +129,8 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
                 raise _no_chance(state, target, chance)
         if moves and len(targets) == before:
             raise GameError(
-                f"no move from {state!r} has a chance; "
-                "give probabilities that sum to 1, or no moves where the game is over"
+                f"every move from {state!r} has probability 0; "
+                "give probabilities that sum to 1, or no moves if the game is over"
             )
         arc_counts.append(len(targets) - before)
         if len(states) > max_states:
@@ -151,8 +151,7 @@ def _no_chance(state: Any, target: Any, chance: Any) -> GameError:
 
 def _too_many(max_states: int) -> GameError:
     return GameError(
-        f"the game has more than {max_states} states; is its graph finite? "
-        "raise max_states if it is"
+        f"the game has more than {max_states} states; raise max_states if its graph is finite"
     )
 
 
@@ -161,14 +160,14 @@ def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
 
     Arcs carry `probability` (of the target, given the source); nodes carry `kind`
     ('start', 'transient' or 'terminal') and `winner` (1, 2 or None). Moves of
-    probability zero are left out. A start that is itself terminal is 'terminal'.
+    probability zero are left out. If the game is over at its start, the start is 'terminal'.
 
     Parameters
     ----------
     game
-        the game to walk.
+        the game.
     max_states
-        give up beyond this many states: the game may be endless.
+        give up beyond this many states; the game may be endless.
 
     Raises
     ------
@@ -193,7 +192,7 @@ def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     graph.nodes[game.start]["kind"] = "start"
     for i in np.flatnonzero(arc_counts == 0).tolist():
         graph.nodes[states[i]].update(kind="terminal", winner=game.winner(states[i]))
-    # One call for all arcs and no list of triples: three times as fast as arc by arc.
+    # One call for all arcs, without a list of triples, is three times as fast.
     graph.add_weighted_edges_from(
         zip(
             map(states.__getitem__, arcs.sources.tolist()),

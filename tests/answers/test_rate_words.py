@@ -35,7 +35,7 @@ def test_words_tell_what_the_ratings_rest_on():
     choice = PriorChoice(ratings.prior_sd, (ratings.prior_sd, 1.0), (0.6, 0.7), 1200)
     assert rate_words(ratings, choice) == [
         "3 players, 2 matches with 21 games; left out: 1 forfeit, 1 at 0-0.",
-        "On an NPL-like scale (30 points double the odds of a game).",
+        "On an NPL-like scale (30 points double the odds).",
         "Before any result: standard deviation 30.0 points.",
         "Of 2 such deviations this one (the last tried) predicted 1,200 later results best.",
         "Anchored at A 90, B 80 on average.",

@@ -9,7 +9,7 @@ from scipy.sparse import csc_array
 
 import oracle
 from evenbreak.chains import Chain, stochastic_limit
-from evenbreak.chains.birth_death import line_law, line_of
+from evenbreak.chains.birth_death import birth_death_law, birth_death_of
 
 
 def random_line(draw):
@@ -34,7 +34,7 @@ def random_line(draw):
 def test_limit_from_every_state(seed):
     chain = random_line(random.Random(seed))
     columns = oracle.columns_of(chain)
-    assert chain.line is not None
+    assert chain.birth_death is not None
     for start in range(len(chain)):
         limit = stochastic_limit(chain, start)
         exact = oracle.limit(columns, {start: Fraction(1)})
@@ -48,7 +48,7 @@ def test_full_storage_is_read_as_it_is_and_other_storage_alike():
     matrix = csc_array(np.diag(up, -1) + np.diag(down, 1))
     with_loops = matrix + csc_array(np.diag(1.0 - matrix.sum(axis=0)))
     for given in (matrix, csc_array(with_loops)):
-        line = line_of(given)
+        line = birth_death_of(given)
         assert line is not None
         assert (line.up.tolist(), line.down.tolist()) == (up.tolist(), down.tolist())
 
@@ -63,11 +63,11 @@ def test_full_storage_is_read_as_it_is_and_other_storage_alike():
     ],
 )
 def test_what_is_no_line_is_not_taken_for_one(matrix):
-    assert line_of(csc_array(matrix)) is None
+    assert birth_death_of(csc_array(matrix)) is None
 
 
 def test_a_law_over_thousands_of_decades():
-    law = line_law(np.full(20_000, 1e-3), np.full(20_000, 0.5))
+    law = birth_death_law(np.full(20_000, 1e-3), np.full(20_000, 0.5))
     for k in (0, 1, 50, 110):
         assert law[k] == pytest.approx(float(Fraction(1, 500) ** k * Fraction(499, 500)), rel=1e-13)
     assert law[200] == 0.0
@@ -77,7 +77,7 @@ def test_a_valley_deeper_than_floats_between_two_heights():
     n = 200
     up, down = np.full(2 * n, 1e-3), np.full(2 * n, 0.5)
     up[n:], down[n:] = 0.5, 1e-3
-    law = line_law(up, down)
+    law = birth_death_law(up, down)
     assert law[0] == pytest.approx(0.499, rel=1e-13)
     assert law[-1] == pytest.approx(0.499, rel=1e-13)
     assert law[n] == 0.0

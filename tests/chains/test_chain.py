@@ -32,13 +32,21 @@ def test_a_start_is_a_state_a_mapping_an_array_or_the_chains_own(chain):
         ({"a": 1.5, "b": -0.5}, "start density of state 'b' is negative"),
         ({"x": 1.0}, "'x' is not in the chain"),
         (np.array([1.0, 0.0]), "give (3,)"),
-        (np.array([np.nan, 0.0, 1.0]), "sums to nan"),
+        (np.array([np.nan, 0.0, 1.0]), "start holds nan for state 'a'"),
     ],
 )
 def test_what_is_no_start_is_refused(chain, start, words):
     with pytest.raises(ChainError) as caught:
         chain.density(start)
     assert words in str(caught.value)
+
+
+def test_a_number_for_each_state(chain):
+    for given in (np.array([0, -2, 0]), {"b": -2}):
+        assert chain.vector(given, "rewards").tolist() == [0.0, -2.0, 0.0]
+    assert chain.vector("c", "weights").tolist() == [0.0, 0.0, 1.0]
+    with pytest.raises(ChainError, match="rewards holds inf for state 'b'"):
+        chain.vector({"b": np.inf}, "rewards")
 
 
 def test_a_chain_without_a_start_asks_for_one():

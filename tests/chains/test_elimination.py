@@ -1,4 +1,4 @@
-"""Elimination in plain Python, for floats, fractions and wider numbers."""
+"""Elimination in plain Python, for floats, fractions and decimal numbers."""
 
 from fractions import Fraction
 

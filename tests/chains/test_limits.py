@@ -1,4 +1,4 @@
-"""Limits, absorption, visits and stationary laws of whole chains, against exact arithmetic."""
+"""Limits of whole chains, against exact arithmetic."""
 
 import random
 from fractions import Fraction
@@ -16,7 +16,6 @@ from evenbreak.chains import (
     factorisation,
     limit_matrix,
     propagate,
-    stationary_laws,
     stochastic_limit,
 )
 from evenbreak.errors import AccuracyError, ChainError
@@ -117,84 +116,10 @@ def test_classes_out_of_reach_are_not_solved(monkeypatch):
         raise AssertionError("a class out of reach was factored")
 
     monkeypatch.setattr("evenbreak.chains.transient._FEW_ARCS", 0)
-    monkeypatch.setattr(factorisation, "WideElimination", fail)
+    monkeypatch.setattr(factorisation, "DecimalElimination", fail)
     assert stochastic_limit(chain, 71).probability[70:77] == pytest.approx(np.full(7, 1 / 7))
     with pytest.raises(AssertionError, match="out of reach"):
         stochastic_limit(chain, 77)
-
-
-def test_laws_of_all_closed_classes_stand_side_by_side():
-    matrix = np.array([[0.5, 0.25, 0], [0.5, 0.75, 0], [0, 0, 1.0]])
-    chain = Chain(range(3), csc_array(matrix))
-    assert stationary_laws(chain) == pytest.approx([1 / 3, 2 / 3, 1.0])
-
-
-def two_step_walk(n, up, down, shuffle):
-    """Return a walk by one and two steps, not a line, its states shuffled; one closed class."""
-    matrix = np.zeros((n, n))
-    i = np.arange(n)
-    for step, share in ((1, 0.6), (2, 0.4)):
-        matrix[i[step:], i[:-step]] = share * up[:-step]
-        matrix[i[:-step], i[step:]] = share * down[step:]
-    place = np.random.default_rng(shuffle).permutation(n)
-    matrix = oracle.with_loops(csc_array(matrix[place][:, place]))
-    return Chain(range(n), matrix, 0), np.argsort(place)
-
-
-@pytest.mark.parametrize("plain", [True, False])
-@pytest.mark.parametrize("shuffle", range(4))
-@pytest.mark.parametrize("shape", ["slope", "hill", "valley", "cliffs"])
-def test_laws_over_more_decades_than_floats(monkeypatch, shape, shuffle, plain):
-    if not plain:
-        monkeypatch.setattr("evenbreak.chains.transient._FEW_ARCS", 0)
-    n = 22
-    up, down = np.full(n, 0.4), np.full(n, 1e-40)
-    if shape == "slope":
-        up, down = down, up
-    elif shape == "hill":
-        up[n // 2 :], down[n // 2 :] = 1e-40, 0.4
-    elif shape == "valley":
-        up[: n // 2], down[: n // 2] = 1e-40, 0.4
-    else:
-        up[::3], down[1::3] = 1e-120, 1e-60
-    chain, _ = two_step_walk(n, up, down, shuffle)
-    exact = oracle.limit(oracle.columns_of(chain), {0: Fraction(1)})
-    assert min(x for x in exact if x) < Fraction(1, 10**100)
-    assert oracle.worst_relative_error(stochastic_limit(chain).probability, exact) < 1e-14
-
-
-def test_a_long_law_over_a_thousand_decades():
-    n = 700
-    chain, order = two_step_walk(n, np.full(n, 0.004), np.full(n, 0.5), 1)
-    law = stochastic_limit(chain).probability[order]
-    assert law.sum() == pytest.approx(1.0, rel=1e-14)
-    matrix = csc_array(chain.matrix[:, order])[order].toarray()
-    flow = np.minimum(law, 1)[None, :] * matrix
-    # In a line of cuts, as much goes up as comes down; each entry above 1e-290 shows in one.
-    for cut in range(1, 100):
-        assert flow[cut:, :cut].sum() == pytest.approx(flow[:cut, cut:].sum(), rel=1e-12)
-    assert law[-1] == 0.0
-
-
-def test_a_law_too_wide_and_too_large_is_refused(monkeypatch):
-    monkeypatch.setattr("evenbreak.chains.decimal_elimination._MOST_ARCS", 100)
-    n = 60
-    chain, _ = two_step_walk(n, np.full(n, 1e-30), np.full(n, 0.5), 2)
-    with pytest.raises(AccuracyError, match="span more decades than floats"):
-        stochastic_limit(chain)
-
-
-def test_a_shuffled_line_is_known_for_a_line():
-    n = 3_000
-    place = np.random.default_rng(3).permutation(n)
-    up, down = np.full(n - 1, 0.002), np.full(n - 1, 0.5)
-    i = np.arange(n - 1)
-    rows, columns = np.concatenate((i + 1, i)), np.concatenate((i, i + 1))
-    matrix = csc_array((np.concatenate((up, down)), (place[rows], place[columns])), (n, n))
-    law = stochastic_limit(Chain(range(n), oracle.with_loops(matrix)), 0).probability[place]
-    for k in (0, 1, 60, 120):
-        exact = Fraction(0.002) ** k / Fraction(0.5) ** k * (1 - Fraction(0.002) / Fraction(0.5))
-        assert law[k] == pytest.approx(float(exact), rel=1e-13)
 
 
 def torus(k, rng):
@@ -211,7 +136,7 @@ def test_a_large_class_carries_its_residual_unless_certified(monkeypatch):
     exact = stochastic_limit(chain)
     assert exact.residual is None
     monkeypatch.setattr(factorisation, "_MOST_ENTRIES", 0)
-    monkeypatch.setattr("evenbreak.chains.sparse_lu.GUARANTEED", 0.0)
+    monkeypatch.setattr("evenbreak.chains.certified_lu.GUARANTEED", 0.0)
     carried = stochastic_limit(Chain(chain.states, chain.matrix, 0))
     assert 0 < carried.residual < 1e-15
     assert carried.probability == pytest.approx(exact.probability, rel=1e-12)
@@ -221,38 +146,6 @@ def test_a_large_class_carries_its_residual_unless_certified(monkeypatch):
     if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # else it cannot be certified
         assert certified.residual is None
     assert certified.probability == pytest.approx(exact.probability, rel=1e-12)
-
-
-def test_two_blocks_that_hardly_meet():
-    """The odds between the blocks are those of the two arcs that join them."""
-    rng = np.random.default_rng(9)
-    size, there, back = 80, 1e-10, 3e-10
-    matrix = np.zeros((2 * size, 2 * size))
-    matrix[:size, :size], matrix[size:, size:] = rng.random((2, size, size))
-    np.fill_diagonal(matrix, 0.0)
-    matrix /= matrix.sum(axis=0)
-    matrix[size, 0], matrix[5, 2 * size - 1] = there, back
-    limit = stochastic_limit(Chain(range(2 * size), csc_array(matrix), 0)).probability
-    assert limit[0] * there == pytest.approx(limit[-1] * back, rel=1e-13)
-    inflow = matrix @ limit
-    outflow = matrix.sum(axis=0) * limit
-    assert inflow == pytest.approx(outflow, rel=1e-12)
-
-
-def test_a_hundred_thousand_steps_without_a_cycle():
-    """A long way with an exit at each step, numbered backwards: one substitution."""
-    n = 100_000
-    j = np.arange(n)
-    stay = 1 - 1e-5
-    entries = np.concatenate((np.full(n, stay), np.full(n, 1e-5), [1.0, 1.0]))
-    sources = np.concatenate((j + 2, j + 2, [0, 1]))
-    targets = np.concatenate((np.where(j == 0, 1, j + 1), np.zeros(n, int), [0, 1]))
-    matrix = csc_array((entries, (targets, sources)), (n + 2, n + 2))
-    chain = Chain(range(n + 2), matrix, n + 1)
-    limit = stochastic_limit(chain)
-    through = float((Fraction(stay) / (Fraction(stay) + Fraction(1e-5))) ** 1000) ** (n / 1000)
-    assert limit[1] == pytest.approx(through, rel=1e-11)
-    assert limit[0] == pytest.approx(1 - through, rel=1e-11)
 
 
 @pytest.mark.parametrize("plain", [True, False])
@@ -303,12 +196,12 @@ class TestMapping:
     limit = stochastic_limit(chain)
 
     def test_all_at_once(self):
-        told = {"rack": 0.0, "won": 0.75, "lost": 0.25}
-        assert dict(self.limit) == told == self.limit
+        listed = {"rack": 0.0, "won": 0.75, "lost": 0.25}
+        assert dict(self.limit) == listed == self.limit
         assert list(self.limit) == ["rack", "won", "lost"]
         assert len(self.limit) == 3
         assert list(self.limit.values()) == [0.0, 0.75, 0.25]
-        assert self.limit.to_dict() == told
+        assert self.limit.to_dict() == listed
 
     def test_one_by_one(self):
         assert "won" in self.limit

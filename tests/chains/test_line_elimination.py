@@ -1,12 +1,36 @@
-"""Lines of states with leaks: cyclic reduction against exact arithmetic and known laws."""
+"""Lines of states: found in any order, and solved against exact arithmetic and known laws."""
 
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.sparse import csc_array, diags_array
 
 import oracle
-from evenbreak.chains.line_elimination import PathElimination
+from evenbreak.chains.line_elimination import LineElimination, line_order
+
+
+def line(n, shuffle):
+    T = np.zeros((n, n))
+    i = np.arange(n - 1)
+    T[i + 1, i], T[i, i + 1] = 0.25, 0.5
+    place = np.random.default_rng(shuffle).permutation(n)
+    return csc_array(T[place][:, place]), place
+
+
+@pytest.mark.parametrize("shuffle", range(3))
+def test_a_line_is_found_from_one_end_to_the_other(shuffle):
+    T, place = line(50, shuffle)
+    order = place[line_order(T)].tolist()
+    assert order in (list(range(50)), list(range(49, -1, -1)))
+
+
+def test_what_has_two_ends_but_is_no_line():
+    T = np.zeros((5, 5))
+    for a, b in ((0, 1), (1, 2), (2, 0), (0, 3), (3, 0), (1, 4), (4, 1), (2, 1)):
+        T[b, a] = 0.25
+    assert line_order(csc_array(T)) is None
+    assert line_order(csc_array(np.ones((4, 4)) - np.eye(4))) is None
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 5, 8, 13, 32])
@@ -22,11 +46,15 @@ def test_both_solves(n, decades):
         matrix[k + 1][k], matrix[k][k + 1] = -Fraction(up[k]), -Fraction(down[k])
     for k in range(n):
         matrix[k][k] = Fraction(leak[k]) - sum(matrix[i][k] for i in range(n) if i != k)
-    path = PathElimination(up, down, leak)
+    order = rng.permutation(n)
+    place = np.argsort(order)
+    line = csc_array(diags_array([up, down], offsets=[-1, 1], shape=(n, n)))[order][:, order]
+    found = LineElimination(csc_array(line), leak[order], place)
     transposed = [list(row) for row in zip(*matrix, strict=True)]
     for column in range(2):
         right = [Fraction(x) for x in b[:, column].tolist()]
-        visits, values = path.visits(b)[:, column], path.values(b)[:, column]
+        visits = found.visits(b[order])[place, column]
+        values = found.values(b[order])[place, column]
         assert oracle.worst_relative_error(visits, oracle.solve(matrix, right)) < 2e-15
         assert oracle.worst_relative_error(values, oracle.solve(transposed, right)) < 2e-15
 
@@ -37,8 +65,9 @@ def test_a_long_line_of_equal_arcs_keeps_twelve_digits():
     leak = np.zeros(n)
     leak[0] = down
     leak[-1] = up
-    path = PathElimination(np.full(n - 1, up), np.full(n - 1, down), leak)
-    steps = path.values(np.ones((n, 1)))[:, 0]
+    T = diags_array([np.full(n - 1, up), np.full(n - 1, down)], offsets=[-1, 1])
+    found = LineElimination(csc_array(T), leak, np.arange(n))
+    steps = found.values(np.ones((n, 1)))[:, 0]
     drift = Fraction(down) - Fraction(up)
     for k in (0, 99, 9_999):
         # The top is so far that the chance to reach it is below 1e-170.

@@ -1,4 +1,4 @@
-"""What a limit means where chains are odd: periods, classes, cycles, games that never end."""
+"""What a limit means in unusual chains: periods, classes, cycles, games that never end."""
 
 from fractions import Fraction
 

@@ -36,7 +36,7 @@ def test_stakes(breaks, expected):
 
 
 def test_stakes_by_arc():
-    """With winner breaks who breaks next tells who has won."""
+    """With winner breaks, the next breaker is the winner of the last rack."""
     chain = chain_of(Series(Rack(0.9, 0.5), breaks=winner_breaks))
     points = {(1, 1): 1, (1, 2): -2, (2, 1): 1, (2, 2): -2}
     assert long_run_reward(chain, per_arc=points) == pytest.approx(0.5, rel=1e-14)
@@ -82,7 +82,7 @@ def test_what_is_earned_after_absorption_does_not_count():
     [
         ({"per_state": {"X": 1}}, "state 'X'"),
         ({"per_state": np.ones(2)}, r"shape \(2,\)"),
-        ({"per_state": {"S1": np.nan}}, "'S1' is not finite"),
+        ({"per_state": {"S1": np.nan}}, "nan for state 'S1'"),
         ({"per_arc": {("S1", "L"): 1}}, "no arc 'S1' -> 'L'"),
     ],
 )

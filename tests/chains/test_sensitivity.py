@@ -187,7 +187,7 @@ def test_refusals():
         _ = won["S1", "L"]
     with pytest.raises(ChainError, match="state 'X'"):
         sensitivity(chain, "X")
-    with pytest.raises(ChainError, match="weight is not finite"):
+    with pytest.raises(ChainError, match="weights holds inf for state"):
         sensitivity(chain, {"W": float("inf")})
     with pytest.raises(ChainError, match="weights has shape"):
         sensitivity(chain, np.ones(3))

@@ -157,7 +157,7 @@ class TestRefusals:
         assert found.gap == pytest.approx(2 * coupling, rel=1e-3)
 
     def test_barely_coupled_blocks(self):
-        """The residual is small all the same: it is the estimate that tells."""
+        """The residual is small, but the bound shows that the answer is not good."""
         found = spectrum(blocks(1e-10))
         assert found.residual < 1e-14
         with pytest.raises(AccuracyError, match="use stochastic_limit"):

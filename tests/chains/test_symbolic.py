@@ -42,7 +42,7 @@ def test_p_crit_makes_the_one_ball_game_even():
 
 
 def test_fraction_of_games_won():
-    """P5.24: player 1 wins p1 of the racks he breaks and q2 of those that player 2 breaks."""
+    """P5.24: player 1 wins p1 of the racks that player 1 breaks, and q2 of the others."""
     winner = symbolic_limit([(1, 1, p1), (1, 2, q1), (2, 1, q2), (2, 2, p2)])
     loser = symbolic_limit([(1, 1, q1), (1, 2, p1), (2, 1, p2), (2, 2, q2)])
     alternate = symbolic_limit([(1, 2, 1), (2, 1, 1)])

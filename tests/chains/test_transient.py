@@ -17,9 +17,9 @@ from evenbreak.chains import (
     transient,
 )
 from evenbreak.chains.banded import BandedElimination
-from evenbreak.chains.decimal_elimination import WideElimination, wide_law
-from evenbreak.chains.sparse_lu import SparseFactorisation
-from evenbreak.chains.triangular_solve import Flow
+from evenbreak.chains.certified_lu import CertifiedSolve
+from evenbreak.chains.decimal_elimination import DecimalElimination, decimal_law
+from evenbreak.chains.triangular_solve import TriangularSolve
 from evenbreak.errors import AccuracyError
 
 # name -> (arcs for plain Python, largest small class, width of a narrow band)
@@ -27,7 +27,7 @@ METHODS = {
     "plain Python": (10**6, 64, 4),
     "one substitution": (0, 64, 4),
     "small classes up to 3": (0, 3, 0),
-    "wide numbers": (0, 1, 100),
+    "decimal numbers": (0, 1, 100),
     "blocked": (0, 1, 0),
 }
 
@@ -112,16 +112,16 @@ def test_each_method_is_what_it_says(monkeypatch):
         kinds[name] = type(pieces[0].solver) if pieces else type(factor)
     assert kinds == {
         "plain Python": transient._InPlainPython,
-        "one substitution": Flow,
+        "one substitution": TriangularSolve,
         "small classes up to 3": BandedElimination,
-        "wide numbers": WideElimination,
+        "decimal numbers": DecimalElimination,
         "blocked": BandedElimination,
     }
     use(monkeypatch, 0, 1, 0)
     monkeypatch.setattr(factorisation, "_MOST_ENTRIES", 0)
     part = TransientPart(chain.arcs, np.arange(9))
     part.visits(np.ones(9))
-    assert type(part._factor._pieces[0].solver) is SparseFactorisation
+    assert type(part._factor._pieces[0].solver) is CertifiedSolve
 
 
 def test_a_part_of_the_states_leaks_to_the_others():
@@ -203,5 +203,5 @@ def test_long_narrow_classes_do_not_add_up_rounding_errors(monkeypatch, narrow):
     chances = np.where(rows > columns, 0.2, 0.2001)
     chain = Chain(range(n), oracle.with_loops(csc_array((chances, (rows, columns)), (n, n))), 0)
     law = stochastic_limit(chain).probability
-    worst = np.abs(law / wide_law(chain.arcs) - 1).max()
+    worst = np.abs(law / decimal_law(chain.arcs) - 1).max()
     assert worst < (1e-14 if narrow else 1e-12)

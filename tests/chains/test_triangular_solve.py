@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
-from evenbreak.chains.triangular_solve import Flow
+from evenbreak.chains.triangular_solve import TriangularSolve
 
 
 def test_single_states_and_classes_of_two_and_three_in_turn():
@@ -16,7 +16,7 @@ def test_single_states_and_classes_of_two_and_three_in_turn():
     np.fill_diagonal(T, 0.0)
     leak = np.full(8, 0.125)
     arcs = csc_array(T).tocoo()
-    flow = Flow(arcs.col, arcs.row, arcs.data, leak, T.sum(axis=0) + leak, offsets)
+    flow = TriangularSolve(arcs.col, arcs.row, arcs.data, leak, T.sum(axis=0) + leak, offsets)
     inverse = np.linalg.inv(np.diag(T.sum(axis=0) + leak) - T)
     b = rng.random((8, 3))
     assert flow.visits(b) == pytest.approx(inverse @ b, rel=1e-12)
@@ -26,6 +26,8 @@ def test_single_states_and_classes_of_two_and_three_in_turn():
 def test_single_states_only():
     sources, targets, chances = np.array([0, 0, 1]), np.array([1, 2, 2]), np.array([0.25, 0.5, 0.5])
     outflow = np.array([0.75, 0.5, 0.125])
-    flow = Flow(sources, targets, chances, np.array([0, 0, 0.125]), outflow, np.arange(4))
+    flow = TriangularSolve(
+        sources, targets, chances, np.array([0, 0, 0.125]), outflow, np.arange(4)
+    )
     visits = flow.visits(np.array([[0.75], [0.0], [0.0]]))
     assert visits[:, 0] == pytest.approx([1.0, 0.5, 6.0], rel=1e-15)

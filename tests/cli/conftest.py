@@ -31,7 +31,7 @@ def ask_physics(run: Run) -> Callable[[str, str], dict[str, Any]]:
     def answer(name: str, line: str) -> dict[str, Any]:
         result = run("physics", name, "--json", *line.split())
         assert (result.exit_code, result.stderr) == (0, "")
-        told: dict[str, Any] = json.loads(result.stdout)
-        return told
+        data: dict[str, Any] = json.loads(result.stdout)
+        return data
 
     return answer

@@ -66,8 +66,10 @@ def test_a_system_goes_to_other_processes_and_comes_back(system):
     assert pickle.loads(pickle.dumps(system)) == system  # noqa: S301
 
 
-def test_every_family_has_a_system_in_the_catalogue():
+def test_every_family_has_a_sample_named_as_it_says():
     assert {name.split()[0] for name in SYSTEMS} == set(FAMILIES)
+    for word, family in FAMILIES.items():
+        assert family.grammar.split()[0] == word
 
 
 def test_the_rule_says_whole_points_the_same_ones_every_time_and_everywhere(table):

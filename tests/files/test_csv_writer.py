@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.files.csv_writer import to_csv
+from evenbreak.files.csv_writer import FORMULA_STARTS, to_csv
 
 
 def test_every_kind_of_value():
@@ -28,16 +28,16 @@ def test_every_kind_of_value():
     )
 
 
-@pytest.mark.parametrize("text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "\x1b[31m"])
+@pytest.mark.parametrize("text", ["=1+1", "+A1", "-1+1", "@SUM(A1)", "\t=1", "\r=1", "\x1b[31m"])
 def test_text_that_a_spreadsheet_would_run_is_defused(text):
     frame = pd.DataFrame({"player": [text], text: ["x"]})
     header, row = csv.reader(io.StringIO(to_csv(frame).decode(), newline=""))
     assert header[1] == row[0] == f"'{text}"
 
 
-def test_numbers_are_never_defused():
-    frame = pd.DataFrame({"rating": [-12.5], "won": [-3]})
-    assert to_csv(frame) == b"rating,won\n-12.500000,-3\n"
+def test_numbers_are_never_defused_even_as_text():
+    frame = pd.DataFrame({"rating": [-12.5], "won": [-3], "state": ["-1"]})
+    assert to_csv(frame) == b"rating,won,state\n-12.500000,-3,-1\n"
 
 
 def test_what_rounds_to_zero_has_no_sign():
@@ -68,4 +68,4 @@ def test_what_is_written_reads_back_and_is_the_same_each_time(rows, excel):
     ]
     assert [row["p"] for row in read] == [f"{p:.6f}" for _, p in rows]
     for row in read:
-        assert row["name"][:1] not in ("=", "+", "-", "@")
+        assert row["name"][:1] not in FORMULA_STARTS or float(row["name"])

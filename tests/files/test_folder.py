@@ -195,6 +195,6 @@ def test_a_folder_is_checked_without_a_trace(tmp_path):
 @posix
 def test_a_link_to_nowhere_is_no_folder(tmp_path):
     (tmp_path / "link").symlink_to(tmp_path / "nowhere")
-    with pytest.raises(NotADirectoryError, match="a link to what is not there"):
+    with pytest.raises(NotADirectoryError, match="a link to something that does not exist"):
         check_folder(tmp_path / "link")
     assert [path.name for path in tmp_path.iterdir()] == ["link"]

@@ -67,9 +67,9 @@ Flo,80,,,,-2,x,,
     told = "\n".join(caught.value.problems)
     for line, words in (
         (2, "rating 'six' is not a number"),
-        (3, "player 'Ann' stands in line 2 already"),
+        (3, "player 'Ann' is already in line 2"),
         (3, "skill 'strong' is not a number; write points such as 85"),
-        (4, "rating is empty; write the rating with which the player begins"),
+        (4, "rating is empty"),
         (5, "skill 20000 is not from -10,000 to 10,000"),
         (5, "day_sd -1 is not from 0 to 1,000"),
         (5, "drift 2000 is not from -1,000 to 1,000"),

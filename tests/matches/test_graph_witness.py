@@ -19,7 +19,7 @@ from evenbreak.matches import (
     final_scores,
     match_length,
     match_odds,
-    race_law,
+    race_odds,
     race_win_probability,
     win_probability,
 )
@@ -76,8 +76,10 @@ def test_races_in_a_break_format(breaks: Any) -> None:
         ends = final_scores(race).probability
         for at in np.ndindex(P1.shape):
             expected = table[at][MOST - m, MOST - n, first]
-            law = race_law(m, n, float(P1[at]), float(P2[at]), breaks, first)
-            for player, one, scalar in zip((1, 2), chance, (law.p_win_1, law.p_win_2), strict=True):
+            odds = race_odds(m, n, float(P1[at]), float(P2[at]), breaks, first)
+            for player, one, scalar in zip(
+                (1, 2), chance, (odds.p_win_1, odds.p_win_2), strict=True
+            ):
                 witness = wins(longest, expected, player)
                 assert one[at] == pytest.approx(witness, rel=1e-12, abs=0)
                 assert scalar == pytest.approx(witness, rel=1e-12, abs=0)
@@ -90,7 +92,7 @@ def test_races_in_a_break_format(breaks: Any) -> None:
             by_length = {sum(score): 0.0 for score in by_score}
             for score, mass in by_score.items():
                 by_length[sum(score)] += mass
-            lengths = dict(zip(law.games, law.probability, strict=True))
+            lengths = dict(zip(odds.games, odds.probability, strict=True))
             assert {k: mass for k, mass in lengths.items() if mass} == pytest.approx(
                 by_length, rel=1e-12, abs=0
             )
@@ -106,8 +108,8 @@ def test_races_where_the_break_does_not_matter() -> None:
             kernels = [win_probability(short, player=player)[i] for player in (1, 2)]
             assert kernels == pytest.approx(expected, rel=1e-12, abs=0)
             assert race_win_probability(p, m, n) == pytest.approx(expected[0], rel=1e-12, abs=0)
-            law = race_law(m, n, float(p))
-            assert [law.p_win_1, law.p_win_2] == pytest.approx(expected, rel=1e-12, abs=0)
+            odds = race_odds(m, n, float(p))
+            assert [odds.p_win_1, odds.p_win_2] == pytest.approx(expected, rel=1e-12, abs=0)
 
 
 def deuce_states(win_by: int) -> list[tuple[int, int]]:

@@ -17,6 +17,7 @@ from evenbreak.games import (
     winner_breaks,
 )
 from evenbreak.matches import live_odds, match_length, match_odds, win_probability
+from evenbreak.matches.rack_graph import rack_moves
 
 SETS = Race(3, 1, Race(3, 3, Rack(2 / 3)))
 MATCHES = [
@@ -78,10 +79,11 @@ def test_the_first_moment_is_what_the_other_kernels_say(match):
 @pytest.mark.parametrize("match", MATCHES)
 def test_every_moment_of_the_table_against_the_graph(match):
     chain = chain_of(match)
-    for state in live_odds(match)._values.after:
+    values = live_odds(match)._values
+    for state in values.moves:
         limit = stochastic_limit(chain, state)
         won = sum(limit[end] for end in limit if match.winner(end) == 1)
-        assert live_odds(match)._values.standing(state).p_win_1 == pytest.approx(won, rel=1e-9)
+        assert values.standing(state).p_win_1 == pytest.approx(won, rel=1e-9)
 
 
 @settings(max_examples=60)
@@ -151,28 +153,17 @@ def test_a_match_that_may_never_end():
 
 
 @pytest.mark.parametrize("match", MATCHES)
-def test_the_length_at_every_moment(match):
-    live = live_odds(match, [1])
-    state = live._state
-    chain_length = 0.0
-    values = live._values
-    for k, r in enumerate(_left(values, state, live.now.racks_p90 + 1)):
-        chain_length = k
-        if r <= 0.1 * (1 + 1e-12):
-            break
-    assert live.now.racks_p90 == chain_length
-
-
-def _left(values, state, most):
-    mass = {state: 1.0}
-    for _ in range(most + 1):
-        yield sum(mass.values())
+def test_the_length_from_a_score_on(match):
+    (state, _), _ = rack_moves(match)[match.start]
+    mass, racks = {state: 1.0}, 0
+    while sum(mass.values()) > 0.1 * (1 + 1e-12):
         after = {}
         for here, held in mass.items():
-            for target, chance in zip(values.after[here], values.chances[here], strict=True):
-                if target in values.after:
+            for target, chance in match.moves(here).items():
+                if match.moves(target):
                     after[target] = after.get(target, 0.0) + held * chance
-        mass = after
+        mass, racks = after, racks + 1
+    assert live_odds(match, [1]).now.racks_p90 == racks
 
 
 def test_a_long_unbounded_match():
@@ -189,7 +180,7 @@ def test_a_long_unbounded_match():
         (Race(2, 2, Rack([0.5, 0.6])), [], {}, "one number"),
         (Rack(0.5), [], {}, "give a Race or an Ahead"),
         (Race(2, 2, Rack(0.5)), [], {"set_score": (1, 0)}, "leave it out"),
-        (SETS, [], {"set_score": (3, 1)}, "count it in the score"),
+        (SETS, [], {"set_score": (3, 1)}, "set_score is 3:1"),
         (SETS, [], {"set_score": (4, 1)}, "cannot be reached"),
         (Race(1, 1, SETS.rack, score=(1, 0)), [], {"set_score": (1, 0)}, "is over; leave"),
     ],

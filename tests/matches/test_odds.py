@@ -16,7 +16,6 @@ from evenbreak.games import (
     Race,
     Rack,
     alternate_breaks,
-    loser_breaks,
     winner_breaks,
 )
 from evenbreak.games.match import Match
@@ -24,7 +23,6 @@ from evenbreak.matches import (
     hill_hill_probability,
     match_length,
     match_odds,
-    race_law,
     shutout_probability,
     win_probability,
 )
@@ -157,7 +155,7 @@ def test_arrays_are_for_the_other_kernels() -> None:
 
 def test_the_scalar_path_needs_no_numpy() -> None:
     code = (
-        "import sys; from evenbreak.matches.odds import match_odds, race_law; "
+        "import sys; from evenbreak.matches.odds import match_odds; "
         "from evenbreak.games import *; "
         "match_odds(Race(7, 7, Rack(0.6, 0.5), breaks=winner_breaks)); "
         "match_odds(Race(3, 3, Race(7, 7, Rack(0.6)))); match_odds(Ahead(3, 3, Rack(0.6))); "
@@ -166,51 +164,6 @@ def test_the_scalar_path_needs_no_numpy() -> None:
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert ran.stdout.strip() == "[]"
-
-
-class TestRaceLaw:
-    def test_its_parts_are_one_distribution(self) -> None:
-        law = race_law(7, 5, 0.6, 0.4, loser_breaks, 2, (1, 2))
-        assert law.games == [3, 4, 5, 6, 7, 8]
-        assert sum(law.probability) == pytest.approx(1.0, rel=1e-15)
-        assert law.p_win_1 + law.p_win_2 == pytest.approx(1.0, rel=1e-15)
-        odds = match_odds(
-            Race(7, 5, Rack(0.6, 0.4), breaks=loser_breaks, first_breaker=2, score=(1, 2))
-        )
-        assert (odds.mean_games, odds.sd_games) == (law.mean, law.sd)
-        assert odds.games_p90 == law.quantile(0.9)
-
-    def test_the_start_score_is_a_head_start(self) -> None:
-        assert race_law(7, 7, 0.6, score=(2, 3)) == race_law(5, 4, 0.6)
-
-    def test_a_player_who_needs_nothing_has_won(self) -> None:
-        law = race_law(7, 5, 0.6, score=(7, 2))
-        assert (law.games, law.p_win_1, law.p_win_2, law.mean) == ([0], 1.0, 0.0, 0.0)
-        assert race_law(7, 5, 0.6, score=(0, 5)).p_win_2 == 1.0
-
-    @pytest.mark.parametrize(
-        ("changes", "message"),
-        [
-            ({"p1": 1.5}, "p1 is 1.5, not a probability"),
-            ({"p1": float("nan")}, "p1 is nan, not a probability"),
-            ({"p1": [0.5, 0.6]}, r"p1 is \[0.5, 0.6\]; give one number"),
-            ({"p2": 0.5, "breaks": lambda b, w: b + w}, "the next breaker, is 3; give 1"),
-            ({"p2": 0.5, "breaks": "winner"}, "breaks is 'winner'; give a break format"),
-            ({"m": -1}, "m is -1; give a whole number"),
-            ({"m": 2.5}, r"m is 2\.5; give a whole number"),
-            ({"p2": 0.5}, "breaks is missing"),
-            ({"first_breaker": 0}, "first_breaker is 0; give 1 or 2"),
-            ({"score": (5, 5)}, "score has both players where they have won"),
-            ({"score": (-1, 0)}, "score of player 1 is -1"),
-        ],
-    )
-    def test_wrong_parameters_are_refused(self, changes: dict[str, Any], message: str) -> None:
-        with pytest.raises(InputError, match=message):
-            race_law(**({"m": 5, "n": 5, "p1": 0.6} | changes))
-
-    def test_a_level_outside_0_1_is_refused(self) -> None:
-        with pytest.raises(InputError, match="q is 2, not a probability"):
-            race_law(5, 5, 0.6).quantile(2)
 
 
 def test_the_score_moves_through_the_match() -> None:

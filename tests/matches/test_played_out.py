@@ -18,7 +18,7 @@ from evenbreak.matches import (
     hill_hill_probability,
     match_length,
     match_odds,
-    race_law,
+    race_odds,
     shutout_probability,
     win_probability,
 )
@@ -80,23 +80,25 @@ def test_races(breaks: Any) -> None:
     for m, n, first in product(range(1, 5), range(1, 5), (1, 2)):
         played = list(courses((m, n), breaks, first))
         race = Race(m, n, Rack(float(P1), float(P2)), breaks=breaks, first_breaker=first)
-        law = race_law(m, n, float(P1), float(P2), breaks, first)
+        odds = race_odds(m, n, float(P1), float(P2), breaks, first)
         by_score = summed((end, chance) for end, _, _, chance in played)
         by_length = summed((racks, chance) for _, racks, _, chance in played)
         assert final_scores(race).probability == pytest.approx(by_score, rel=1e-14, abs=0)
         assert lengths_of(match_length(race)) == pytest.approx(by_length, rel=1e-14, abs=0)
-        scalar = {k: chance for k, chance in zip(law.games, law.probability, strict=True) if chance}
+        scalar = {
+            k: chance for k, chance in zip(odds.games, odds.probability, strict=True) if chance
+        }
         assert scalar == pytest.approx(by_length, rel=1e-14, abs=0)
         one = sum(chance for (a, _), chance in by_score.items() if a == m)
         assert win_probability(race) == pytest.approx(one, rel=1e-14, abs=0)
-        assert law.p_win_1 == pytest.approx(one, rel=1e-14, abs=0)
-        assert match_odds(race).p_win_1 == law.p_win_1
+        assert odds.p_win_1 == pytest.approx(one, rel=1e-14, abs=0)
+        assert match_odds(race).p_win_1 == odds.p_win_1
         decider = by_score[m, n - 1] + by_score[m - 1, n]
         assert hill_hill_probability(race) == pytest.approx(decider, rel=1e-14, abs=0)
-        assert law.p_hill_hill == pytest.approx(decider, rel=1e-14, abs=0)
+        assert odds.p_hill_hill == pytest.approx(decider, rel=1e-14, abs=0)
         for player, scalar_chance, nil in (
-            (1, law.p_shutout_1, (m, 0)),
-            (2, law.p_shutout_2, (0, n)),
+            (1, odds.p_shutout_1, (m, 0)),
+            (2, odds.p_shutout_2, (0, n)),
         ):
             assert scalar_chance == pytest.approx(by_score[nil], rel=1e-14, abs=0)
             assert shutout_probability(race, player=player) == pytest.approx(
@@ -138,7 +140,7 @@ def test_an_even_race_is_worth_the_same_in_three_break_formats() -> None:
     quarters = (0.0, 0.25, 0.5, 0.75, 1.0)
     formats = [BREAK_FORMATS[name] for name in ("winner", "loser", "alternate")]
     for n, p1, p2, first in product(range(1, 8), quarters, quarters, (1, 2)):
-        scalar = {race_law(n, n, p1, p2, breaks, first).p_win_1 for breaks in formats}
+        scalar = {race_odds(n, n, p1, p2, breaks, first).p_win_1 for breaks in formats}
         assert len(scalar) == 1, (n, p1, p2, first, scalar)
     grid = Rack(quarters, np.array(quarters)[:, np.newaxis])
     for n in range(1, 8):
@@ -151,9 +153,9 @@ def test_an_even_race_is_worth_the_same_in_three_break_formats() -> None:
 
 def test_the_break_format_does_change_an_uneven_race_and_the_length() -> None:
     winner, alternate = (
-        race_law(5, 4, 0.75, 0.5, BREAK_FORMATS[k]) for k in ("winner", "alternate")
+        race_odds(5, 4, 0.75, 0.5, BREAK_FORMATS[k]) for k in ("winner", "alternate")
     )
     assert winner.p_win_1 == 0.7261962890625
     assert alternate.p_win_1 == 0.655517578125
-    means = {race_law(5, 5, 0.75, 0.75, breaks).mean for breaks in BREAK_FORMATS.values()}
+    means = {race_odds(5, 5, 0.75, 0.75, breaks).mean for breaks in BREAK_FORMATS.values()}
     assert len(means) == len(BREAK_FORMATS)

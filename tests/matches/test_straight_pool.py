@@ -1,8 +1,7 @@
 from fractions import Fraction
-from itertools import pairwise
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.chains import chain_of, stochastic_limit
@@ -10,7 +9,6 @@ from evenbreak.errors import InputError
 from evenbreak.matches.straight_pool import (
     StraightPool,
     StraightPoolOdds,
-    even_points,
     straight_pool_odds,
 )
 from evenbreak.stats import RunLength
@@ -171,61 +169,6 @@ def test_who_never_makes_a_ball():
     assert alone.mean_innings == pytest.approx(3.0, rel=1e-12)
 
 
-@settings(max_examples=25)
-@given(
-    st.integers(1, 30),
-    st.fractions(Fraction(1, 2), Fraction(14, 15), max_denominator=15),
-    st.fractions(Fraction(1, 2), Fraction(14, 15), max_denominator=15),
-    st.sampled_from((1, 2)),
-)
-def test_no_other_handicap_is_nearer_to_even(points, p1, p2, first):
-    most = 60
-    even = even_points(points, p1, p2, first=first, most=most)
-    wins = [
-        straight_pool_odds(StraightPool(points, n, p1, p2, first=first)).p_win_1
-        for n in range(1, most + 1)
-    ]
-    assert all(less <= more * (1 + 1e-12) for less, more in pairwise(wins))
-    gaps = [abs(win - 0.5) for win in wins]
-    assert gaps[even.points_2 - 1] == min(gaps)
-    assert even.p_win_1 == wins[even.points_2 - 1]
-    assert even.p_win_1_more == (wins[even.points_2] if even.points_2 < most else None)
-    assert even.p_win_1_less == (wins[even.points_2 - 2] if even.points_2 > 1 else None)
-
-
-def test_equal_players_spot_little_for_the_first_inning():
-    even = even_points(100, 0.9, 0.9)
-    assert 90 < even.points_2 < 100
-    assert even.p_win_1_less < 0.5 < even.p_win_1_more
-
-
-def test_points_that_take_too_long_are_not_asked_for():
-    # 4096 points of a player who runs 1/3 would take more innings than are counted with.
-    even = even_points(2000, 0.2, 0.25)
-    assert even.p_win_1_less < 0.5 < even.p_win_1_more
-    assert even.points_2 == pytest.approx(2000 * 4 / 3, rel=0.01)
-    assert even_points(1, 0.9, 0.01).points_2 == 1
-
-
-def test_who_never_wins_gets_the_smallest_spot():
-    even = even_points(5, 0, 0.5)
-    assert (even.points_2, even.p_win_1, even.p_win_1_less, even.p_win_1_more) == (1, 0, None, 0)
-    assert even_points(5, 0.5, 0).points_2 == 1
-
-
-@pytest.mark.parametrize(
-    ("points", "p1", "p2", "even"),
-    [(100, 0.9, 0.85, True), (150, 0.96, 0.95, True), (1, 0.9, 0.8, False), (5, 0, 0.5, False)],
-)
-def test_whether_any_number_of_points_makes_it_even(points, p1, p2, even):
-    found = even_points(points, p1, p2)
-    assert found.is_even is even
-    every = [
-        straight_pool_odds(StraightPool(points, n, p1, p2)).p_win_1 for n in range(1, 2 * points)
-    ]
-    assert any(0.4 <= win <= 0.6 for win in every) is even
-
-
 def test_arguments_may_be_averages():
     match = StraightPool(100, 100, RunLength.of_mean(9).p, RunLength.of_mean(4).p)
     assert straight_pool_odds(match) == straight_pool_odds(StraightPool(100, 100, 0.9, 0.8))
@@ -240,7 +183,6 @@ def test_arguments_may_be_averages():
         (lambda: StraightPool(5, 5, 0.5, 0.5, safety_2=-1), "safety_2 is -1"),
         (lambda: StraightPool(5, 5, 0.5, 0.5, first=3), "first is 3; give 1 or 2"),
         (lambda: straight_pool_odds(StraightPool(500, 5, 1e-6, 0.5)), "give a larger chance"),
-        (lambda: even_points(5, 0.5, 0.5, most=0), "most is 0"),
     ],
 )
 def test_wrong_values_say_how_to_mend_them(make, remedy):

@@ -23,7 +23,7 @@ from evenbreak.matches import (
     final_scores,
     match_length,
     match_odds,
-    race_law,
+    race_odds,
     race_win_probability,
     win_probability,
 )
@@ -91,8 +91,8 @@ def test_both_tails_of_a_race_are_right(m: int, n: int, p: float) -> None:
     assert_right(win_probability(race), one)
     # 1 - p is what the rack makes of it: the nearest float, which the chance of losing is.
     assert_right(win_probability(race, player=2), exact_race(n, m, 1 - p))
-    law = race_law(m, n, p)
-    assert_right(law.p_win_1, one)
+    odds = race_odds(m, n, p)
+    assert_right(odds.p_win_1, one)
 
 
 @pytest.mark.parametrize(("m", "n"), SIZES[:-1])
@@ -115,8 +115,8 @@ def test_both_tails_are_right_with_breaks(m: int, n: int, p1: float) -> None:
                         after[key] = after.get(key, Fraction(0)) + held * chance
             mass = after
         race = Race(m, n, Rack(p1, p2), breaks=breaks)
-        law = race_law(m, n, p1, p2, breaks)
-        for player, scalar, exact in zip((1, 2), (law.p_win_1, law.p_win_2), ends, strict=True):
+        odds = race_odds(m, n, p1, p2, breaks)
+        for player, scalar, exact in zip((1, 2), (odds.p_win_1, odds.p_win_2), ends, strict=True):
             assert_right(win_probability(race, player=player), exact)
             assert_right(scalar, exact)
 
@@ -237,7 +237,7 @@ def test_race_win_probability_is_the_beta_function_of_the_text() -> None:
         (0.5, "3", 2, "m is '3'; give whole numbers"),
         (0.5, 3, float("inf"), "n is inf; give whole numbers"),
         (0.5, [1, 0], 0, "both 0 somewhere"),
-        ([0.5, 0.6], [1, 2, 3], 4, r"shapes \(2,\) and \(3,\) and \(\); give shapes"),
+        ([0.5, 0.6], [1, 2, 3], 4, r"p has shape \(2,\), m has shape \(3,\)"),
     ],
 )
 def test_wrong_needs_are_refused(p: Any, m: Any, n: Any, message: str) -> None:

@@ -9,13 +9,13 @@ def titles(figure):
     return [axes.get_title() for axes in figure.axes]
 
 
-def test_titles_tell_the_shares_and_a_dot_stands_in_every_panel():
+def test_titles_have_the_shares_and_every_panel_the_dot():
     figure = breaks_figure(Rack(0.5, 0.1))
     assert titles(figure) == [
         "winner breaks: A wins 0.643",
         "loser breaks: A wins 0.833",
         "alternate breaks: A wins 0.700",
-        "winner less loser breaks: \N{MINUS SIGN}0.190",
+        "winner minus loser breaks: \N{MINUS SIGN}0.190",
     ]
     for axes in figure.axes:
         assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines] == [(0.5, 0.1)]

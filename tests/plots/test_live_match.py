@@ -19,14 +19,14 @@ def test_the_line_is_the_course(odds):
     assert [label.get_text() for label in below.get_xticklabels()][-1] == "3:2"
 
 
-def test_dots_tell_who_won_a_rack(odds):
+def test_dots_show_who_won_a_rack(odds):
     above, _ = plot_course(odds).axes
     dots = {line.get_label(): list(line.get_xdata()) for line in above.lines}
     assert dots["A won the rack"] == [1, 4, 5]
     assert dots["B won the rack"] == [2, 3]
 
 
-def test_the_greatest_swing_is_written_beside_it(odds):
+def test_the_largest_swing_is_labelled(odds):
     above, _ = plot_course(odds).axes
     (text,) = above.texts
     greatest = max(odds.swings, key=abs)

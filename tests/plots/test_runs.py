@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.matches import StraightPool, straight_pool_odds
+from evenbreak.matches import StraightPool, even_spot, straight_pool_odds
 from evenbreak.plots.runs import plot_score, plot_spot
 from evenbreak.stats import InningsScore, RunLength
 
@@ -43,22 +43,20 @@ def test_what_was_asked_is_shaded_and_named():
 
 
 def test_no_line_where_no_spot_is_even():
-    (axes,) = plot_spot(StraightPool(9, 9, 0, 0.8), weaker=1, even=None, title="who").axes
-    assert axes.get_title() == "who"
+    (axes,) = plot_spot(StraightPool(9, 9, 0, 0.8)).axes
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
     assert labels == ["9 against 9"]
 
 
-@pytest.mark.parametrize(("weaker", "even"), [(2, 43), (1, 60)])
-def test_a_spot_is_worth_what_the_match_with_it_is(weaker, even):
-    match = StraightPool(100, 80, 0.9, 0.8, first=2)
-    (axes,) = plot_spot(match, weaker=weaker, even=even).axes
+@pytest.mark.parametrize(("p1", "p2"), [(0.9, 0.8), (0.8, 0.9)])
+def test_the_curve_is_the_chance_by_the_points_of_the_weaker_player(p1, p2):
+    match = StraightPool(100, 80, p1, p2, first=2)
+    spot = even_spot(match)
+    (axes,) = plot_spot(match).axes
     curve, dot, *_, mark = axes.lines
-    points = curve.get_xdata().tolist()
-    assert (points[0], points[-1]) == (1, 100 if weaker == 1 else 86)
-    for n, win in zip(points[::30], curve.get_ydata()[::30].tolist(), strict=True):
-        needs = (n, 80) if weaker == 1 else (100, n)
-        assert win == straight_pool_odds(StraightPool(*needs, 0.9, 0.8, first=2)).p_win_1
-    assert dot.get_xdata()[0] == (100 if weaker == 1 else 80)
+    for n, win in zip(curve.get_xdata()[::30], curve.get_ydata()[::30], strict=True):
+        needs = (int(n), 80) if spot.weaker == 1 else (100, int(n))
+        assert win == straight_pool_odds(StraightPool(*needs, p1, p2, first=2)).p_win_1
+    assert dot.get_xdata()[0] == (100 if spot.weaker == 1 else 80)
     assert dot.get_ydata()[0] == straight_pool_odds(match).p_win_1
-    assert mark.get_xdata()[0] == even
+    assert mark.get_xdata()[0] == spot.points

@@ -3,9 +3,9 @@ import pytest
 from evenbreak import InputError
 from evenbreak.plots.diagram import image_bytes
 from evenbreak.plots.shot_choice import shots_figure
-from evenbreak.practice import Shot
+from evenbreak.practice import ShotChoice
 
-SHOTS = [Shot("bank", 0.4, 0.8), Shot("safety", 0.3, 0.3)]
+SHOTS = [ShotChoice("bank", 0.4, 0.8), ShotChoice("safety", 0.3, 0.3)]
 
 
 @pytest.mark.parametrize("look_ahead", ["infinite", "two shots"])

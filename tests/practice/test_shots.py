@@ -11,7 +11,7 @@ from evenbreak import InputError
 from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.games import OneBall, OneBallLookAhead
 from evenbreak.practice import (
-    Shot,
+    ShotChoice,
     break_even_p2,
     compare_shots,
     critical_p2,
@@ -142,10 +142,10 @@ def test_no_p2_breaks_even(look_ahead):
     ],
 )
 def test_regions_are_those_of_p5_22(p1, p2, region):
-    assert Shot("", p1, p2).region == region
+    assert ShotChoice("", p1, p2).region == region
 
 
-SHOTS = st.lists(st.builds(Shot, st.text(max_size=3), INNER, INNER), min_size=2, max_size=5)
+SHOTS = st.lists(st.builds(ShotChoice, st.text(max_size=3), INNER, INNER), min_size=2, max_size=5)
 
 
 @given(SHOTS, BOTH)
@@ -167,7 +167,7 @@ def test_the_choice_turns_at_the_turning_p2(shots, look_ahead):
         others = [other.shot for other in ranked if other is not one]
 
         def best(p2, others=others, p1=one.shot.p1):
-            changed = Shot("changed", p1, p2)
+            changed = ShotChoice("changed", p1, p2)
             return compare_shots([*others, changed], look_ahead=look_ahead)[0].shot is changed
 
         turn = one.turning_p2
@@ -187,7 +187,7 @@ def test_choosing_anew_after_every_miss_is_worth_no_more(shots):
 
 
 def test_equals_keep_their_order_and_one_alone_has_nothing_to_turn():
-    first, second = Shot("first", 0.5, 0.5), Shot("second", 0.5, 0.5)
+    first, second = ShotChoice("first", 0.5, 0.5), ShotChoice("second", 0.5, 0.5)
     ranked = compare_shots([first, second])
     assert [one.shot.name for one in ranked] == ["first", "second"]
     assert ranked[0].turning_p2 == pytest.approx(0.5)
@@ -201,7 +201,7 @@ def test_equals_keep_their_order_and_one_alone_has_nothing_to_turn():
     [([(0.1, 0.05), (0.25, 0.15)], "infinite"), ([(0.05, 0.1), (0.45, 0.9)], "two shots")],
 )
 def test_shots_that_only_rounding_tells_apart_keep_their_order(chances, look_ahead, order):
-    shots = [Shot(str(pair), *pair) for pair in chances[::order]]
+    shots = [ShotChoice(str(pair), *pair) for pair in chances[::order]]
     assert len({shot.win(look_ahead) for shot in shots}) == 2
     ranked = compare_shots(shots, look_ahead=look_ahead)
     assert [one.shot for one in ranked] == shots
@@ -209,7 +209,7 @@ def test_shots_that_only_rounding_tells_apart_keep_their_order(chances, look_ahe
 
 
 def test_a_shot_may_have_fractions():
-    assert Shot("exact", Fraction(1, 3), Fraction(1, 2)).win() == pytest.approx(0.5)
+    assert ShotChoice("exact", Fraction(1, 3), Fraction(1, 2)).win() == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize(
@@ -222,9 +222,12 @@ def test_a_shot_may_have_fractions():
         (lambda: critical_p2(-0.1), "p1 is -0.1"),
         (lambda: break_even_p2(0.5, 2), "win is 2"),
         (lambda: break_even_p2(0.5, 0.5, look_ahead=2), "'infinite' or 'two shots'"),
-        (lambda: Shot("bank", 0.5, "often"), "p2 is 'often'"),
-        (lambda: compare_shots([]), "give one Shot or more"),
-        (lambda: compare_shots([Shot("", 0.5, 0.5)], look_ahead=""), "'infinite' or 'two shots'"),
+        (lambda: ShotChoice("bank", 0.5, "often"), "p2 is 'often'"),
+        (lambda: compare_shots([]), "shots is empty"),
+        (
+            lambda: compare_shots([ShotChoice("", 0.5, 0.5)], look_ahead=""),
+            "'infinite' or 'two shots'",
+        ),
     ],
 )
 def test_wrong_values_say_how_to_mend_them(ask, remedy):

@@ -1,7 +1,8 @@
 import pytest
 
-from evenbreak.answers.fair_pairs import RaceLimits
-from evenbreak.answers.sheet_parts import SurePair, chart_bands
+from evenbreak.answers.chart_bands import chart_bands
+from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.sure_pairs import SurePair
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import scale_of
 from evenbreak.sheets.evenness_plot import HEIGHT, WIDTH, evenness_plot
@@ -15,7 +16,7 @@ def pair(difference, m, n):
 
 
 def test_pairs_lie_on_the_curve_of_their_race_and_all_is_in_the_box():
-    bands = chart_bands(RaceLimits(race_to=7), NPL, 60.0)
+    bands = chart_bands(OfferedRaces(race_to=7), NPL, 60.0)
     pairs = [pair((band.first + band.after) / 2, band.stronger, band.weaker) for band in bands]
     plot = evenness_plot(bands, pairs, NPL)
     curves = [[tuple(map(float, p.split(","))) for p in c.split()] for c in plot.curves]
@@ -34,7 +35,7 @@ def test_half_is_marked_in_the_middle():
 
 
 def test_equal_players_alone_can_be_drawn():
-    bands = chart_bands(RaceLimits(race_to=7), NPL, 0.0)
+    bands = chart_bands(OfferedRaces(race_to=7), NPL, 0.0)
     plot = evenness_plot(bands, [pair(0.0, 7, 7)], NPL)
     assert plot.dots == [(plot.left, (plot.top + plot.bottom) / 2)]
     assert evenness_plot([], [pair(0.0, 7, 7)], NPL).dots[0][0] == plot.left

@@ -21,8 +21,8 @@ def test_a_document_has_its_pages_a_title_and_no_date():
     assert len(re.findall(rb"/Type /Page\b", document)) == 2
     assert "Fair races from Zoë.csv".encode("utf-16-be") in document
     assert re.search(rb"/MediaBox \[ 0 0 841\.\d+ 595\.\d+ \]", document)
-    for told in (b"CreationDate", b"ModDate", b"Producer", b"Creator", mpl.__version__.encode()):
-        assert told not in document
+    for word in (b"CreationDate", b"ModDate", b"Producer", b"Creator", mpl.__version__.encode()):
+        assert word not in document
 
 
 def test_the_same_page_gives_the_same_bytes_whatever_a_matplotlibrc_wishes():
@@ -55,6 +55,12 @@ def test_dollars_and_backslashes_are_no_mathematics():
     (text,) = page.axes[0].texts
     drawn = text.get_window_extent().width / 300
     assert drawn == pytest.approx(width_of(r"$x$ \frac", 12), rel=0.05)
+
+
+@pytest.mark.skipif(mpl.__version_info__ < (3, 11), reason="older ones do not join letters")
+def test_arabic_letters_are_joined():
+    name = "مريم"
+    assert width_of(name, 72) < 0.9 * sum(width_of(letter, 72) for letter in name)
 
 
 @pytest.mark.parametrize("width", [0.05, 0.3, 1.0, 2.0])

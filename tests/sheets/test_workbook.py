@@ -10,14 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from evenbreak.answers.fair_pairs import RaceLimits, matchups_frame
-from evenbreak.answers.frames import ratings_frame, summary_frame
-from evenbreak.answers.sheet_words import races_by_name
+from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
-from evenbreak.files.results import ResultsFile
-from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.sheets.workbook import check_workbook, race_table, report_tables, workbook_bytes
+from leagues import league, sheet_of
 
 calamine = pytest.importorskip("python_calamine", reason="reads workbooks back")
 pytest.importorskip("xlsxwriter", reason="writes workbooks")
@@ -28,31 +25,23 @@ def read_back(content):
     return {name: book.get_sheet_by_name(name).to_python() for name in book.sheet_names}
 
 
-def report(limits):
-    season = Results.from_names(["Ann", "Bo", "Di"], ["Bo", "Cy", "Ed"], [7, 7, 7], [5, 4, 3])
-    ratings = fit(season)
-    file = ResultsFile(season, "r.csv", (), (), "0" * 64)
-    rated = ratings_frame(ratings)
-    paired = matchups_frame(ratings, range(5), limits)
-    told = summary_frame(file, ratings, paired, limits)
-    return report_tables(file, ratings, limits, rated, paired, told), rated, paired
+SEASON = Results.from_names(["Ann", "Bo", "Di"], ["Bo", "Cy", "Ed"], [7, 7, 7], [5, 4, 3])
 
 
 def test_a_report_has_a_sheet_for_each_table():
-    tables, rated, paired = report(RaceLimits(race_to=7))
-    sheets = read_back(workbook_bytes(tables))
+    sheet = sheet_of(SEASON, warnings=("folder/season.csv: columns not used: 'x'",))
+    sheets = read_back(workbook_bytes(report_tables(sheet)))
     assert list(sheets) == ["Ratings", "Races", "Pairs", "Chart", "Left out", "About"]
     header, *rows = sheets["Ratings"]
-    assert header == list(rated.columns)
-    assert [row[0] for row in rows] == rated["player"].tolist()
-    assert [row[1] for row in rows] == pytest.approx(rated["rating"].tolist(), abs=5e-7)
+    assert header == list(sheet.rated.columns)
+    assert [row[0] for row in rows] == sheet.rated["player"].tolist()
+    assert [row[1] for row in rows] == pytest.approx(sheet.rated["rating"].tolist(), abs=5e-7)
     header, *rows = sheets["Races"]
-    races = races_by_name(paired)
     for row in rows:
         for name, cell in zip(header[1:], row[1:], strict=True):
-            assert cell == ("" if name == row[0] else races.get((row[0], name), "-"))
+            assert cell == ("" if name == row[0] else sheet.races.get((row[0], name), "-"))
     header, *rows = sheets["Pairs"]
-    assert len(rows) == len(paired)
+    assert len(rows) == len(sheet.paired)
     assert header[-1] == "note"
     for row in (dict(zip(header, row, strict=True)) for row in rows):
         if row["note"]:
@@ -60,12 +49,14 @@ def test_a_report_has_a_sheet_for_each_table():
         else:
             assert row["p_win_a_low"] < row["p_win_a"] < row["p_win_a_high"]
     assert [row[0] for row in sheets["Chart"]][:2] == ["difference_from", 0.0]
-    assert sheets["Left out"][1][0] == "the races of 6 pairs"
-    assert ["results_file", "r.csv"] in sheets["About"]
+    assert [row[0] for row in sheets["Left out"]] == (
+        ["what", "the races of 6 pairs", "Warning about season.csv"]
+    )
+    assert ["results_file", "season.csv"] in sheets["About"]
 
 
 def test_where_lengths_differ_there_is_no_chart():
-    assert "Chart" not in report(RaceLimits(games=(5, 9)))[0]
+    assert "Chart" not in report_tables(sheet_of(SEASON, offered=OfferedRaces(games=(5, 9))))
 
 
 def test_text_stays_text_and_no_cell_is_a_formula_or_a_link():
@@ -127,9 +118,8 @@ def test_a_missing_xlsxwriter_is_told_with_its_remedy(monkeypatch):
 
 
 def test_a_player_may_be_called_player():
-    rated = pd.DataFrame({"player": ["player", "Bo"]})
-    paired = pd.DataFrame({"player_a": ["player"], "player_b": ["Bo"], "race_a": 7, "race_b": 5})
-    table = race_table(rated, paired)
+    table = race_table(sheet_of(league(("player", "Bo"))))
     assert list(table.columns) == ["player", "player", "Bo"]
-    sheets = read_back(workbook_bytes({"Races": table}))
-    assert sheets["Races"] == [["player", "player", "Bo"], ["player", "", "7:5"], ["Bo", "5:7", ""]]
+    header, *rows = read_back(workbook_bytes({"Races": table}))["Races"]
+    assert header == ["player", "player", "Bo"]
+    assert [row[0] for row in rows] == ["player", "Bo"]

@@ -1,8 +1,12 @@
-from .fair_pairs import RaceLimits as RaceLimits
-from .fair_pairs import find_players as find_players
+from .chosen_players import find_players as find_players
+from .chosen_players import most_active as most_active
 from .fair_pairs import matchups_frame as matchups_frame
-from .fair_pairs import most_active as most_active
-from .frames import ratings_frame as ratings_frame
-from .frames import summary_frame as summary_frame
+from .matchups import matchups_answer as matchups_answer
+from .offered_races import OfferedRaces as OfferedRaces
 from .rating_changes_frame import moves_frame as moves_frame
 from .rating_changes_frame import moves_of_files as moves_of_files
+from .report import report_answer as report_answer
+from .report_frames import ratings_frame as ratings_frame
+from .report_frames import summary_frame as summary_frame
+from .round import Round as Round
+from .sheet import Sheet as Sheet

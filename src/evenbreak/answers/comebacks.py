@@ -21,11 +21,11 @@ def comeback_tables(match: Match, odds: LiveOdds, names: tuple[str, str]) -> Ite
     """Yield the comeback table as people read it: a matrix of scores, or a list of leads.
 
     In a match of sets, the scores of the set under way come first, then those at which a set
-    begins. A star stands before the chance at the score now.
+    begins. A star marks the chance at the score now.
     """
     moments = odds.comebacks()
     if not moments:
-        yield "The match is over: no score is to come."
+        yield "The match is over: there are no scores to come."
     for breaker in sorted({moment.breaker or 0 for moment in moments}):
         score, *inner = odds.now.scores if (odds.now.breaker or 0) == breaker else ((-1, -1),)
         here = [moment for moment in moments if (moment.breaker or 0) == breaker]
@@ -42,7 +42,7 @@ def comeback_tables(match: Match, odds: LiveOdds, names: tuple[str, str]) -> Ite
             yield _matrix(title, inside, isinstance(match.rack, Ahead), at, names)
         between = {m.scores[0]: m.p_win_1 for m in here if m.scores[1] == begin}
         if between:
-            title = f"by the score in sets, as a set begins{breaks}"
+            title = f"by the score in sets, at the start of a set{breaks}"
             at = score if inner == [begin] else None
             yield _matrix(title, between, isinstance(match, Ahead), at, names)
 
@@ -51,8 +51,8 @@ def _matrix(
     title: str, cells: Cells, leads: bool, now: Score | None, names: tuple[str, str]
 ) -> Table:
     a, b = names
-    star = " (* the score now)" if now in cells else ""
-    title = f"{a}'s chance to win the match in %, {title}{star}"
+    star = " (* marks the score now)" if now in cells else ""
+    title = f"{a}'s chance of winning the match in %, {title}{star}"
     shown = {at: f"{'*' if at == now else ''}{100 * cells[at]:.1f}" for at in cells}
     if leads:
         by_lead = {i - j: text for (i, j), text in shown.items()}

@@ -1,4 +1,4 @@
-"""Match formats side by side: which suits whom, and at what strength that turns."""
+"""Match formats side by side: which is better for whom, and at what strength that changes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from evenbreak.answers.two_players import TwoPlayers
     from evenbreak.matches.crossings import Crossing, Crossings
     from evenbreak.matches.formats import MatchFormat
-    from evenbreak.matches.odds import Odds
+    from evenbreak.matches.odds import MatchOdds
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""
@@ -32,7 +32,7 @@ class Compared(NamedTuple):
     """
 
     format: MatchFormat
-    odds: Odds
+    odds: MatchOdds
     even: tuple[Crossing, ...]
 
 
@@ -118,7 +118,7 @@ def _formats(compared: Sequence[Compared], players: TwoPlayers, axis: str) -> Ta
         Column("p_win_a", f"{a} wins", chance),
         Column("from_even", "from even", signed(4)),
         Column("mean_games", "games, on\naverage", games),
-        Column("games_p90", "9 of 10\nwithin"),
+        Column("games_p90", "9 of 10\nend within"),
         Column("even", f"even at {axis}"),
     ]
     rows = [
@@ -133,27 +133,29 @@ def _formats(compared: Sequence[Compared], players: TwoPlayers, axis: str) -> Ta
 
 
 def _advice(compared: Sequence[Compared], players: TwoPlayers) -> str:
-    """Return which format suits whom, and which is nearest to even, as they play now."""
+    """Return which format is better for whom, and which is nearest to even."""
     a, b = players.names
     wins = [one.odds.p_win_1 for one in compared]
+    names = [str(one.format) for one in compared]
     if len(compared) == 1:
-        return f"{a} wins {compared[0].format} {percent(wins[0])} of the time."
-    best = [str(one.format) for one in compared if one.odds.p_win_1 > max(wins) - SAME]
+        return f"{a} wins {names[0]} {percent(wins[0])} of the time."
+    best = [name for name, win in zip(names, wins, strict=True) if win > max(wins) - SAME]
     if len(best) == len(compared):
-        return f"As they play now, all of these are worth the same to {a}."
-    worst = [str(one.format) for one in compared if one.odds.p_win_1 < min(wins) + SAME]
+        return f"All of these are worth the same to {a}, who wins {percent(wins[0])} of the time."
+    worst = [name for name, win in zip(names, wins, strict=True) if win < min(wins) + SAME]
     nearest = min(abs(win - 0.5) for win in wins)
-    fair = [str(one.format) for one in compared if abs(one.odds.p_win_1 - 0.5) < nearest + SAME]
+    fair = [name for name, win in zip(names, wins, strict=True) if abs(win - 0.5) < nearest + SAME]
+    most = max(one.odds.p_win_2 for one in compared)
     return (
-        f"As they play now, {a} does best with {listed(best)} and {b} with {listed(worst)}; "
-        f"{listed(fair)} {'is' if len(fair) == 1 else 'are'} nearest to even."
+        f"{a} does best with {listed(best)}, winning {percent(max(wins))} of the time, and {b} "
+        f"with {listed(worst)}, winning {percent(most)}.\nNearest to even: {listed(fair)}."
     )
 
 
 def _stays(axis: str, hold: str | None) -> str:
     if axis == "p":
         return ""
-    return ", the break's advantage as it is" if hold == "break" else ", p2 as it is"
+    return " (the advantage of the break stays)" if hold == "break" else " (p2 stays)"
 
 
 def _turns(
@@ -170,7 +172,7 @@ def _turns(
         for (i, j), found in pairs.items()
     ]
     columns = [Column("formats", "", left=True), Column("better", "", left=True)]
-    return Table("", columns, rows, f"Which is better for {a}, as {axis} grows{stays}:")
+    return Table("", columns, rows, f"The better format for {a} as {axis} grows{stays}:")
 
 
 def _turn(found: Crossings, one: str, two: str) -> str:

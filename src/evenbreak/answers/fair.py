@@ -21,19 +21,19 @@ def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float
     >>> from evenbreak.handicaps import fair_races
     >>> races = fair_races(Rack(0.6), race_to=7, top=2)
     >>> print(fair_answer(TwoPlayers(Rack(0.6)), races).sentences[0])
-    The fairest race is 7:5: A wins it 53 % of the time, and it lasts 9.30 games on average.
+    The fairest race is 7:5. A wins it 53 % of the time, and it lasts 9.3 games on average.
     """
     a, b = players.names
     rows = [
         (race.race_1, race.race_2, race.p_win_1, race.mean_games, race.games_p90) for race in races
     ]
     m, n, p_win, mean, _ = rows[0]
-    wish = "fairest race" if target == 0.5 else f"race nearest to a chance of {target:g}"
+    wish = "fairest race" if target == 0.5 else f"race nearest to a {target:g} chance for {a}"
     return Answer(
         players.description,
         [
-            f"The {wish} is {m}:{n}: {a} wins it {percent(p_win)} of the time, and it lasts "
-            f"{games(mean)} games on average.",
+            f"The {wish} is {m}:{n}. {a} wins it {percent(p_win)} of the time, and it lasts "
+            f"{mean:.1f} games on average.",
             Table(
                 "races",
                 [
@@ -41,7 +41,7 @@ def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float
                     Column("race_b", f"{b} needs"),
                     Column("p_win_a", f"{a} wins", chance),
                     Column("mean_games", "games, on average", games),
-                    Column("games_p90", "9 of 10 within"),
+                    Column("games_p90", "9 of 10 end within"),
                 ],
                 rows,
             ),

@@ -77,7 +77,7 @@ def _in_words(now: Standing, players: TwoPlayers) -> str:
     name, p = (a, now.p_win_1) if now.p_win_1 >= now.p_win_2 else (b, now.p_win_2)
     after, other = now.p_win_1_after or (p, p)
     return (
-        f"{name} wins from here {percent(p)} of the time. If {a} wins the next game, {a}'s chance "
+        f"From here {name} wins {percent(p)} of the time.\nIf {a} wins the next game, {a}'s chance "
         f"is {percent(after)}; if {b} wins it, {percent(other)}."
     )
 
@@ -89,9 +89,13 @@ def _now(now: Standing, players: TwoPlayers) -> Quantities:
         [
             Quantity("p_win_a", now.p_win_1, f"{a} wins the match", chance),
             Quantity("p_win_b", now.p_win_2, f"{b} wins the match", chance),
-            Quantity("p_win_a_if_a", after, f"{a} wins it, if {a} wins the next game", chance),
-            Quantity("p_win_a_if_b", other, f"{a} wins it, if {b} wins the next game", chance),
-            Quantity("leverage", now.leverage, "leverage: the difference", chance),
+            Quantity(
+                "p_win_a_if_a", after, f"{a} wins the match if {a} wins the next game", chance
+            ),
+            Quantity(
+                "p_win_a_if_b", other, f"{a} wins the match if {b} wins the next game", chance
+            ),
+            Quantity("leverage", now.leverage, "leverage of the next game: the difference", chance),
             Quantity("mean_racks_left", now.mean_racks, "games left, on average", games),
             Quantity("racks_left_p90", now.racks_p90, "9 of 10 matches end within", games),
         ],
@@ -149,10 +153,13 @@ def _turning_point(odds: LiveOdds, players: TwoPlayers) -> str:
     swing = odds.swings[most]
     if not swing:
         return ""
-    winner = players.names[odds.winners[most] - 1]
+    winner = odds.winners[most]
+    before, after = (
+        moment.p_win_1 if winner == 1 else moment.p_win_2 for moment in odds.course[most : most + 2]
+    )
     return (
-        f"Game {most + 1} was the turning point: it gave {winner} {chance(abs(swing))} more of a "
-        "chance to win the match."
+        f"Game {most + 1} was the turning point: it took {players.names[winner - 1]}'s chance from "
+        f"{percent(before)} to {percent(after)}."
     )
 
 

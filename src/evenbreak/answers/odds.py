@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer, Quantities, Quantity
 from evenbreak.answers.wording import chance, decimals, games, percent
+from evenbreak.games.ahead import Ahead
 from evenbreak.games.rack import Rack
 from evenbreak.matches.odds import match_odds
 
 if TYPE_CHECKING:
     from evenbreak.answers.two_players import TwoPlayers
     from evenbreak.games.match import Match
-    from evenbreak.matches.odds import Odds
+    from evenbreak.matches.odds import MatchOdds
 
 
 def odds_answer(players: TwoPlayers, match: Match) -> Answer:
@@ -22,7 +23,8 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     >>> from evenbreak.games import Race
     >>> answer = odds_answer(TwoPlayers(Rack(0.6)), Race(7, 5, Rack(0.6)))
     >>> print(answer.sentences[0])
-    A wins the match 53 % of the time. It lasts 9.3 games on average; 9 of 10 end within 11.
+    A wins the match 53 % of the time.
+    It lasts 9.3 games on average, and 9 of 10 such matches end within 11.
     """
     odds = match_odds(match)
     a, b = players.names
@@ -62,18 +64,24 @@ def odds_answer(players: TwoPlayers, match: Match) -> Answer:
     )
 
 
-def _in_words(odds: Odds, match: Match, players: TwoPlayers) -> str:
+def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
     a, b = players.names
     if (winner := match.decided(*match.score)) is not None:
         return f"{players.names[winner - 1]} has won the match."
     if odds.p_never_ends:
-        return f"The match may never end: the chance is {chance(odds.p_never_ends)}."
+        if odds.p_never_ends == 1.0:
+            return "The match never ends."
+        return f"The match may never end; the chance of that is {chance(odds.p_never_ends)}."
     name, p = (a, odds.p_win_1) if odds.p_win_1 >= odds.p_win_2 else (b, odds.p_win_2)
     text = f"{name} wins the match {percent(p)} of the time."
     if odds.mean_games is None or odds.games_p90 is None:
         return text
     length = decimals(1)(odds.mean_games) if odds.mean_games < 1e6 else games(odds.mean_games)
-    return f"{text} It lasts {length} games on average; 9 of 10 end within {odds.games_p90:,}."
+    more = " more" if any(match.score) else ""
+    return (
+        f"{text}\nIt lasts {length}{more} games on average, and 9 of 10 such matches end within "
+        f"{odds.games_p90:,}."
+    )
 
 
 def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
@@ -83,8 +91,12 @@ def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
     >>> match_words(Race(3, 1, Race(3, 3, Rack(0.6)), score=(1, 0)))
     'Race 3:1 in sets of 3:3, score 1:0'
     """
-    text = {"Race": "Race", "Ahead": "First to lead by"}[type(match).__name__]
-    text += f" {match.m}:{match.n}"
+    if isinstance(match, Ahead):
+        a, b = names
+        by = f"{match.m} ({a}) or {match.n} ({b})" if match.m != match.n else str(match.m)
+        text = f"First to lead by {by}"
+    else:
+        text = f"Race {match.m}:{match.n}"
     if (win_by := getattr(match, "win_by", 1)) > 1:
         text += f", win by {win_by}"
     if not isinstance(match.rack, Rack):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.answers.frames import ratings_frame
+from evenbreak.answers.report_frames import ratings_frame
 from evenbreak.ratings.fitted import Ratings
 
 if TYPE_CHECKING:

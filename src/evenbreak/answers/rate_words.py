@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.answers.frames import scale_text
-from evenbreak.answers.sheet_words import count_of
+from evenbreak.answers.scale_words import like_scale_words
+from evenbreak.answers.wording import count_of
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 
@@ -49,7 +49,7 @@ def rate_words(ratings: Ratings, choice: PriorChoice | None = None) -> list[str]
     lines = [
         f"{int((~ratings.idle).sum()):,} players, {', of these '.join(made)}"
         + (f"; left out: {', '.join(left_out)}." if left_out else "."),
-        f"On {scale_text(ratings.scale)}.",
+        f"On {like_scale_words(ratings.scale)}.",
         *prior_words(ratings, choice),
     ]
     if ratings.named:

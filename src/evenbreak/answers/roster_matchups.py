@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.answers.fair_pairs import NOT_LINKED, RaceLimits
+from evenbreak.answers.fair_pairs import NOT_LINKED
+from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
 from evenbreak.files.problems import Problems, quoted
 from evenbreak.files.roster import RosterFile
@@ -34,15 +35,15 @@ Ints = NDArray[np.int64]
 FAIR_WITHIN = 0.1
 """How far from 1/2 the chance of a fair race may be."""
 
-NEW = ("A is new", "B is new", "A and B are new")
-"""The notes on pairs with players who have no games yet."""
+NOT_FAIR = "no race allowed is fair"
+"""How the note begins on a pair whose fairest race is not within `FAIR_WITHIN`."""
 
 
 def all_pairs(roster: Roster) -> Ints:
     """Return all pairs of players as places in the roster, the stronger of the two first.
 
-    The pairs of the strongest player come first; players of one rating are in the order of
-    the list.
+    The pairs of the strongest player come first; players with equal ratings stay in the order
+    of the list.
 
     >>> all_pairs(Roster(["Ann", "Bo", "Cy"], [70, 92, 81])).tolist()
     [[1, 2], [1, 0], [2, 0]]
@@ -52,7 +53,7 @@ def all_pairs(roster: Roster) -> Ints:
 
 
 def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> None:
-    """Refuse a roster with ratings that are no levels of the chart, or errors beyond all bounds.
+    """Refuse ratings that are not levels of the chart, and standard errors that are too large.
 
     Raises
     ------
@@ -66,7 +67,7 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
         np.flatnonzero(roster.standard_error > most),
         lambda place: (
             f"{'quasi_error' if place in file.by_quasi else 'standard_error'} "
-            f"{roster.standard_error[place]:g} says nothing of a player; write {most:g} points "
+            f"{roster.standard_error[place]:g} says nothing about a player; write {most:g} points "
             "at most, or check --scale"
         ),
     )
@@ -76,8 +77,8 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
             file.lines,
             np.flatnonzero(~np.isin(_whole(roster.rating), chart.levels)),
             lambda place: (
-                f"rating {roster.rating[place]:g} of {quoted(roster.players[place])} is no level "
-                f"of the chart {chart.name}; write one of {levels}"
+                f"rating {roster.rating[place]:g} of {quoted(roster.players[place])} is not a "
+                f"level of the chart {chart.name}; write one of {levels}"
             ),
         )
     problems.raise_any()
@@ -89,7 +90,7 @@ class Races:
 
     `p_win` is P(A wins | the ratings and their errors), `plug_in` P(A wins | the ratings are
     right); `mean` and `p90` are the mean length and the games within which 90 % of such races
-    end; `laws` is the law of each race's length.
+    end; `lengths` has the distribution of each race's length.
     """
 
     m: Ints
@@ -98,19 +99,19 @@ class Races:
     plug_in: Floats
     mean: Floats
     p90: Ints
-    laws: Sequence[Length]
+    lengths: Sequence[Length]
 
     @classmethod
     def of(cls, gap: Floats, error: Floats, m: Ints, n: Ints, scale: Scale) -> Races:
-        """Work out the races m:n of pairs with these differences and standard errors."""
+        """Return the races m:n of pairs with these differences and standard errors."""
         mean, p90 = np.zeros(len(gap)), np.zeros(len(gap), dtype=np.int64)
-        laws: list[Length] = [Length([], [])] * len(gap)
+        lengths: list[Length] = [Length([], [])] * len(gap)
         for race in np.unique(np.column_stack([m, n]), axis=0).tolist():
             of_race = np.flatnonzero((m == race[0]) & (n == race[1]))
             length = length_given_ratings(gap[of_race], error[of_race], *race, scale=scale)
             mean[of_race], p90[of_race] = length.mean, length.quantile(0.9)
-            for place, law in zip(of_race.tolist(), length.probability, strict=True):
-                laws[place] = Length(length.games, law)
+            for place, chances in zip(of_race.tolist(), length.probability, strict=True):
+                lengths[place] = Length(length.games, chances)
         return cls(
             m,
             n,
@@ -118,28 +119,28 @@ class Races:
             win_given_ratings(gap, 0.0, m, n, scale=scale),
             mean,
             p90,
-            laws,
+            lengths,
         )
 
 
 @dataclass(frozen=True, eq=False)
 class RosterMatchups:
-    """What pairs of players are offered.
+    """The races of pairs of players.
 
     Parameters
     ----------
     frame
         a row for each pair, as `roster_matchups` describes it.
-    chart_laws, best_laws
-        the law of the length of each pair's race by the chart and of the fairest, without
-        the pairs that no chain of opponents links; None where there is no such race.
+    chart_lengths, best_lengths
+        the distribution of the length of each pair's race from the chart and of the fairest one,
+        without the pairs that no chain of opponents links; None if that kind is not asked for.
     linked
-        which pairs those laws are for.
+        which pairs are linked by a chain of opponents.
     """
 
     frame: pd.DataFrame
-    chart_laws: Sequence[Length] | None
-    best_laws: Sequence[Length] | None
+    chart_lengths: Sequence[Length] | None
+    best_lengths: Sequence[Length] | None
     linked: NDArray[np.bool_]
 
 
@@ -149,24 +150,24 @@ def roster_matchups(
     *,
     scale: Scale,
     chart: Chart | LevelChart | None = None,
-    limits: RaceLimits | None = None,
+    offered: OfferedRaces | None = None,
     minutes_per_game: float | None = None,
 ) -> RosterMatchups:
-    """Return the races of pairs of players, and what each comes to.
+    """Return the races of pairs of players, their chances and their lengths.
 
     Parameters
     ----------
     roster
-        how strong everybody is; new players filled in. A player whose error is not stated is
-        taken to be rated right.
+        how strong everybody is, with new players filled in. A player whose error is not stated
+        is taken to be rated exactly.
     pairs
         places in the roster, shape (k, 2).
     scale
         what the points mean.
     chart
-        the league's chart. It is asked with ratings that are rounded to whole points.
-    limits
-        among which races the fairest is sought.
+        the league's chart; ratings are rounded to whole points to look it up.
+    offered
+        the races among which the fairest is sought.
     minutes_per_game
         how long a game takes; None: no minutes.
 
@@ -176,8 +177,8 @@ def roster_matchups(
         its frame has player_a, player_b; difference of the ratings and difference_error, its
         standard error (none where it is stated for neither), in points; p_game_a and
         p_game_a_plug_in; with a chart the columns chart_race_a, chart_race_b, chart_p_win_a,
-        chart_p_win_a_plug_in, chart_unfairness, chart_mean_games, chart_games_p90; with limits
-        race_a, race_b, p_win_a, p_win_a_plug_in, mean_games, games_p90; with minutes also
+        chart_p_win_a_plug_in, chart_unfairness, chart_mean_games, chart_games_p90; with offered
+        races race_a, race_b, p_win_a, p_win_a_plug_in, mean_games, games_p90; with minutes also
         mean_minutes and minutes_p90 of each; note. A chance is conditional on the ratings and
         their errors, that of the race averaged over them; a plug-in chance on the ratings
         being right. The unfairness is the distance of the chance from 1/2.
@@ -185,13 +186,13 @@ def roster_matchups(
     Raises
     ------
     InputError
-        if there is neither a chart nor limits, a player has no rating, or the chart has no
+        if neither a chart nor races are offered, a player has no rating, or the chart has no
         such level.
     """
     import pandas as pd
 
-    if chart is None and limits is None:
-        raise InputError("chart and limits are missing; give one of them at least")
+    if chart is None and offered is None:
+        raise InputError("chart and offered are missing; give one of them at least")
     if np.isnan(roster.rating).any():
         raise InputError("roster has players without a rating; fill them in by with_starters")
     a, b = pairs[:, 0], pairs[:, 1]
@@ -211,8 +212,8 @@ def roster_matchups(
     if chart is not None:
         by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
         columns |= _columns("chart_", by_chart, minutes_per_game)
-    if limits is not None:
-        found = fairest_races(gap, error, games=limits.games, race_to=limits.race_to, scale=scale)
+    if offered is not None:
+        found = fairest_races(gap, error, games=offered.games, race_to=offered.race_to, scale=scale)
         best = Races.of(gap, error, *found, scale)
         columns |= _columns("", best, minutes_per_game)
     everyone = {
@@ -225,12 +226,13 @@ def roster_matchups(
     frame = frame.astype(dict.fromkeys(whole, "Int64"))
     frame = pd.concat([pd.DataFrame(everyone, dtype=object), frame], axis=1)
     frame["note"] = _notes(roster, pairs, linked, best)
-    laws = [None if races is None else races.laws for races in (by_chart, best)]
-    return RosterMatchups(frame, laws[0], laws[1], linked)
+    return RosterMatchups(
+        frame, by_chart.lengths if by_chart else None, best.lengths if best else None, linked
+    )
 
 
 def _linked(roster: Roster, a: Ints, b: Ints) -> NDArray[np.bool_]:
-    """Return whose ratings can be compared; of a new player the starter rating says what it can."""
+    """Return which pairs can be compared; a new player's starter rating compares with anybody's."""
     group = np.where(roster.games == 0, 0, roster.component)
     linked: NDArray[np.bool_] = (group[a] == group[b]) | (group[a] == 0) | (group[b] == 0)
     return linked
@@ -265,7 +267,7 @@ def _columns(prefix: str, races: Races, minutes: float | None) -> dict[str, Any]
 
 
 def _notes(roster: Roster, pairs: Ints, linked: NDArray[np.bool_], best: Races | None) -> list[str]:
-    """Return what to say of each pair: no link, no fair race, who is new."""
+    """Return the note on each pair: no link, no fair race, who is new."""
     notes: list[list[str]] = [[] for _ in pairs]
     for row in np.flatnonzero(~linked).tolist():
         notes[row].append(NOT_LINKED)
@@ -273,9 +275,9 @@ def _notes(roster: Roster, pairs: Ints, linked: NDArray[np.bool_], best: Races |
         chances = np.full(len(pairs), 0.5)
         chances[linked] = best.p_win
         for row in np.flatnonzero(np.abs(chances - 0.5) > FAIR_WITHIN).tolist():
-            notes[row].append(f"no race allowed is fair: the nearest gives A {chances[row]:.2f}")
+            notes[row].append(f"{NOT_FAIR}: the nearest gives A {chances[row]:.2f}")
     new = roster.games == 0
     for row in np.flatnonzero(new[pairs].any(axis=1)).tolist():
         a, b = new[pairs[row]]
-        notes[row].append(NEW[2] if a and b else NEW[0] if a else NEW[1])
+        notes[row].append("A and B are new" if a and b else f"{'A' if a else 'B'} is new")
     return ["; ".join(note) for note in notes]

@@ -1,4 +1,4 @@
-"""What the page of a round says: which races these are, and what was assumed."""
+"""The sentences of a round's races, each said once for the terminal and the page."""
 
 from __future__ import annotations
 
@@ -7,26 +7,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.answers.fair_pairs import RaceLimits
-from evenbreak.answers.frames import scale_text
-from evenbreak.answers.html_words import Remark, game_chance, some_names, warnings_of
-from evenbreak.answers.roster_matchups import NEW
-from evenbreak.answers.sheet_words import count_of, which_races
-from evenbreak.files.roster import RosterFile
-from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.level_chart import LevelChart
-from evenbreak.ratings.roster import Roster
-from evenbreak.ratings.scale import Scale
+from evenbreak.answers.fair_pairs import NOT_LINKED
+from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.remarks import Remark
+from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR
+from evenbreak.answers.round import EveningEnd, Round
+from evenbreak.answers.scale_words import game_chance
+from evenbreak.answers.wording import clock, count_of, percent, race
 
 if TYPE_CHECKING:
     import pandas as pd
     from numpy.typing import NDArray
 
-Way = Chart | LevelChart | RaceLimits
-"""What says which races are played."""
+FEW_GAMES = 20
+"""A rating that rests on fewer games is no more than a guess."""
 
-MOST_NOTES = 8
-"""How many pairs are named of which there is something to say; the rest are counted."""
+KINDS = {"chart": "By the chart", "best": "With the fairest races"}
 
 
 def races_of(frame: pd.DataFrame, prefix: str) -> pd.DataFrame:
@@ -37,92 +33,128 @@ def races_of(frame: pd.DataFrame, prefix: str) -> pd.DataFrame:
     return frame[list(columns)].rename(columns=columns)
 
 
-def about_races(way: Way, paired: pd.DataFrame) -> str:
-    """Return which races these are, of pairs as `races_of` names them."""
-    if isinstance(way, RaceLimits):
-        return " ".join(which_races(paired, way))
-    return f"Races by the chart {way.name}."
+def which_races(tonight: Round, prefix: str) -> str:
+    """Return where the races of one kind come from."""
+    way = tonight.kinds[prefix]
+    return way.in_words if isinstance(way, OfferedRaces) else f"Races by the chart {way.name}."
 
 
-def notes_of(frame: pd.DataFrame) -> list[str]:
-    """Return what there is to say of single pairs, except that somebody is new."""
-    rows: Any = frame.itertuples(index=False)
-    found = [
-        f"{_whom(row.player_a)} (A), {_whom(row.player_b)} (B): {note}."
-        for row in rows
-        for note in row.note.split("; ")
-        if note and note not in NEW
-    ]
-    more = len(found) - MOST_NOTES
-    return found if more <= 0 else [*found[:MOST_NOTES], f"And so {more:,} more."]
+def least_even(paired: pd.DataFrame) -> str:
+    """Return which race favours one of the two most, of pairs as `races_of` names them.
 
-
-def _whom(name: str) -> str:
-    return some_names([name])
-
-
-def rests_on(scale: Scale) -> str:
-    """Return the model in a sentence."""
-    return f"{game_chance(scale)}, every game independent of the others, whoever breaks."
-
-
-def assumed(
-    file: RosterFile,
-    roster: Roster,
-    names: set[str],
-    *,
-    scale: Scale,
-    chart: Chart | LevelChart | None,
-    minutes_per_game: float | None,
-) -> Iterator[Remark]:
-    """Yield what the races rest on besides the list of players.
-
-    Parameters
-    ----------
-    file, roster
-        the list as it was read, and with new players filled in.
-    names
-        the players on the page.
-    scale, chart, minutes_per_game
-        as `roster_matchups` was asked.
+    >>> import pandas as pd
+    >>> pairs = {"player_a": ["Ann", "Cy"], "player_b": ["Bo", "Di"]}
+    >>> races = {"race_a": [7, 4], "race_b": [5, 6], "p_win_a": [0.52, 0.41]}
+    >>> print(least_even(pd.DataFrame(pairs | races)))
+    The least even is 6:4 for Di against Cy: Di wins 59 % of the time.
     """
-    yield Remark("The ratings", f"on {scale_text(scale)}; nobody's official ratings")
-    if chart is not None:
-        yield Remark(f"The chart {chart.name}", "asked with ratings rounded to whole points")
-    here = np.array([player in names for player in roster.players], dtype=bool)
-    yield from _new_players(file.roster, roster, here)
-    error = roster.standard_error[here]
-    if (error > 0.0).any():
+    offered = paired.dropna(subset=["race_a"])
+    if not len(offered):
+        return ""
+    worst: Any = offered.iloc[int((offered["p_win_a"] - 0.5).abs().argmax())]
+    a, b, needs, p = worst.player_a, worst.player_b, (worst.race_a, worst.race_b), worst.p_win_a
+    if p < 0.5:
+        a, b, needs, p = b, a, needs[::-1], 1.0 - p
+    which = "The least even is" if len(offered) > 1 else "The race is"
+    return f"{which} {race(needs)} for {a} against {b}: {a} wins {percent(p)} of the time."
+
+
+def evening_words(end: EveningEnd) -> str:
+    """Return when an evening ends.
+
+    >>> print(evening_words(EveningEnd("chart", 4, 2, 110.2, 120.0, True, 0, 0.0)))
+    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 evenings in 10 end within 2 h 00.
+    """
+    return (
+        f"{KINDS[end.races]}, {count_of(end.matches, 'match', 'matches')} on "
+        f"{count_of(end.tables, 'table')} {'take' if end.matches > 1 else 'takes'} "
+        f"{clock(end.mean_minutes)} on average; 9 evenings in 10 end within "
+        f"{clock(end.minutes_p90)}."
+    )
+
+
+def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
+    """Yield which pairs have no race, or none that is fair."""
+    apart = _pairs(frame[frame["note"].str.startswith(NOT_LINKED)])
+    if apart:
+        yield Remark(
+            f"{count_of(len(apart), 'pair')} without a race",
+            "nothing links the two players, not even opponents of opponents, so their ratings "
+            "cannot be compared",
+            apart,
+        )
+    uneven = _pairs(frame[frame["note"].str.startswith(NOT_FAIR)])
+    if uneven:
+        yield Remark(
+            f"{count_of(len(uneven), 'pair')} without a fair race",
+            f"even the fairest race allowed leaves one of them below {percent(0.5 - FAIR_WITHIN)}",
+            uneven,
+        )
+
+
+def _pairs(rows: pd.DataFrame) -> list[str]:
+    return [f"{a} \N{EN DASH} {b}" for a, b in zip(rows["player_a"], rows["player_b"], strict=True)]
+
+
+def about_players(tonight: Round) -> Iterator[Remark]:
+    """Yield whose rating or standard error was filled in or is missing, of those who meet."""
+    read, started = tonight.file.roster, tonight.roster
+    here = np.zeros(len(started), dtype=bool)
+    here[np.unique(tonight.pairs)] = True
+    unrated, silent = np.isnan(read.rating), np.isnan(started.standard_error)
+    filled = np.isnan(read.standard_error) & ~silent
+    for which, what, why in (
+        (unrated & filled, "without a rating", "taken as {0:g} ± {1:g}"),
+        (unrated & ~filled, "without a rating", "taken as {0:g}"),
+        (~unrated & filled, "without games", "rating taken as right to ± {1:g}"),
+    ):
+        for place in np.flatnonzero(which & here)[:1]:
+            filled_in = why.format(started.rating[place], started.standard_error[place])
+            yield _remark(tonight, which & here, what, filled_in)
+    exact = "rating taken as exact"
+    if silent[here].all():
+        yield Remark("No standard errors are given", "all ratings are taken as exact")
+    elif (silent & here).any():
+        yield _remark(tonight, silent & here, "without a standard error", exact)
+    few = (read.games > 0) & (read.games < FEW_GAMES) & silent & here
+    if few.any():
+        yield _remark(tonight, few, f"with fewer than {FEW_GAMES} games", f"{exact} all the same")
+
+
+def _remark(tonight: Round, which: NDArray[np.bool_], what: str, why: str) -> Remark:
+    names = [tonight.roster.players[place] for place in np.flatnonzero(which).tolist()]
+    return Remark(f"{count_of(len(names), 'player')} {what}", why, names)
+
+
+def about_method(tonight: Round) -> Iterator[Remark]:
+    """Yield what the numbers rest on."""
+    if tonight.chart is not None:
+        yield Remark(
+            f"Chart {tonight.chart.name}", "looked up with ratings rounded to whole points"
+        )
+    if doubtful(tonight):
         yield Remark(
             "How far a rating may be off (±, one standard error)",
-            "each chance and each length is averaged over it; the errors of two players are "
-            "taken as independent, and that of their difference as normal",
+            "each chance and each length is averaged over it, the errors of two players taken as "
+            "independent and normal",
         )
-        yield from _about(roster, here & np.isnan(roster.standard_error), "taken as rated right")
-    else:
-        yield Remark("How far a rating may be off", "not stated; every rating is taken as exact")
-    if minutes_per_game is not None:
-        yield Remark(f"{minutes_per_game:g} minutes a game", "without pauses")
-    yield from warnings_of(file)
+    if tonight.minutes_per_game is not None:
+        yield Remark(f"{tonight.minutes_per_game:g} minutes a game", "without pauses")
+    for end in tonight.evening:
+        if not end.exact:
+            yield Remark(
+                f"When it ends {KINDS[end.races][:1].lower()}{KINDS[end.races][1:]}",
+                f"from {end.runs:,} simulated evenings; the standard error of the average is "
+                f"{end.mean_minutes_error:.2g} minutes",
+            )
 
 
-def _new_players(read: Roster, started: Roster, here: NDArray[np.bool_]) -> Iterator[Remark]:
-    """Yield whose rating or error was filled in, by the value that they got."""
-    unrated = np.isnan(read.rating)
-    error = started.standard_error
-    filled = np.isnan(read.standard_error) & ~np.isnan(error)
-    for which, why in (
-        (unrated & filled, "no rating yet, taken as {0:g} ± {1:g}"),
-        (unrated & ~filled, "no rating yet, taken as {0:g}"),
-        (~unrated & filled, "no games yet, rating taken as right to ± {1:g}"),
-    ):
-        places = np.flatnonzero(which & here)
-        if len(places):
-            first = started.rating[places[0]], error[places[0]]
-            yield from _about(started, which & here, why.format(*first))
+def doubtful(tonight: Round) -> bool:
+    """Return whether the error of any rating is stated."""
+    return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
 
 
-def _about(roster: Roster, which: NDArray[np.bool_], why: str) -> Iterator[Remark]:
-    names = [roster.players[place] for place in np.flatnonzero(which).tolist()]
-    if names:
-        yield Remark(f"{count_of(len(names), 'player', 'players')}: {some_names(names)}", why)
+def about_model(tonight: Round) -> str:
+    """Return the model in a sentence."""
+    text = game_chance(tonight.scale)
+    return f"{text[:1].upper()}{text[1:]}, independently of every other game, whoever breaks."

@@ -84,3 +84,34 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
             f"{edge:.0f} points from the median of {middle:.0f}; are all on the same scale?"
         )
     return doubts
+
+
+def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
+    """Return a warning if new players start at a middle that is far from everybody else.
+
+    Parameters
+    ----------
+    scale
+        whose middle a new player is given.
+    ratings
+        NaN is a new player.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> starter_doubts(SCALES["fargo"], [92, 71, float("nan")])
+    ['new players start at 500, the middle of the fargo scale, but the other ratings go from 71 to
+    92; say with --starter what a new player starts with']
+    """
+    import numpy as np
+
+    known = np.asarray(ratings, dtype=float)
+    rated = known[~np.isnan(known)]
+    if not 0 < len(rated) < len(known):
+        return []
+    least, most, edge = rated.min(), rated.max(), scale.points_per_doubling
+    if least - edge <= scale.centre <= most + edge:
+        return []
+    return [
+        f"new players start at {scale.centre:g}, the middle of the {scale.name} scale, but the "
+        f"other ratings go from {least:g} to {most:g}; say with --starter what a new player "
+        "starts with"
+    ]

@@ -12,7 +12,7 @@ from evenbreak.answers.season_frames import (
     weeks_frame,
     weeks_with_players,
 )
-from evenbreak.answers.sheet_words import count_of
+from evenbreak.answers.wording import count_of
 from evenbreak.files.problems import printable
 
 if TYPE_CHECKING:

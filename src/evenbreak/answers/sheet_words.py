@@ -1,160 +1,131 @@
-"""What a fair-race sheet says, on a screen and on paper."""
+"""The sentences of a fair-race sheet, each said once for text, paper, page and workbook."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.fair_pairs import RaceLimits
-from evenbreak.answers.frames import count_groups, dates_of, file_name, scale_text
-from evenbreak.files.results import ResultsFile
-from evenbreak.ratings.fitted import Ratings
-from evenbreak.ratings.scale import Scale
+from evenbreak.answers.report_frames import count_groups, dates_of, file_name
+from evenbreak.answers.scale_words import game_chance, like_scale_words
+from evenbreak.answers.sheet import Sheet
+from evenbreak.answers.wording import count_of, percent, race
 
 if TYPE_CHECKING:
     import pandas as pd
 
-NO_RACE = "-"
 
-
-def count_of(number: int, one: str, many: str) -> str:
-    """Return a number with the noun that it counts.
-
-    >>> count_of(1, "game", "games"), count_of(2599, "game", "games")
-    ('1 game', '2,599 games')
-    """
-    return f"{number:,} {one if number == 1 else many}"
-
-
-def decimals_of(scale: Scale) -> int:
-    """Return how many decimals of a rating a person needs: about a hundredth of a doubling."""
-    return max(0, 2 - math.floor(math.log10(scale.points_per_doubling)))
-
-
-def source_and_dates(file: ResultsFile, ratings: Ratings) -> str:
+def source_and_dates(sheet: Sheet) -> str:
     """Return the name of the results file and the days of the first and last match rated."""
-    first, last = dates_of(file.results, ratings.as_of)
+    first, last = dates_of(sheet.file.results, sheet.ratings.as_of)
     days = f", {first}" if first else ""
     days += f" to {last}" if last != first else ""
-    return f"{file_name(file)}{days}"
+    return f"{file_name(sheet.file)}{days}"
 
 
-def played(ratings: Ratings) -> str:
+def played(sheet: Sheet) -> str:
     """Return how much was played, by how many."""
-    players = int((~ratings.idle).sum())
+    ratings = sheet.ratings
     return (
-        f"{count_of(ratings.matches, 'match', 'matches')} of {players:,} players, "
-        f"{count_of(int(ratings.won.sum()), 'game', 'games')}."
+        f"{count_of(ratings.matches, 'match', 'matches')} between {int((~ratings.idle).sum()):,} "
+        f"players, {count_of(int(ratings.won.sum()), 'game')}."
     )
-
-
-def left_out(ratings: Ratings) -> Iterator[str]:
-    """Yield what was left out of the ratings, if anything was."""
-    counts = (
-        (ratings.forfeits, "forfeited"),
-        (ratings.empty, "at 0-0"),
-        (ratings.later, f"after {ratings.as_of}"),
-    )
-    told = [f"{count:,} {what}" for count, what in counts if count]
-    if told:
-        *most, last = told
-        yield f"Left out: {', '.join(most)}{' and ' if most else ''}{last}."
-
-
-def unlike_others(ratings: Ratings) -> Iterator[str]:
-    """Yield whose ratings mean less than the others', if anybody's do."""
-    idle = int(ratings.idle.sum())
-    if idle:
-        names = count_of(idle, "more player has", "more players have")
-        yield f"{names} no game: rated in the middle for want of knowledge."
-    groups = count_groups(ratings)
-    if groups > 1:
-        yield f"{groups:,} groups of players never met; ratings compare only within a group."
-
-
-def scale_sentences(ratings: Ratings) -> str:
-    """Return what the ratings' numbers mean, and that they are no official ones."""
-    return (
-        f"Ratings on {scale_text(ratings.scale)}, mean {ratings.anchor:g}. "
-        "They are nobody's official ratings."
-    )
-
-
-def how_rated(ratings: Ratings) -> str:
-    """Return by which prior, and with what weight of old matches, the ratings were made.
-
-    >>> from evenbreak.ratings import Results, fit
-    >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2026-01-31"])
-    >>> how_rated(fit(season, half_life=180, as_of="2026-02-01"))
-    'Prior: standard deviation 30 points; a match counts half after 180 days, as of 2026-02-01.'
-    """
-    told = f"Prior: standard deviation {ratings.scale.points(ratings.prior_sd):.4g} points"
-    if ratings.half_life is not None:
-        told += f"; a match counts half after {ratings.half_life:g} days"
-    if ratings.as_of is not None:
-        told += f", as of {ratings.as_of}"
-    return f"{told}."
-
-
-def pairs_of(paired: pd.DataFrame, names: set[str]) -> pd.DataFrame:
-    """Return the pairs of which both players are among `names`."""
-    return paired[paired["player_a"].isin(names) & paired["player_b"].isin(names)]
-
-
-def races_by_name(paired: pd.DataFrame) -> dict[tuple[str, str], str]:
-    """Return the race of each two players as text, from the side of the first."""
-    races = {}
-    rows: Any = paired.dropna(subset=["race_a"]).itertuples(index=False)
-    for pair in rows:
-        races[pair.player_a, pair.player_b] = f"{pair.race_a}:{pair.race_b}"
-        races[pair.player_b, pair.player_a] = f"{pair.race_b}:{pair.race_a}"
-    return races
-
-
-def which_races(paired: pd.DataFrame, limits: RaceLimits) -> Iterator[str]:
-    """Yield which races were to choose from, and why lengths differ where they do."""
-    if limits.race_to is not None:
-        needs = count_of(limits.race_to, "game", "games")
-        yield f"The fairest races in which the stronger player needs {needs}."
-    elif limits.games is not None:
-        low, high = limits.games
-        span = f"{low:,} to " if low < high else ""
-        longest = count_of(high, "game", "games")
-        yield f"The fairest races whose longest possible match has {span}{longest}."
-        lengths = (paired["race_a"] + paired["race_b"]).dropna()
-        if len(lengths) and lengths.min() < lengths.max():
-            yield "Each pair gets the race nearest to even, whatever its length."
 
 
 def how_to_read(paired: pd.DataFrame) -> str:
     """Return how the table of races is read, by the example of a race in it."""
     offered = paired.dropna(subset=["race_a"])
     uneven = offered[offered["race_a"] != offered["race_b"]]
-    told = "Row: you. Column: your opponent."
+    text = "Find your row and your opponent's column."
     rows: Any = (uneven if len(uneven) else offered).head(1).itertuples(index=False)
     for pair in rows:
-        needs = count_of(pair.race_a, "game", "games")
-        told += f" {pair.race_a}:{pair.race_b}: you need {needs}, your opponent {pair.race_b}."
-    return told
+        text += (
+            f" {race((pair.race_a, pair.race_b))} means that you need "
+            f"{count_of(pair.race_a, 'game')} and your opponent {pair.race_b}."
+        )
+    return text
 
 
-def remarks(paired: pd.DataFrame) -> Iterator[str]:
-    """Yield what the numbers of the races come to."""
+def how_even(paired: pd.DataFrame) -> Iterator[str]:
+    """Yield how even and how long the races are, and which pairs have none."""
     offered = paired.dropna(subset=["race_a"])
     if len(offered):
-        low, high = offered["p_win_a"].min(), offered["p_win_a"].max()
+        low, high = percent(offered["p_win_a"].min()), percent(offered["p_win_a"].max())
+        wins = f"{low} of the time" if low == high else f"between {low} and {high} of the time"
+        yield f"The stronger player wins {wins}."
+        which = "The longest of these races" if len(offered) > 1 else "The race"
         yield (
-            f"The stronger player wins these with a chance of {low:.3f}"
-            + (f" to {high:.3f}." if high > low else ".")
+            f"{which} lasts {offered['mean_games'].max():.1f} games on average; 9 of 10 such "
+            f"matches end within {offered['games_p90'].max()}."
         )
+    if missing := len(paired) - len(offered):
         yield (
-            f"The longest of them lasts {offered['mean_games'].max():.1f} games on average; "
-            f"9 of 10 end within {offered['games_p90'].max()}."
+            f"A dash marks {count_of(missing, 'pair')} without a race: nothing links the two "
+            "players, not even opponents of opponents, so their ratings cannot be compared."
         )
-    missing = len(paired) - len(offered)
-    if missing:
+
+
+def about_ratings(sheet: Sheet) -> Iterator[str]:
+    """Yield what the numbers of the ratings mean, and which of them mean less."""
+    ratings = sheet.ratings
+    yield (
+        f"Ratings are on {like_scale_words(ratings.scale)}, with a mean of {ratings.anchor:g}; "
+        "they are not official ratings."
+    )
+    if (groups := count_groups(ratings)) > 1:
         yield (
-            f"{NO_RACE} is a pair without a race: no chain of opponents links the two, so that "
-            f"their ratings cannot be compared ({count_of(missing, 'such pair', 'such pairs')})."
+            f"{groups:,} groups of players have never met, not even through others: compare "
+            "ratings within a group only."
         )
+    if idle := int(ratings.idle.sum()):
+        yield f"{count_of(idle, 'more player has', 'more players have')} no games yet."
+
+
+def how_rated(sheet: Sheet) -> str:
+    """Return where ratings start, and what old matches count.
+
+    >>> from evenbreak.answers.offered_races import OfferedRaces
+    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2026-01-31"])
+    >>> ratings = fit(season, half_life=180, as_of="2026-02-01")
+    >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
+    >>> print(how_rated(Sheet.of(file, ratings, OfferedRaces(race_to=7), [0, 1])))
+    Every player starts at 80, give or take 30. A match counts half after 180 days, as of
+    2026-02-01.
+    """
+    ratings = sheet.ratings
+    prior = float(ratings.scale.points(ratings.prior_sd))
+    text = f"Every player starts at {ratings.anchor:g}, give or take {prior:.4g}"
+    if sheet.choice is not None:
+        text += (
+            f": of {len(sheet.choice.tried)} spreads this one predicted "
+            f"{sheet.choice.predicted:,} later results best"
+        )
+    as_of = "" if ratings.as_of is None else f", as of {ratings.as_of}"
+    if ratings.half_life is not None:
+        return f"{text}. A match counts half after {ratings.half_life:g} days{as_of}."
+    return f"{text}{as_of}."
+
+
+def about_model(sheet: Sheet) -> str:
+    """Return the model in a sentence."""
+    ratings = sheet.ratings
+    alike = ", and early and late matches count alike" if ratings.half_life is None else ""
+    races = ", and on the chance of a race where only its winner is known"
+    if not ratings.races_won.any():
+        races = ""
+    breaks = "whoever breaks"
+    if ratings.break_advantage is not None:
+        breaks = f"the breaker playing {ratings.break_advantage:.3g} points better"
+    return (
+        f"Bradley\N{EN DASH}Terry on games{races}: {game_chance(ratings.scale)}, {breaks}; games "
+        f"are independent of each other{alike}. The starting rating is a normal prior, and the "
+        "give or take its standard deviation."
+    )
+
+
+def version_and_source(sheet: Sheet) -> str:
+    """Return what the sheet was made by, and from which bytes."""
+    from evenbreak import __version__
+
+    return f"evenbreak {__version__}, from results with the SHA-256 {sheet.file.sha256[:12]}…"

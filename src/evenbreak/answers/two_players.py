@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from evenbreak.answers.scale_doubts import two_ratings_doubts
+from evenbreak.answers.scale_words import scale_words
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale
@@ -38,10 +39,10 @@ class TwoPlayers:
     >>> print(TwoPlayers.rated(612, 521, scale_of("fargo")).description)
     A rated 612, B rated 521, on the fargo scale (100 points double the odds)
     >>> print(TwoPlayers(Rack(0.6, 0.5), "winner", 2).description)
-    The breaker wins a game with chance 0.6 (A) or 0.5 (B); winner breaks, B breaks first
+    The breaker wins a game with probability 0.6 (A) or 0.5 (B); winner breaks, B breaks first
     """
 
-    rack: Rack
+    rack: Rack[float]
     breaks: str | None = None
     first_breaker: int = 1
     ratings: tuple[float, float] | None = None
@@ -81,10 +82,9 @@ class TwoPlayers:
             first, second = self.ratings
             return f"{a} rated {first:g}, {b} rated {second:g}, {scale_words(self.scale)}"
         if self.breaks is None:
-            return f"{a} wins a game with chance {self.rack.p1:g}"
-        text = (
-            f"The breaker wins a game with chance {self.rack.p1:g} ({a}) or {self.rack.p2:g} ({b})"
-        )
+            return f"{a} wins a game with probability {self.rack.p1:g}"
+        p1, p2 = self.rack.p1, self.rack.p2
+        text = f"The breaker wins a game with probability {p1:g} ({a}) or {p2:g} ({b})"
         usual = 2 if self.breaks == "b" else 1
         always = self.breaks in ("a", "b")
         who = self.names["ab".index(self.breaks)] if always else self.breaks
@@ -92,13 +92,3 @@ class TwoPlayers:
         if self.first_breaker != usual or not always:
             text += f", {self.names[self.first_breaker - 1]} breaks first"
         return text
-
-
-def scale_words(scale: Scale) -> str:
-    """Return a scale in words.
-
-    >>> from evenbreak.ratings import scale_of
-    >>> scale_words(scale_of("fargo"))
-    'on the fargo scale (100 points double the odds)'
-    """
-    return f"on the {scale.name} scale ({scale.points_per_doubling:.6g} points double the odds)"

@@ -1,15 +1,14 @@
+from .absorption import absorption as absorption
+from .absorption import expected_visits as expected_visits
 from .chain import Chain as Chain
 from .explore import chain_from_arrays as chain_from_arrays
 from .explore import chain_of as chain_of
 from .limits import Limit as Limit
-from .limits import absorption as absorption
-from .limits import expected_visits as expected_visits
 from .limits import limit_matrix as limit_matrix
-from .limits import stationary_laws as stationary_laws
 from .limits import stochastic_limit as stochastic_limit
 from .mixing import mixing_time as mixing_time
 from .mixing import spectral_gap as spectral_gap
-from .passage_times import Passage as Passage
+from .passage_times import PassageTime as PassageTime
 from .passage_times import first_passage as first_passage
 from .passage_times import steps_to_absorption as steps_to_absorption
 from .powers import propagate as propagate
@@ -19,6 +18,7 @@ from .sensitivity import Sensitivity as Sensitivity
 from .sensitivity import sensitivity as sensitivity
 from .spectrum import Spectrum as Spectrum
 from .spectrum import spectrum as spectrum
+from .stationary import stationary_laws as stationary_laws
 from .structure import Structure as Structure
 from .symbolic import symbolic_limit as symbolic_limit
 from .transient import TransientPart as TransientPart

@@ -1,8 +1,8 @@
 """The arcs of a chain between different states: all that a solver needs to know.
 
-A self-loop carries no information of its own: it is what the other arcs of its state
-leave over. Every solver therefore starts from the off-diagonal entries of M and from
-their column sums, the outflows, and never forms 1 - M[j, j] by subtraction.
+A self-loop carries no information of its own: its probability is what the other arcs of
+its state leave over. So every solver starts from the off-diagonal entries of M and their
+column sums, the outflows, and never computes 1 - M[j, j].
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class Arcs:
         return _sums(self.sources, self.chances, self.size)
 
     def among(self, states: Places) -> tuple[Arcs, NDArray[np.float64]]:
-        """Return the arcs among some states, renumbered, and each one's chance to leave them.
+        """Return the arcs among some states, renumbered, and each state's chance to leave them.
 
         Parameters
         ----------
@@ -98,12 +98,12 @@ def arcs_of(matrix: csc_array) -> Arcs:
 def reachable(
     size: int, sources: Places, targets: Places, seeds: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
-    """Return which of the states arcs join to the `seeds`, themselves included; shape (size,).
+    """Return which states can be reached from the `seeds`, which count too; shape (size,).
 
     >>> reachable(3, np.array([0, 1]), np.array([1, 0]), np.array([True, False, False]))
     array([ True,  True, False])
     """
-    # One search, from a root above all seeds.
+    # One search, from a root with an arc to every seed.
     roots = np.flatnonzero(seeds)
     near = np.concatenate((sources, np.full(len(roots), size)))
     far = np.concatenate((targets, roots))
@@ -111,6 +111,17 @@ def reachable(
     reached = np.zeros(size + 1, dtype=bool)
     reached[csgraph.breadth_first_order(graph, size, return_predecessors=False)] = True
     return reached[:-1]
+
+
+def put_back(x: NDArray[np.float64], order: Places) -> NDArray[np.float64]:
+    """Return the rows of `x`, which are in the given order of the states, by state.
+
+    >>> put_back(np.array([0.25, 0.5]), np.array([1, 0]))
+    array([0.5 , 0.25])
+    """
+    y = np.empty_like(x)
+    y[order] = x
+    return y
 
 
 def _arcs(

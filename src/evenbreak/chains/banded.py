@@ -1,13 +1,16 @@
 """Elimination for one class of some thousand states, in blocks along a band or all at once.
 
-The states are put in an order in which each arc joins states near each other (reverse
-Cuthill-McKee); eliminating a state then touches only a window of the matrix. Within a
-window a panel of columns is eliminated state by state, and the rest of the window is
-brought up to date by one product of matrices. All that is added is nonnegative and the
-pivots are sums of arcs, so the order of the additions does not matter: entrywise accuracy
-is that of Grassmann, Taksar and Heyman, the speed that of BLAS.
+The states are put in an order in which arcs join states near each other (reverse
+Cuthill-McKee), so that eliminating a state touches only a window of the matrix. Within a
+window a panel of columns is eliminated state by state, and the rest of the window is then
+updated by one matrix product:
 
-With bandwidth w, time is O(n w^2) and memory O(n w); a class without a band has w = n.
+    W[i, j] += sum over k in the panel of W[i, k] W[k, j] / d[k].
+
+All that is added is nonnegative and the pivots d are sums of arcs, so the order of the
+additions does not matter: each entry is as accurate as in the elimination of Grassmann,
+Taksar and Heyman, at the speed of BLAS. With bandwidth w, time is O(n w^2) and memory
+O(n w); a class without a band has w = n.
 
 References: Grassmann, Taksar and Heyman 1985; Alfa, Xue and Ye 2002; George and Liu 1981,
 Computer Solution of Large Sparse Positive Definite Systems, chapter 4 (the ordering).
@@ -21,20 +24,22 @@ import numpy as np
 from scipy.linalg.blas import dgemm, dtrsm
 from scipy.sparse import csc_array, csgraph
 
+from evenbreak.chains.arcs import put_back
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Places
 
 _PANEL = 96
-# Products smaller than this are not spread over threads by BLAS; for small windows it would
-# cost more to wake the threads than to do the work.
+# BLAS does not spread smaller products over threads; for small windows waking the threads
+# would cost more than the work.
 _NARROW, _UNTHREADED = 256, 2**18
 _STEP = 512
 
 
 class _Window(NamedTuple):
-    """States first..last eliminated together, and what is left of the window after them."""
+    """States first..last, which are eliminated together, and their arcs to later states."""
 
     first: int
     last: int
@@ -60,7 +65,7 @@ class BandedElimination:
     T
         sparse, shape (m, m): T[i, j] is the arc from j to i; no diagonal.
     leak
-        shape (m,): the probability to leave the class, given the state; not all zero.
+        shape (m,): the probability of leaving the class, given the state; not all zero.
     order, width
         the order of elimination, and the largest distance of an arc in it.
     """
@@ -82,7 +87,7 @@ class BandedElimination:
             W[-1] = leaks[first:end]
             known = len(left) - 1
             if known > 0:
-                # What the windows before have added, leaks included.
+                # What earlier windows have added, leaks included.
                 W[:known, :known] = left[:-1]
                 W[-1, :known] = left[-1]
             size = last - first
@@ -93,8 +98,7 @@ class BandedElimination:
             back = np.asfortranarray(W[:size, size:])
             left = W[size:, size:].copy()
             self._windows.append(_Window(first, last, factor, onward, back))
-        self.pivots = np.empty(n)
-        self.pivots[order] = pivots
+        self.pivots = put_back(pivots, order)
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
@@ -105,7 +109,7 @@ class BandedElimination:
         for first, last, factor, onward, back in reversed(self._windows):
             top = x[first:last] + back @ x[last : last + len(onward)]
             x[first:last] = _solve(factor, top, "units")
-        return self._restored(x)
+        return put_back(x, self._order)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
@@ -116,12 +120,7 @@ class BandedElimination:
         for first, last, factor, onward, _ in reversed(self._windows):
             top = y[first:last] + onward.T @ y[last : last + len(onward)]
             y[first:last] = _solve(factor, top, "pivots", trans=1)
-        return self._restored(y)
-
-    def _restored(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        y = np.empty_like(x)
-        y[self._order] = x
-        return y
+        return put_back(y, self._order)
 
 
 def _solve(
@@ -132,7 +131,7 @@ def _solve(
 ) -> NDArray[np.float64]:
     """Solve with the lower part (pivots on its diagonal) or the upper (ones on it).
 
-    Entries off the diagonal are negative and b is not: all terms have one sign.
+    Entries off the diagonal are negative and b is not, so nothing is subtracted.
     """
     lower = part == "pivots"
     x: NDArray[np.float64] = dtrsm(1.0, factor, b, lower=lower, trans_a=trans, diag=not lower)
@@ -143,8 +142,8 @@ def _eliminate(W: NDArray[np.float64], count: int, pivots: NDArray[np.float64]) 
     """Eliminate the first `count` states of a window in place.
 
     W[i, j] is the arc from j to i; the last row is the leak. Afterwards the columns of the
-    eliminated states hold their arcs to later states, their rows the arcs from later states
-    divided by the pivot, and the rest is the window without them.
+    eliminated states hold their arcs to later states, and their rows the arcs from later
+    states divided by the pivot; the rest is the window without the eliminated states.
     """
     narrow = len(W) <= _NARROW
     panel = max(_UNTHREADED // W.size, 4) if narrow else _PANEL
@@ -162,17 +161,17 @@ def _eliminate(W: NDArray[np.float64], count: int, pivots: NDArray[np.float64]) 
         W[first:last, last:] = rows
         columns = W[:, first:last].copy(order="F")
         columns[:last] = 0.0
-        # Whole columns of W lie together in memory, so that BLAS adds to them in place.
+        # Whole columns of W are contiguous in memory, so BLAS can add to them in place.
         dgemm(1.0, columns, rows, beta=1.0, c=W[:, last:], overwrite_c=True)
 
 
 def _eliminate_panel(
     W: NDArray[np.float64], first: int, last: int, width: int, pivots: NDArray[np.float64]
 ) -> None:
-    """Eliminate the states first..last; bring only their rows, up to `width`, up to date."""
+    """Eliminate the states first..last, updating only their own rows, up to `width`."""
     rows = W[:last]
     for k in range(first, last):
-        # The column below the panel is brought up to date only now, by one product.
+        # The column below the panel is updated only now, by one product.
         below = W[last:, k]
         below += W[last:, first:k] @ W[first:k, k]
         pivots[k] = rows[k + 1 :, k].sum() + below.sum()

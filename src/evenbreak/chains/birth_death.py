@@ -4,15 +4,15 @@ A closed stretch of the line has the stationary law
 
     pi[i] / pi[a] = (up[a] ... up[i - 1]) / (down[a] ... down[i - 1]),
 
-and a stretch lo..hi that is left at both ends is left at the right end, from state s, with
-the probability of the gambler's ruin,
+and play that begins in state s of a stretch lo..hi with two ways out leaves it on the right
+with the probability of the gambler's ruin,
 
     W = (g[lo] + ... + g[s]) / (g[lo] + ... + g[hi + 1]),
     g[i] = (down[lo - 1] ... down[i - 2]) / (up[lo] ... up[i - 1]), g[lo] = 1,
 
-where up[i] is the arc from i to i + 1 and down[i] the arc from i + 1 to i. There are only
-products, quotients and sums of positive numbers, and the products keep their exponents
-apart, so that no span of decades costs digits.
+where up[i] is the arc from i to i + 1 and down[i] the arc from i + 1 to i. These are
+products, quotients and sums of positive numbers only, and the products keep their exponents
+apart (see `scaled`), so no digits are lost however many decades a law spans.
 
 References: Feller, An Introduction to Probability Theory I, chapter XIV; Karlin and
 McGregor 1957.
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class BirthDeath:
     """A chain whose states stand in a line.
 
     Parameters
@@ -60,9 +60,9 @@ class Line:
         """
         lo, hi = self._stretch(start)
         if hi - lo + 1 == len(self.loops):
-            return line_law(self.up, self.down), 1 if self.loops.any() else 2
+            return birth_death_law(self.up, self.down), 1 if self.loops.any() else 2
         limit = np.zeros(len(self.loops))
-        # Beyond a cut there is no way back; the first arc missing outwards is the end.
+        # Beyond a cut there is no way back: play ends at the next missing outward arc.
         left = lo > 0 and self.down[lo - 1] > 0.0
         right = hi + 1 < len(limit) and self.up[hi] > 0.0
         chance_left, chance_right = float(left), float(right)
@@ -83,7 +83,7 @@ class Line:
 
     @cached_property
     def _cuts(self) -> Places:
-        """Where two neighbours are of different classes: between i and i + 1."""
+        """The places i where i and i + 1 belong to different classes."""
         return np.flatnonzero((self.up == 0.0) | (self.down == 0.0))
 
     def _stretch(self, state: int) -> tuple[int, int]:
@@ -94,22 +94,22 @@ class Line:
         return lo, int(cuts[k]) if k < len(cuts) else len(self.loops) - 1
 
     def _exits(self, lo: int, start: int, hi: int) -> tuple[float, float]:
-        """Return the chances to leave lo..hi at the right and at the left end."""
+        """Return the chances of leaving lo..hi on the right and on the left."""
         products = prefix_products(self.down[lo - 1 : hi], self.up[lo : hi + 1])
         return shares(*products, start - lo + 1)
 
     def _settle(self, limit: NDArray[np.float64], lo: int, hi: int, mass: float) -> int:
         """Spread `mass` over the closed class lo..hi; return its period."""
-        law = line_law(self.up[lo:hi], self.down[lo:hi])
+        law = birth_death_law(self.up[lo:hi], self.down[lo:hi])
         law *= mass
         limit[lo : hi + 1] += law
         return 1 if lo == hi or self.loops[lo : hi + 1].any() else 2
 
 
-def line_law(up: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.float64]:
+def birth_death_law(up: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the stationary law of a closed line; shape (n,) for n - 1 arcs each way.
 
-    >>> line_law(np.array([0.5, 0.5]), np.array([0.25, 0.5]))
+    >>> birth_death_law(np.array([0.5, 0.5]), np.array([0.25, 0.5]))
     array([0.2, 0.4, 0.4])
     """
     law, exponent = prefix_products(up, down)
@@ -118,8 +118,8 @@ def line_law(up: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.f
     return law
 
 
-def line_of(matrix: csc_array) -> Line | None:
-    """Return the chain as a line, or None if its states do not stand in one as numbered."""
+def birth_death_of(matrix: csc_array) -> BirthDeath | None:
+    """Return the chain as a line, or None if its states are not numbered along one."""
     n = matrix.shape[0]
     if n < 3 or matrix.nnz > 3 * n - 2:
         return None
@@ -127,14 +127,14 @@ def line_of(matrix: csc_array) -> Line | None:
     if np.any(np.abs(middle - n // 2) > 1):
         return None
     if matrix.nnz == 3 * n - 2 and _is_full(matrix):
-        return Line(matrix.data[1::3], matrix.data[2::3], matrix.data[0::3])
+        return BirthDeath(matrix.data[1::3], matrix.data[2::3], matrix.data[0::3])
     up, down, loops = matrix.diagonal(-1), matrix.diagonal(1), matrix.diagonal()
     stored = np.count_nonzero(up) + np.count_nonzero(down) + np.count_nonzero(loops)
-    return Line(up, down, loops) if stored == matrix.nnz else None
+    return BirthDeath(up, down, loops) if stored == matrix.nnz else None
 
 
 def _is_full(matrix: csc_array) -> bool:
-    """Whether each state has its loop and both neighbours stored, in order: the data is a view."""
+    """Whether every loop and arc is stored, in order, so that slices of the data are views."""
     n = matrix.shape[0]
     place = np.arange(n, dtype=matrix.indices.dtype)
     return bool(

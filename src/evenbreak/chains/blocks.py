@@ -1,10 +1,14 @@
 """Elimination within many small classes at once.
 
 Classes of the same size s are stacked into one array, and each step of the elimination of
-Grassmann, Taksar and Heyman is one vector operation over the whole stack: no Python loop
-runs per class. What comes out are the arcs of a larger graph without cycles in which each
-state of such a class stands twice, as it is entered and as it is left; a flow through the
-classes is then found by one forward substitution (see `transient`).
+Grassmann, Taksar and Heyman (1985) is one vector operation over the whole stack, so that no
+Python loop runs per class:
+
+    W[c, i, j] += W[c, i, k] W[c, k, j] / d[c, k],   i, j > k,   d[c, k] = sum of W[c, i, k], i > k.
+
+The result is the arcs of a larger graph without cycles, in which each state of such a class
+appears twice: as it is entered and as it is left. A flow through the classes is then found
+by one forward substitution (see `triangular_solve`).
 """
 
 from __future__ import annotations
@@ -24,10 +28,10 @@ _ENTRIES = 2_000_000
 
 
 class Factors(NamedTuple):
-    """The factors of a stack of classes, as arrays of (later or earlier) states by number.
+    """The factors of a stack of classes: pivots, and arcs as (sources, targets, chances).
 
-    A flow that enters state k goes on with `onward` to states eliminated later, and is
-    turned into visits by 1 / `pivot`; visits to a state bring visits with `back` to states
+    The flow that enters a state moves on along `onward` to states eliminated later; divided
+    by `pivot` it gives visits, and visits to a state bring visits along `back` to states
     eliminated earlier.
     """
 
@@ -37,7 +41,7 @@ class Factors(NamedTuple):
 
 
 def stacks(sizes: Places) -> Iterator[tuple[int, Places]]:
-    """Yield (size, classes) for sizes above 1, not more classes at once than memory allows."""
+    """Yield (size, classes) for sizes above 1, as many classes at once as memory allows."""
     for size in np.unique(sizes[sizes > 1]).tolist():
         members = np.flatnonzero(sizes == size)
         step = max(1, _ENTRIES // (size * size))
@@ -52,7 +56,7 @@ def eliminate_stack(W: NDArray[np.float64], first: Places) -> Factors:
     ----------
     W
         shape (classes, s + 1, s): W[c, i, j] is the arc from the j-th to the i-th state of
-        class c; row s is the leak out of the class.
+        class c; row s is the leak.
     first
         shape (classes,): the number of the first state of each class.
     """

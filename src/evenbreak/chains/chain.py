@@ -1,7 +1,7 @@
 """The chain: states and a sparse column-stochastic matrix.
 
-M[i, j] = P(next state is i | state is j), as in the source text: a density v moves to
-M v. Everything else in this package is a function of a `Chain`.
+M[i, j] = P(next state is i | state is j), as in the source text: a density v becomes M v
+after one step. Everything else in this package is a function of a `Chain`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.chains.arcs import Arcs, arcs_of
-from evenbreak.chains.birth_death import Line, line_of
+from evenbreak.chains.birth_death import BirthDeath, birth_death_of
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
@@ -37,15 +37,14 @@ class Chain:
     states
         the states, in the order of the matrix; hashable and distinct.
     matrix
-        sparse CSC of shape (n, n), column-stochastic; a state without arcs of its own
-        has the self-loop 1 (it absorbs).
+        sparse CSC of shape (n, n), column-stochastic; an absorbing state has the self-loop 1.
     start
         the state in which the game begins, or None.
 
     Raises
     ------
     ChainError
-        if the matrix is not column-stochastic: it names the state, its sum and the remedy.
+        if the matrix is not column-stochastic; the message names the state and its sum.
     """
 
     states: Sequence[Hashable]
@@ -86,9 +85,9 @@ class Chain:
         return arcs_of(self.matrix)
 
     @cached_property
-    def line(self) -> Line | None:
-        """The chain as a line of states, where each moves to its neighbours only."""
-        return line_of(self.matrix)
+    def birth_death(self) -> BirthDeath | None:
+        """The chain as a line of states, if each moves to its neighbours only."""
+        return birth_death_of(self.matrix)
 
     @cached_property
     def structure(self) -> Structure:
@@ -101,7 +100,7 @@ class Chain:
         return TransientPart(self.arcs, np.flatnonzero(~self.structure.recurrent))
 
     def density(self, start: Any = None) -> NDArray[np.float64]:
-        """Return the density that `start` stands for: a vector of length n that sums to 1.
+        """Return the start as a density: a vector of length n that sums to 1.
 
         Parameters
         ----------
@@ -115,19 +114,7 @@ class Chain:
             if a state is unknown, no start is known, or the density has a negative entry
             or does not sum to 1 within 1e-9.
         """
-        if start is None:
-            start = self._own_start()
-        v = np.zeros(len(self))
-        if isinstance(start, Mapping):
-            for state, chance in start.items():
-                v[self.index(state)] = chance
-        elif isinstance(start, np.ndarray):
-            if start.shape != v.shape:
-                raise ChainError(f"the start density has shape {start.shape}; give {v.shape}")
-            v = start.astype(float)
-        else:
-            v[self._search(start)] = 1.0
-            return v
+        v = self.vector(self._own_start() if start is None else start, "start")
         if (v < 0.0).any():
             state = self.states[int(np.flatnonzero(v < 0.0)[0])]
             raise ChainError(
@@ -139,19 +126,51 @@ class Chain:
             )
         return v
 
+    def vector(self, given: Any, name: str) -> NDArray[np.float64]:
+        """Return a number for each state, shape (n,).
+
+        Parameters
+        ----------
+        given
+            an array of n numbers; a mapping from states to numbers, 0 for the others; or a
+            state, which gets 1.
+        name
+            what it is called, for the error message.
+
+        Raises
+        ------
+        ChainError
+            if a state is unknown, the shape is not (n,), or a number is not finite.
+        """
+        v = np.zeros(len(self))
+        if isinstance(given, np.ndarray):
+            if given.shape != v.shape:
+                raise ChainError(f"{name} has shape {given.shape}; give {v.shape}")
+            v += given
+        elif isinstance(given, Mapping):
+            for state, value in given.items():
+                v[self.index(state)] = value
+        else:
+            v[self._search(given)] = 1.0
+        if not np.isfinite(v).all():
+            first = int(np.flatnonzero(~np.isfinite(v))[0])
+            held = f"{float(v[first])!r} for state {self.states[first]!r}"
+            raise ChainError(f"{name} holds {held}; give finite numbers")
+        return v
+
     def _own_start(self) -> Hashable:
         if self.start is None:
             raise ChainError("the chain has no start of its own; give a start state")
         return self.start
 
     def start_index(self, start: Any = None) -> int | None:
-        """Return the position of the state that `start` is, or None for a whole density."""
+        """Return the position of the start state, or None if the start is a density."""
         if start is None:
             start = self._own_start()
         return None if isinstance(start, (Mapping, np.ndarray)) else self._search(start)
 
     def _search(self, state: Hashable) -> int:
-        """Return the position of one state; cheaper than a dictionary of them all."""
+        """Return the position of one state, without making a dictionary of all of them."""
         if "position" in self.__dict__:
             return self.index(state)
         try:

@@ -1,9 +1,9 @@
-"""Elimination in decimal numbers of 40 digits and all but unbounded exponents.
+"""Elimination in decimal numbers of 40 digits and practically unbounded exponents.
 
-For long and narrow classes, in which the rounding errors of doubles add up. And the way
-out where a law spans more decades than floats do: some 300 below 1, beyond which
-intermediate results would vanish or overflow and take digits of the answer with them. It
-is slow (some microseconds an arc), and refuses what would take it longer than seconds.
+It serves long and narrow classes, in which the rounding errors of doubles add up, and laws
+that span more decades than doubles do: intermediate results would over- or underflow, and
+digits of the answer with them. It is slow (some microseconds an arc), and refuses to start
+on what would take more than seconds.
 """
 
 from __future__ import annotations
@@ -37,15 +37,15 @@ def rows_of(arcs: Arcs) -> list[dict[int, float]]:
     return rows
 
 
-class WideElimination:
-    """(I - T) factored in wide numbers; answers are floats, inf where they are beyond all floats.
+class DecimalElimination:
+    """(I - T) factored in decimal numbers; answers are floats, inf where floats end.
 
     Parameters
     ----------
     arcs
         the arcs of m states among themselves.
     leak
-        shape (m,): the probability to leave them, given the state.
+        shape (m,): the probability of leaving them, given the state.
 
     Raises
     ------
@@ -75,22 +75,22 @@ class WideElimination:
             return np.array([_floats(solve(column)) for column in columns]).T
 
 
-def wide_solve(
+def decimal_solve(
     arcs: Arcs, leak: NDArray[np.float64], b: NDArray[np.float64], *, transposed: bool
 ) -> NDArray[np.float64]:
-    """Return (I - T)^-1 b, or (I - T)^-T b, for b >= 0 of shape (m, k); inf beyond all floats.
+    """Return (I - T)^-1 b, or (I - T)^-T b, for b >= 0 of shape (m, k); inf where floats end.
 
     Raises
     ------
     AccuracyError
         if the elimination would take too long.
     """
-    factor = WideElimination(arcs, leak, _MOST_ARCS)
+    factor = DecimalElimination(arcs, leak, _MOST_ARCS)
     return factor.values(b) if transposed else factor.visits(b)
 
 
-def wide_law(arcs: Arcs) -> NDArray[np.float64]:
-    """Return the stationary law of one closed class, whose arcs these are; shape (m,).
+def decimal_law(arcs: Arcs) -> NDArray[np.float64]:
+    """Return the stationary law of the one closed class that the arcs make; shape (m,).
 
     Raises
     ------

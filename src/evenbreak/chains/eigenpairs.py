@@ -1,12 +1,18 @@
 """Eigenvectors of a transition matrix: inverse iteration, LAPACK (small) and ARPACK (large).
 
-How often eigenvalue 1 repeats, and where its vectors live, is known from the structure: once
-for each closed class, of which the right vector is the stationary law and the left one the
-chance to end there. Each is found by itself, so that other eigenvalues may come as near to
-1 as they like without mixing in, and comes with a bound on its error (see `lu_solves`). A
-closed class of period d has the other d-th roots of 1 too. All others are projected off
-these and made biorthogonal: L = (Y R)^-1 Y for left vectors Y and right vectors R, which
-exists where neither set is defective and both belong to the same eigenvalues.
+The structure says how often eigenvalue 1 occurs and where its vectors live: once for each
+closed class, whose right vector is the stationary law and whose left vector is the chance
+of ending there. Each is computed separately, so other eigenvalues may be as close to 1 as
+they like without mixing in, and each comes with a bound on its error (see `certified_lu`).
+A closed class of period d also has the other d-th roots of 1. All other vectors are
+projected off these and made biorthogonal,
+
+    L = (Y R)^-1 Y for left vectors Y and right vectors R,
+
+which exists if neither set is defective and both belong to the same eigenvalues.
+
+References: Golub and Van Loan, Matrix Computations, chapter 7, for inverse iteration and
+LAPACK's QR algorithm; Lehoucq, Sorensen and Yang 1998 for ARPACK.
 """
 
 from __future__ import annotations
@@ -20,7 +26,7 @@ import scipy.sparse
 import scipy.sparse.linalg
 from scipy.sparse import csc_array
 
-from evenbreak.chains.lu_solves import LUSolves
+from evenbreak.chains.certified_lu import CertifiedLU
 from evenbreak.chains.powers import evened
 from evenbreak.errors import AccuracyError
 
@@ -35,8 +41,9 @@ DENSE = 1000
 TOLERANCE = 1e-8
 """Residuals and error estimates above this are refused."""
 SHIFT = 1.0 + 1e-10
-"""As near to eigenvalue 1 as a factorisation bears."""
+"""As close to eigenvalue 1 as a factorisation can be made."""
 EPS = float(np.finfo(float).eps)
+_FLOOR = 1e-3
 
 
 class UnitPairs:
@@ -47,10 +54,10 @@ class UnitPairs:
     right
         shape (n, closed classes): the stationary laws.
     left
-        shape (closed classes, n): the chances to end in each class.
+        shape (closed classes, n): the chances of ending in each class.
     error
-        at least the sum of absolute errors of the limit that they give from any state: inf
-        where nothing can be said.
+        a bound on the sum of the absolute errors of the limit that they give, from any
+        state; inf if no bound was found.
     """
 
     def __init__(self, chain: Chain) -> None:
@@ -60,7 +67,7 @@ class UnitPairs:
         n = len(chain)
         self.right, self.left = np.zeros((n, len(closed))), np.zeros((len(closed), n))
         worst = 0.0
-        with np.errstate(all="ignore"):  # what overflows has no bound, and is refused
+        with np.errstate(all="ignore"):  # what overflows gets no bound, and is refused
             for i, label in enumerate(closed.tolist()):
                 states = structure.members(label)
                 self.left[i, states] = 1.0
@@ -69,19 +76,19 @@ class UnitPairs:
             self.error = float(worst + self._set_chances() + n * EPS)
 
     def _set_chances(self) -> float:
-        """Fill in the chances from the transient states; return what they miss in all."""
+        """Fill in the chances from the transient states; return a bound on their error."""
         chain = self._chain
         states = np.flatnonzero(~chain.structure.recurrent)
         if not len(states):
             return 0.0
-        solves = LUSolves(chain.arcs, states)
+        solves = CertifiedLU.of_states(chain.arcs, states)
         into = (chain.arcs.matrix().astype(np.longdouble)[:, states]).tocsr()
-        missed = np.zeros(len(states))
+        missed = np.zeros(len(states), dtype=np.longdouble)
         for row in self.left:
             entered = into.T @ row.astype(np.longdouble)
             row[states] = solves.solve(entered.astype(np.float64), transposed=True)
             missed += solves.missed(row[states], entered, transposed=True)
-        return float(solves.error(missed, transposed=True).max())
+        return float(solves.error(missed, transposed=True, floor=_FLOOR).max())
 
     @cached_property
     def _factors(self) -> Any:
@@ -106,8 +113,8 @@ def _shifted(M: csc_array, n: int) -> csc_array:
 def _law(chain: Chain, states: Places) -> tuple[NDArray[np.float64], float]:
     """Return the stationary law of a closed class and a bound on its sum of errors.
 
-    A likely state is cut out, which one step of inverse iteration finds; the others then
-    solve A x = the arcs out of it. With a = A^-1 of what x misses there, the law is missed
+    A likely state, found by one step of inverse iteration, is cut out; the others then solve
+    A x = the arcs out of it. If x misses these equations by m and a = A^-1 m, the law is off
     by a - law sum(a), which is no more than 2 sum |a|.
     """
     m = len(states)
@@ -117,13 +124,13 @@ def _law(chain: Chain, states: Places) -> tuple[NDArray[np.float64], float]:
     guess = scipy.sparse.linalg.splu(_shifted(M, m)).solve(np.full(m, 1.0 / m))
     cut = int(np.argmax(guess))
     rest = np.delete(np.arange(m), cut)
-    solves = LUSolves(chain.arcs, states[rest])
+    solves = CertifiedLU.of_states(chain.arcs, states[rest])
     out = chain.arcs.matrix()[:, [int(states[cut])]].toarray()[states[rest], 0]
     law = np.ones(m)
     law[rest] = solves.solve(out)
     law /= law.sum()
     missed = solves.missed(law[rest], out.astype(np.longdouble) * law[cut])
-    return law, 2.0 * float(solves.error(missed).sum()) + m * EPS
+    return law, 2.0 * float(solves.error(missed, floor=_FLOOR).sum()) + m * EPS
 
 
 def leading_pairs(
@@ -150,7 +157,7 @@ def leading_pairs(
         return known
     find = _dense_others if len(chain) <= DENSE else _sparse_others
     values, left, right = find(chain, units, known[0], k - len(known[0]))
-    # The vectors that are known are as they should be; only the others give way.
+    # The known vectors are exact; only the others are adjusted.
     left = _normed((left - (left @ known[2]) @ known[1]).T).T
     right = _normed(right - known[2] @ (known[1] @ right))
     overlap = left @ right
@@ -160,11 +167,11 @@ def leading_pairs(
 
 
 def roots_of_one(chain: Chain, units: UnitPairs) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-    """Return the eigenvalues of modulus 1 but for 1 itself, with left and right vectors.
+    """Return the eigenvalues of modulus 1 other than 1, with left and right vectors.
 
-    A closed class of period d has the d-th roots w of 1, each once. Its right vector is the
-    stationary law, its left one 1 in the class, both turned by w once for each step of the
-    period; from the transient states L (w I - M) = 0 is solved.
+    A closed class of period d has each d-th root w of 1 once. Its right vector is the
+    stationary law and its left vector is 1 in the class, both turned by w once for each step
+    of the period; on the transient states the left vector solves L (w I - M) = 0.
     """
     structure, M = chain.structure, evened(chain)
     outside = np.flatnonzero(~structure.recurrent)
@@ -196,8 +203,8 @@ def _turned_chances(T: csc_array, root: complex, entered: NDArray[Any]) -> NDArr
         return np.asarray(scipy.sparse.linalg.splu(A).solve(entered.astype(complex)))
     except RuntimeError:
         raise AccuracyError(
-            "transient states go round for too long for the eigenvectors of modulus 1 to be "
-            "told apart; ask for the eigenvalues 1 alone, or use stochastic_limit"
+            "transient states go round for too long to tell the eigenvectors of modulus 1 "
+            "apart; ask for the eigenvalues 1 alone, or use stochastic_limit"
         ) from None
 
 
@@ -227,7 +234,7 @@ def _dense_others(
     chain: Chain, _: UnitPairs, known: NDArray[Any], k: int
 ) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     values, left, right = scipy.linalg.eig(evened(chain).toarray(), left=True, right=True)
-    # Moduli that differ by rounding are ties, so that conjugate pairs stay together.
+    # Moduli that differ only by rounding are ties, so that conjugate pairs stay together.
     order = np.lexsort((-values.imag, -values.real, -np.abs(values).round(10)))
     for value in known:
         order = np.delete(order, np.argmin(np.abs(values[order] - value)))

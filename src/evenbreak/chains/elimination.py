@@ -1,10 +1,14 @@
 """Elimination of states one by one, in plain Python, for any kind of number.
 
-To eliminate a state k is to watch the chain only while it is elsewhere: each path
-j -> k -> i becomes an arc j -> i of probability a[j][k] a[k][i] / d[k], where d[k] is the
-sum of the arcs out of k and of its leak, never 1 minus something. There are only sums,
-products and quotients of nonnegative numbers, so each entry of the answer is right to a
-few units in the last place times the number of states, however stiff the chain.
+Eliminating state k means watching the chain only while it is elsewhere: each path
+j -> k -> i becomes an arc j -> i,
+
+    a[j][i] += a[j][k] a[k][i] / d[k],
+
+where d[k], the pivot, is the sum of the arcs out of k and of its leak, never 1 minus
+something. Only nonnegative numbers are added, multiplied and divided, so each entry of the
+answer is right to a few units in the last place times the number of states, however stiff
+the chain.
 
 References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993; Alfa, Xue and Ye 2002.
 """
@@ -27,14 +31,14 @@ class Elimination:
     arcs
         `arcs[j][i]`: the probability of i, given j, for i other than j. Used up.
     leaks
-        `leaks[j]`: the probability to leave for good, given j.
+        `leaks[j]`: the probability of leaving for good, given j.
     most
-        the most arcs to make before giving up.
+        give up after making this many arcs.
 
     Raises
     ------
     AccuracyError
-        if more arcs than `most` have to be made.
+        if more than `most` arcs have to be made.
     """
 
     def __init__(
@@ -53,7 +57,7 @@ class Elimination:
         while heap:
             cost, k = heapq.heappop(heap)
             out, back = arcs[k], into[k]
-            # Each change of a state's cost has its own entry; the others are out of date.
+            # Each change of a state's cost adds an entry; only the last one counts.
             if done[k] or cost != len(out) * len(back):
                 continue
             done[k] = True
@@ -61,9 +65,9 @@ class Elimination:
             if most < 0:
                 raise AccuracyError(
                     f"these {len(leak)} states span more decades than floats do, and are too "
-                    "many to eliminate in wider numbers; split the chain or scale its arcs"
+                    "many to eliminate in decimal numbers; split the chain or scale its arcs"
                 )
-            pivot = sum(out.values(), leak[k])
+            pivot = self.pivot(k, sum(out.values(), leak[k]))
             self.steps.append((k, pivot, out, back))
             for i in out:
                 del into[i][k]
@@ -71,12 +75,16 @@ class Elimination:
                 row = arcs[j]
                 del row[k]
                 share = chance / pivot
-                leak[j] += share * leak[k]
+                leak[j] = leak[j] + share * leak[k]
                 for i, onward in out.items():
                     if i != j:
                         row[i] = into[i][j] = row.get(i, 0) + share * onward
             for j in out.keys() | back.keys():
                 heapq.heappush(heap, (len(arcs[j]) * len(into[j]), j))
+
+    def pivot(self, k: int, outflow: Any) -> Any:  # noqa: ARG002
+        """Return what to divide by for state k, given what leaves it."""
+        return outflow
 
     @property
     def pivots(self) -> list[Any]:
@@ -102,10 +110,15 @@ class Elimination:
         """Return y = (I - T)^-T r: the expected sum of r over the visits from each state."""
         y = list(r)
         for k, pivot, _, back in self.steps:
-            if y[k]:
+            if not _is_nothing(y[k]):
                 share = y[k] / pivot
                 for j, chance in back.items():
-                    y[j] += share * chance
+                    y[j] = y[j] + share * chance
         for k, pivot, out, _ in reversed(self.steps):
             y[k] = sum((chance * y[i] for i, chance in out.items()), y[k]) / pivot
         return y
+
+
+def _is_nothing(value: Any) -> bool:
+    """Return whether a number is 0; an array never counts as nothing."""
+    return not hasattr(value, "shape") and not value

@@ -1,13 +1,13 @@
-"""From games, graphs and lists of arcs to chains: what is refused, and what is mended.
+"""From games, graphs and lists of arcs to chains: what is refused, and what is completed.
 
 The rules of a chain:
 
 - the listed arcs of a state, its self-loop included, sum to 1 within 1e-9;
 - each probability is a number in [0, 1], and no arc is listed twice;
 - an arc of probability zero counts as listed and makes no arc;
-- a listed self-loop (not of zero) becomes what the other arcs leave over. Where none is listed none
-  is invented: three float arcs often miss 1 by an ulp, and a self-loop of 1e-16 would
-  turn a period of 2 into 1;
+- a listed self-loop (unless zero) becomes whatever the other arcs leave over. If none is
+  listed, none is added: three float arcs often miss 1 by one rounding error, and a self-loop
+  of 1e-16 would turn a period of 2 into 1;
 - a state without listed arcs absorbs.
 """
 
@@ -43,15 +43,15 @@ def chain_of(
         arcs; or (source, target, probability) triples. A probability is that of the
         target, given the source.
     start
-        the state in which to begin. If None: the game's start; the graph's node of
-        `kind` 'start', if it has one; none for a list of arcs.
+        the state in which to begin. If None: the start of the game, or the graph's node of
+        `kind` 'start' if it has one; a list of arcs has no start of its own.
 
     Raises
     ------
     ChainError
-        if the arcs are not a chain by the rules of this module, or the start is unknown.
+        if the arcs break the rules of this module, or the start is unknown.
     GameError
-        if the game is endless or its moves are not probabilities.
+        if the game has too many states or its moves are not probabilities.
 
     >>> chain = chain_of([("rain", "rain", 0.7), ("rain", "sun", 0.3), ("sun", "rain", 1)])
     >>> chain.states
@@ -81,7 +81,7 @@ def chain_from_arrays(
     probabilities: ArrayLike,
     start: Hashable | None = None,
 ) -> Chain:
-    """Return the chain of arcs that are given as arrays.
+    """Return the chain of arcs given as arrays.
 
     Parameters
     ----------
@@ -97,8 +97,8 @@ def chain_from_arrays(
     Raises
     ------
     ChainError
-        if the arcs are not a chain by the rules of this module; the message names the
-        state and how to mend it.
+        if the arcs break the rules of this module; the message names the state and says how
+        to correct it.
 
     >>> chain_from_arrays("AB", [0, 0], [0, 1], [0.25, 0.75], start="A").matrix.toarray()
     array([[0.25, 0.  ],
@@ -111,7 +111,7 @@ def chain_from_arrays(
     n = len(states)
     key = j * n + i
     if not (key[1:] > key[:-1]).all():
-        # A table of the arcs' numbers sorts them in linear time, and adds up doubles.
+        # A sparse table of the arcs' numbers sorts them in linear time and adds duplicates up.
         table = coo_array((np.arange(len(j)), (i, j)), shape=(n, n)).tocsc()
         if table.nnz < len(j):
             raise _listed_twice(states, key)
@@ -145,7 +145,7 @@ def _checked_arrays(
     n = len(states)
     if n == 0:
         raise ChainError("there are no states; give at least one")
-    # States that are made when asked for are distinct by the way they are made.
+    # Lazy sequences of states are distinct by construction.
     if isinstance(states, (list, tuple)) and len(set(states)) < n:
         raise ChainError("a state is listed twice among the states; give each of them once")
     if not j.ndim == 1 or not j.shape == i.shape == p.shape:
@@ -183,8 +183,8 @@ def _column_stochastic(
 ) -> csc_array:
     """Build M from arcs sorted by source, then target, with a self-loop on absorbing states.
 
-    The columns are laid down where they belong: a conversion from triples sorts and
-    sums what is sorted and distinct already.
+    The columns are written where they belong; a conversion from triples would sort and
+    add up what is sorted and distinct already.
     """
     indptr = np.zeros(n + 1, dtype=np.int64)
     np.cumsum(np.bincount(j, minlength=n) + absorbing, out=indptr[1:])

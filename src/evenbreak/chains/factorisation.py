@@ -1,16 +1,16 @@
-"""I - T factored class by class: each class by the method that suits its graph.
+"""I - T factored class by class, each class by the method that suits its graph.
 
 | class | method | time, memory |
 |---|---|---|
-| one state, or up to 64 | forward substitution over all of them (`flow`) | linear |
-| a line of states | cyclic reduction (`path`) | linear |
-| band of up to 4 | elimination in decimal numbers (`wide`) | linear |
+| one state, or up to 64 | forward substitution over all of them (`triangular_solve`) | linear |
+| a line of states | cyclic reduction (`line_elimination`) | linear |
+| band of up to 4 | elimination in decimal numbers (`decimal_elimination`) | linear |
 | wider band w, or up to some 6,000 states | blocked elimination (`banded`) | n w^2, n w |
-| larger | sparse factorisation, certified or with its residual (`sparse_lu`) | as SuperLU |
+| larger | sparse LU, certified or with its residual (`certified_lu`) | as SuperLU |
 
 Consecutive small classes are solved together. Where hundreds of states in a row have equal
-arcs, doubles repeat the same rounding error at each; so long and narrow classes are solved
-in more digits.
+arcs, doubles repeat the same rounding error at each of them, so long and narrow classes are
+solved with more digits.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-from scipy.sparse import csc_array, csgraph
+from scipy.sparse import csc_array
 
-from evenbreak.chains.arcs import arcs_of
+from evenbreak.chains.arcs import arcs_of, put_back
 from evenbreak.chains.banded import BandedElimination, band_order
-from evenbreak.chains.decimal_elimination import WideElimination
-from evenbreak.chains.line_elimination import PathElimination
-from evenbreak.chains.sparse_lu import SparseFactorisation
+from evenbreak.chains.certified_lu import CertifiedSolve
+from evenbreak.chains.decimal_elimination import DecimalElimination
+from evenbreak.chains.line_elimination import LineElimination, line_order
 from evenbreak.chains.structure import Structure, structure_of
-from evenbreak.chains.triangular_solve import Flow
+from evenbreak.chains.triangular_solve import TriangularSolve
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -62,7 +62,7 @@ class _Piece:
         self._offsets = offsets - self.first
         sources, targets, chances = arcs
         inner = targets < self.last
-        # Where the piece is all there is, its arcs are not copied.
+        # A piece that is the whole part does not copy its arcs.
         own: slice | NDArray[np.bool_] = slice(None) if inner.all() else inner
         self._inner = sources[own] - self.first, targets[own] - self.first, chances[own]
         self.sources, self.targets = sources[~inner], targets[~inner]
@@ -72,46 +72,24 @@ class _Piece:
 
     @cached_property
     def solver(self) -> _Solver:
-        """The factors of the piece, made when they are first asked for."""
+        """The factors of the piece, made when first used."""
         size = self.last - self.first
         leak = self._leak
         if len(self.chances):
             leak = leak + np.bincount(self.sources - self.first, self.chances, size)
         if len(self._offsets) > 2 or size <= SMALL:
-            return Flow(*self._inner, leak, self._outflow, self._offsets)
+            return TriangularSolve(*self._inner, leak, self._outflow, self._offsets)
         sources, targets, chances = self._inner
         T = csc_array((chances, (targets, sources)), shape=(size, size))
-        order = path_order(T)
+        order = line_order(T)
         if order is not None:
-            return _Path(T, leak, order)
+            return LineElimination(T, leak, order)
         order, width = band_order(T)
         if width <= _NARROW:
-            return WideElimination(arcs_of(T), leak)
+            return DecimalElimination(arcs_of(T), leak)
         if size * min(size, 3 * width) <= _MOST_ENTRIES:
             return BandedElimination(T, leak, order, width)
-        return SparseFactorisation(T, leak)
-
-
-class _Path:
-    """A line of states that are numbered in another order."""
-
-    def __init__(self, T: csc_array, leak: NDArray[np.float64], order: Places) -> None:
-        line = csc_array(T[:, order])[order]
-        path = PathElimination(line.diagonal(-1), line.diagonal(1), leak[order])
-        self._path = path
-        self._order = order
-        self.pivots = self._restored(path.pivots)
-
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self._restored(self._path.visits(b[self._order]))
-
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self._restored(self._path.values(r[self._order]))
-
-    def _restored(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        y = np.empty_like(x)
-        y[self._order] = x
-        return y
+        return CertifiedSolve(T, leak)
 
 
 class Factorisation:
@@ -122,12 +100,12 @@ class Factorisation:
     arcs
         the arcs among m states.
     leak
-        shape (m,): the probability to leave them, given the state. From each state a state
-        that leaks can be reached.
+        shape (m,): the probability of leaving them, given the state. From each state a state
+        with a leak can be reached.
     outflow
         shape (m,): the sum of all arcs out of each state and its leak.
     structure
-        the classes of the arcs, where they are known already.
+        the classes of the arcs, if they are known already.
     """
 
     def __init__(
@@ -159,22 +137,22 @@ class Factorisation:
 
     @property
     def residual(self) -> float | None:
-        """The largest residual of an answer so far that could not be certified, or None."""
+        """The largest residual so far of an answer that could not be certified, or None."""
         solvers = (p.__dict__.get("solver") for p in self._pieces)
-        residuals = [s.residual for s in solvers if isinstance(s, SparseFactorisation)]
+        residuals = [s.residual for s in solvers if isinstance(s, CertifiedSolve)]
         return max((r for r in residuals if r is not None), default=None)
 
     @property
     def pivots(self) -> NDArray[np.float64]:
-        """The chance to leave each state for later ones when it is eliminated.
+        """The chance of moving on to later states, given each state, when it is eliminated.
 
-        It is 0 where no flow has come so far, be it for want of arcs or by underflow.
+        It is 0 where no flow has arrived so far, for want of arcs or by underflow.
         """
         pivots = np.zeros(self._pieces[-1].last)
         for piece in self._pieces:
             if "solver" in piece.__dict__:
                 pivots[piece.first : piece.last] = piece.solver.pivots
-        return self._restored(pivots)
+        return pivots if self.order is None else put_back(pivots, self.order)
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the visits to each state from b >= 0, shape (m, k): (I - T)^-1 b."""
@@ -184,7 +162,7 @@ class Factorisation:
             if part.any():
                 part[:] = piece.solver.visits(part)
                 np.add.at(f, piece.targets, f[piece.sources] * piece.chances[:, None])
-        return self._restored(f)
+        return f if self.order is None else put_back(f, self.order)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the sum of r >= 0, shape (m, k), over the visits from each: (I - T)^-T r."""
@@ -194,35 +172,13 @@ class Factorisation:
             part = y[piece.first : piece.last]
             if part.any():
                 part[:] = piece.solver.values(part)
-        return self._restored(y)
-
-    def _restored(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        if self.order is None:
-            return x
-        y = np.empty_like(x)
-        y[self.order] = x
-        return y
+        return y if self.order is None else put_back(y, self.order)
 
 
 def _runs(offsets: Places) -> list[Places]:
-    """Cut the classes into runs: each large class alone, small ones between them together."""
+    """Cut the classes into runs: each large class alone, the small ones between them together."""
     large = np.flatnonzero(np.diff(offsets) > SMALL)
     if not len(large):
         return [offsets]
     marks = np.unique(np.concatenate(([0, len(offsets) - 1], large, large + 1)))
     return [offsets[a : b + 1] for a, b in pairwise(marks)]
-
-
-def path_order(T: csc_array) -> Places | None:
-    """Return the order in which the states of a class stand in a line, or None."""
-    size = T.shape[0]
-    if T.nnz != 2 * (size - 1):
-        return None
-    ends = np.flatnonzero(np.diff(T.indptr) == 1)
-    if len(ends) != 2:
-        return None
-    order = csgraph.breadth_first_order(T, ends[0], return_predecessors=False)
-    place = np.empty(size, dtype=np.intp)
-    place[order] = np.arange(size)
-    sources = np.repeat(place, np.diff(T.indptr))
-    return order if (np.abs(place[T.indices] - sources) == 1).all() else None

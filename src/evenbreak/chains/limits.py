@@ -1,9 +1,15 @@
 """The stochastic limit: where a chain ends, or what it does in the long run.
 
-The limit is the projection of the start density on the eigenspace of M to the eigenvalue 1:
-each closed class gets the probability of ending in it, spread by its stationary law. Where
-all closed classes reached have period 1 it is lim M^n v; else M^n v goes round for ever and
-it is the long-run average (Cesàro) limit.
+The limit is the projection of the start density v on the eigenspace of M for eigenvalue 1,
+
+    limit = sum over closed classes C of a_C pi_C,
+
+with a_C the probability of ending in C from v and pi_C the stationary law of C. If every
+closed class that can be reached has period 1, it is lim M^n v; otherwise M^n v goes round
+for ever, and it is the long-run average (the Cesàro limit).
+
+References: Kemeny and Snell 1960, Finite Markov Chains, chapters III to V; O'Cinneide 1993
+for the accuracy, entry by entry.
 """
 
 from __future__ import annotations
@@ -11,23 +17,22 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from evenbreak.chains.arcs import reachable
-from evenbreak.chains.birth_death import line_law
-from evenbreak.chains.decimal_elimination import wide_law
-from evenbreak.chains.factorisation import Factorisation, path_order
-from evenbreak.chains.transient import TransientPart
+from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
+from evenbreak.chains.stationary import laws_of, stationary_laws
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.chains.arcs import Arcs, Places
+    from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
+
+Default = TypeVar("Default")
 
 _COLUMNS = 64
 _SHOWN = 5
@@ -46,9 +51,9 @@ class Limit(Mapping[Hashable, float]):
     period
         the least common multiple of the periods of the closed classes reached.
     residual
-        None where each entry is right to about machine precision (see `stochastic_limit`);
-        otherwise the largest entry by which the equations of a large class are missed, in
-        units of the largest entry of their right-hand side.
+        None if each entry is right to about machine precision (see `stochastic_limit`);
+        otherwise the most by which an equation of a large class is missed, in units of the
+        largest entry of the right-hand side.
 
     >>> from evenbreak.chains import chain_of
     >>> limit = stochastic_limit(chain_of([("rack", "won", 0.6), ("rack", "lost", 0.4)]), "rack")
@@ -70,7 +75,7 @@ class Limit(Mapping[Hashable, float]):
 
     @property
     def is_cesaro(self) -> bool:
-        """Whether this is a long-run average only, because M^n v itself has no limit."""
+        """Whether this is only a long-run average, because M^n v itself has no limit."""
         return self.period > 1
 
     def __getitem__(self, state: Hashable) -> float:
@@ -85,8 +90,14 @@ class Limit(Mapping[Hashable, float]):
     def __contains__(self, state: object) -> bool:
         return isinstance(state, Hashable) and state in self.chain.position
 
+    @overload
+    def get(self, state: Hashable, default: None = None) -> float | None: ...
+
+    @overload
+    def get(self, state: Hashable, default: Default) -> float | Default: ...
+
     def get(self, state: Hashable, default: Any = None) -> Any:
-        """Return the probability of a state, or `default` where the chain has no such state."""
+        """Return the probability of a state, or `default` if the chain has no such state."""
         try:
             return self[state]
         except ChainError:
@@ -96,9 +107,9 @@ class Limit(Mapping[Hashable, float]):
         likeliest = np.argsort(-self.probability, kind="stable")[:_SHOWN].tolist()
         shown = [f"{self.states[i]!r}: {self.probability[i]:.6g}" for i in likeliest]
         more = ", ..." if len(self) > _SHOWN else ""
-        told = "" if self.residual is None else f", residual={self.residual:.3g}"
+        missed = "" if self.residual is None else f", residual={self.residual:.3g}"
         return (
-            f"<Limit over {len(self)} state{'s' * (len(self) != 1)}, period={self.period}{told}: "
+            f"<Limit over {len(self)} state{'s' * (len(self) != 1)}, period={self.period}{missed}: "
             f"{', '.join(shown)}{more}>"
         )
 
@@ -107,167 +118,10 @@ class Limit(Mapping[Hashable, float]):
         return dict(zip(self.states, self.probability.tolist(), strict=True))
 
 
-def stationary_laws(chain: Chain) -> NDArray[np.float64]:
-    """Return the stationary law of each closed class, side by side; shape (n,).
-
-    Each entry is conditional on being in the closed class of its state: the entries of a
-    class sum to 1. Transient states have 0.
-
-    Parameters
-    ----------
-    chain
-        the chain.
-
-    Raises
-    ------
-    AccuracyError
-        if a law cannot be vouched for: it spans more decades than floats do, and its class
-        is too large for wider numbers, or its class is too large and too slow to mix.
-
-    >>> from evenbreak.chains import chain_of
-    >>> stationary_laws(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 1.0), (0, 1, 1.0)]))
-    array([0.66666667, 0.33333333, 0.        ])
-    """
-    return _stationary(chain, chain.structure.closed)[0]
-
-
-def _stationary(
-    chain: Chain, classes: NDArray[np.bool_]
-) -> tuple[NDArray[np.float64], float | None]:
-    """Return the laws of the closed ones of `classes`, and the residual of the solve if any.
-
-    One state of each class is cut out; the visits to the others between two visits to it
-    are proportional to the law.
-    """
-    structure = chain.structure
-    wanted = classes & structure.closed
-    law = np.zeros(len(chain))
-    cut = structure.order[structure.offsets[:-1][wanted]]
-    law[cut] = 1.0
-    inside = wanted[structure.label]
-    rest = inside.copy()
-    rest[cut] = False
-    residual = None
-    if rest.any():
-        states = np.flatnonzero(rest)
-        part = TransientPart(chain.arcs, states)
-        x, doubtful = part.attempt((chain.arcs.matrix() @ law)[states, None])
-        law[states] = x[:, 0]
-        residual = part.residual
-        for label in np.unique(structure.label[states[doubtful[:, 0]]]):
-            members = structure.members(label)
-            law[members] = _law_of(chain.arcs.among(members)[0])
-    # The largest of a class is 1 before the sum, which might overflow.
-    top = np.zeros(structure.count)
-    np.maximum.at(top, structure.label[inside], law[inside])
-    law[inside] /= top[structure.label[inside]]
-    total = np.bincount(structure.label[inside], law[inside], structure.count)
-    law[inside] /= total[structure.label[inside]]
-    return law, residual
-
-
-def _law_of(arcs: Arcs) -> NDArray[np.float64]:
-    """Return the law of a closed class that spans more decades than floats do."""
-    T = arcs.matrix()
-    order = path_order(T)
-    if order is None:
-        return wide_law(arcs)
-    line = csc_array(T[:, order])[order]
-    law = np.empty(arcs.size)
-    law[order] = line_law(line.diagonal(-1), line.diagonal(1))
-    return law
-
-
-def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the probability to enter the recurrent states at each one; shape (n,)."""
-    if chain.structure.is_acyclic:
-        return _ends(chain, v)
-    states = chain.transient.states
-    arrivals = v.copy()
-    arrivals[states] = 0.0
-    if len(states) and v[states].any():
-        visits = np.zeros(len(chain))
-        visits[states] = chain.transient.visits(v[states])
-        flow = chain.arcs.matrix() @ visits
-        flow[states] = 0.0
-        arrivals += flow
-    return arrivals
-
-
-def _ends(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the probability of each end of a chain without cycles, in one substitution."""
-    end = chain.structure.recurrent
-    outflow = np.where(end, 1.0, chain.arcs.outflow)
-    flow = Factorisation(chain.arcs, end.astype(float), outflow, chain.structure)
-    # Visits to other states may overflow or underflow; the flow into the ends does not.
-    with np.errstate(all="ignore"):
-        return np.where(end, flow.visits(v[:, None])[:, 0], 0.0)
-
-
-def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
-    """Return the probability of ending in each class, given the start; shape (classes,).
-
-    Classes are numbered as in `chain.structure`; those that are not closed have 0.
-    Each entry is right to about machine precision unless a transient class of more than
-    some 6,000 states without a narrow band stands in the way: then it is certified to 1e-6
-    only, and where that is all, `chain.transient.residual` is not None but says by how much
-    the equations are missed.
-
-    Raises
-    ------
-    AccuracyError
-        if an entry cannot be vouched for.
-
-    >>> from evenbreak.chains import chain_of
-    >>> chain = chain_of([("play", "won", 0.25), ("play", "lost", 0.5), ("play", "play", 0.25)])
-    >>> absorption(chain, "play")[chain.structure.label].round(3).tolist()
-    [0.0, 0.333, 0.667]
-    """
-    structure = chain.structure
-    v = chain.density(start)
-    arrivals = _arrivals(chain, v)
-    # Rounding adds up in one direction along a very long way; what is lost is known.
-    arrivals *= v.sum() / arrivals.sum()
-    return np.bincount(structure.label, arrivals, structure.count).astype(np.float64, copy=False)
-
-
-def _reached(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which closed classes can be reached, be it with a chance below all floats."""
-    arcs, structure = chain.arcs, chain.structure
-    seen = reachable(len(chain), arcs.sources, arcs.targets, v > 0.0)
-    reached = np.zeros(structure.count, dtype=bool)
-    reached[structure.label[seen]] = True
-    return reached & structure.closed
-
-
-def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
-    """Return the expected number of steps begun in each state, given the start; shape (n,).
-
-    Transient states have a finite number; recurrent ones have inf where they are ever
-    reached, and 0 elsewhere.
-    The accuracy is that of `absorption`, with the residual in `chain.transient.residual`.
-
-    Raises
-    ------
-    AccuracyError
-        if a number is larger than any float, or cannot be vouched for.
-
-    >>> from evenbreak.chains import chain_of
-    >>> expected_visits(chain_of([("miss", "miss", 0.75), ("miss", "in", 0.25)]), "miss")
-    array([ 4., inf])
-    """
-    v = chain.density(start)
-    states = chain.transient.states
-    visits = np.zeros(len(chain))
-    visits[states] = chain.transient.visits(v[states])
-    visits[_reached(chain, v)[chain.structure.label]] = np.inf
-    return visits
-
-
 def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     """Return the stochastic limit of the chain: where it ends, or its long-run average.
 
-    Each probability is conditional on the start alone. From the structure it is known
+    Each probability is conditional on the start alone. The structure of the graph says
     whether M^n v has this limit or goes round it with a period (see `Limit.is_cesaro`).
 
     Parameters
@@ -280,21 +134,21 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     Raises
     ------
     AccuracyError
-        if the limit cannot be vouched for: it spans more decades than floats do, in a class
-        too large for wider numbers, or a class is too large and too slow to mix.
+        if the limit cannot be guaranteed: it spans more decades than floats do in a class too
+        large for decimal numbers, or a class is too large and mixes too slowly.
     ChainError
-        if the start is not one.
+        if the start is neither a state nor a density.
 
     Notes
     -----
-    Each entry is right to a few units in the last place times the length of the way to it
-    (seen: 2e-14 over a line of 20,000 states, 3e-13 over 5,000 states with equal arcs in a
-    wider band), however stiff the chain, but for classes of more than some 6,000 states
-    without a narrow band: there a sparse factorisation is certified, and where the
-    certificate is worse than 1e-12 the limit carries its `residual`.
+    However stiff the chain, each entry is right to a few units in the last place times the
+    length of the path to it (seen: 2e-14 over a line of 20,000 states, 3e-13 over 5,000
+    states with equal arcs in a wider band). The exceptions are classes of more than some
+    6,000 states without a narrow band: there a sparse factorisation is certified, and if
+    the certificate is worse than 1e-12 the limit carries its `residual`.
 
-    Time and memory are linear in the number of arcs where the classes are single states,
-    lines or at most 64 states; else see `factorisation`. The reference is O'Cinneide 1993.
+    Time and memory are linear in the number of arcs if the classes are single states, lines
+    or at most 64 states; see `factorisation` for the others. Reference: O'Cinneide 1993.
 
     >>> from evenbreak.chains import chain_of
     >>> miss_forever = chain_of([("S1", "S2", 1.0), ("S2", "S1", 1.0)])
@@ -303,26 +157,24 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     ({'S1': 0.5, 'S2': 0.5}, 2, True)
     """
     at = chain.start_index(start)
-    if at is not None and chain.line is not None:
-        probability, period = chain.line.limit(at)
+    if at is not None and chain.birth_death is not None:
+        probability, period = chain.birth_death.limit(at)
         return Limit(chain, probability, period)
     structure = chain.structure
     if structure.is_acyclic:
-        return Limit(chain, _ends(chain, chain.density(start)))
+        return Limit(chain, ends_of(chain, chain.density(start)))
     mass = absorption(chain, start)
-    law, residual = _stationary(chain, mass > 0.0)
+    law, residual = laws_of(chain, mass > 0.0)
     law *= mass[structure.label]
-    reached = _reached(chain, chain.density(start))
+    reached = closed_classes_reached(chain, chain.density(start))
     period = math.lcm(*structure.periods[reached].tolist())
-    return Limit(chain, law, period, largest(_residual(chain), residual))
-
-
-def _residual(chain: Chain) -> float | None:
-    return chain.transient.residual if "transient" in chain.__dict__ else None
+    if "transient" in chain.__dict__:
+        residual = largest(chain.transient.residual, residual)
+    return Limit(chain, law, period, residual)
 
 
 def largest(*residuals: float | None) -> float | None:
-    """Return the largest of the residuals that there are, or None."""
+    """Return the largest of the residuals that are not None, or None."""
     return max((r for r in residuals if r is not None), default=None)
 
 
@@ -330,15 +182,15 @@ def limit_matrix(chain: Chain) -> csc_array:
     """Return the limits from all states; shape (n, n), column j is the limit from state j.
 
     Time and memory are those of one solve for each closed class that is entered from
-    outside, and of the entries that are not 0. What `stochastic_limit` says of its
-    accuracy holds here too. Where only a sparse factorisation helps, for the chances to end in
-    a class the residual is in `chain.transient.residual` afterwards; for the law of a
-    closed class it is in `stochastic_limit(chain, state).residual`, begun in the class.
+    outside, and of the entries that are not 0. The accuracy is that of `stochastic_limit`.
+    Where only a sparse factorisation helps, the residual of the chances of ending in a class
+    is in `chain.transient.residual` afterwards; that of the law of a closed class is in
+    `stochastic_limit(chain, state).residual` for a state of the class.
 
     Raises
     ------
     AccuracyError
-        if an entry cannot be vouched for.
+        if an entry cannot be guaranteed.
 
     >>> from evenbreak.chains import chain_of
     >>> chain = chain_of([(1, 0, 0.5), (1, 2, 0.5), (2, 1, 0.25), (2, 3, 0.75)])
@@ -355,7 +207,7 @@ def limit_matrix(chain: Chain) -> csc_array:
 
 
 def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
-    """Return the chance to end in each class, from each state; shape (classes, n)."""
+    """Return the chance of ending in each class, from each state; shape (classes, n)."""
     shape = chain.structure.count, len(chain)
     ends = csc_array((np.ones(len(inside)), (home, inside)), shape=shape)
     part = chain.transient

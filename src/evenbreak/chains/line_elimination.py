@@ -1,17 +1,17 @@
 """Elimination for a class whose states stand in a line, every second state at a time.
 
-No two states at odd places are neighbours, so they can all be eliminated at once, in one
-vector operation; half the states are left, again in a line. After log2(n) rounds none is.
-This is the elimination of Grassmann, Taksar and Heyman in the order of cyclic reduction
-(Hockney 1965), and as free of subtraction as any other order.
+No two states at odd places are neighbours, so all of them can be eliminated at once, in one
+vector operation: with up[i] and down[i] the arcs out of state i and d[i] their sum and its
+leak, the arc from i - 1 to i + 1 becomes up[i - 1] up[i] / d[i], and likewise down the line.
+Half the states are left, again in a line; after log2(n) rounds one is. This is the
+elimination of Grassmann, Taksar and Heyman (1985) in the order of cyclic reduction (Hockney
+1965), and it subtracts nothing.
 
-It works in the platform's extended precision: where all arcs are alike, each round repeats
-the rounding errors of the round before, and n units in the last place of a double would
-show at n = 10,000; and the arcs between states far apart are smaller than any double.
-
-Where a long double is no wider than a double (Windows, some ARM) there are no extra digits to
-work in: a line of n equal states may then be off by some n units in the last place, and arcs
-between states far apart may underflow, which the solves that use this notice.
+It works in the platform's extended precision. Where all arcs are equal, each round repeats
+the rounding errors of the round before, which in doubles would show at n = 10,000; and arcs
+between states far apart are smaller than any double. Where a long double is no wider than a
+double (Windows, some ARM) a line of n equal states may be off by some n units in the last
+place, and arcs between states far apart may underflow, which the solves that use this notice.
 """
 
 from __future__ import annotations
@@ -19,9 +19,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from scipy.sparse import csc_array, csgraph
+
+from evenbreak.chains.arcs import put_back
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Places
 
     Wide = NDArray[np.longdouble]
 
@@ -36,24 +41,47 @@ class _Round(NamedTuple):
     from_right: Wide
 
 
-class PathElimination:
-    """(I - T) factored, where T moves each state of a line to its neighbours only.
+def line_order(T: csc_array) -> Places | None:
+    """Return the order in which the states of a class stand in a line, or None.
+
+    `T` holds the arcs within the class, without its diagonal.
+
+    >>> line_order(csc_array([[0.0, 0.0, 0.5], [0.0, 0.0, 0.5], [1.0, 1.0, 0.0]]))
+    array([0, 2, 1], dtype=int32)
+    """
+    size = T.shape[0]
+    if T.nnz != 2 * (size - 1):
+        return None
+    ends = np.flatnonzero(np.diff(T.indptr) == 1)
+    if len(ends) != 2:
+        return None
+    order = csgraph.breadth_first_order(T, ends[0], return_predecessors=False)
+    place = np.empty(size, dtype=np.intp)
+    place[order] = np.arange(size)
+    sources = np.repeat(place, np.diff(T.indptr))
+    return order if (np.abs(place[T.indices] - sources) == 1).all() else None
+
+
+class LineElimination:
+    """(I - T) factored, for a class whose states stand in a line.
 
     Parameters
     ----------
-    up, down
-        shape (m - 1,): the arcs from i to i + 1, and from i + 1 to i; positive.
+    T
+        sparse, shape (m, m): T[i, j] is the arc from j to i; no diagonal.
     leak
         shape (m,): the probability to leave the line, given the state; not all zero.
+    order
+        the order of the states along the line.
     """
 
-    def __init__(
-        self, up: NDArray[np.float64], down: NDArray[np.float64], leak: NDArray[np.float64]
-    ) -> None:
+    def __init__(self, T: csc_array, leak: NDArray[np.float64], order: Places) -> None:
+        self._order = order
         self._rounds: list[_Round] = []
-        u = np.append(up, 0.0).astype(np.longdouble)
-        d = np.concatenate(([0.0], down)).astype(np.longdouble)
-        leaks = leak.astype(np.longdouble)
+        line = csc_array(T[:, order])[order]
+        u = np.append(line.diagonal(-1), 0.0).astype(np.longdouble)
+        d = np.concatenate(([0.0], line.diagonal(1))).astype(np.longdouble)
+        leaks = leak[order].astype(np.longdouble)
         pivots = np.empty(len(leak))
         place = np.arange(len(leak))
         while len(leaks) > 1:
@@ -72,11 +100,11 @@ class PathElimination:
             place = place[0::2]
         self._last = leaks
         pivots[place] = leaks
-        self.pivots: NDArray[np.float64] = pivots
+        self.pivots = put_back(pivots, order)
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
-        x = b.astype(np.longdouble)
+        x = b[self._order].astype(np.longdouble)
         waiting = []
         for pivot, down, up, _, from_right in self._rounds:
             odd, x = x[1::2], x[0::2].copy()
@@ -92,11 +120,11 @@ class PathElimination:
             odd = odd + x[: len(pivot)] * from_left[:, None]
             odd[:inner] += x[1 : inner + 1] * from_right[:, None]
             x = _interleaved(x, odd / pivot[:, None])
-        return x.astype(np.float64)
+        return put_back(x.astype(np.float64), self._order)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
-        y = r.astype(np.longdouble)
+        y = r[self._order].astype(np.longdouble)
         waiting = []
         for pivot, _, _, from_left, from_right in self._rounds:
             odd, y = y[1::2] / pivot[:, None], y[0::2].copy()
@@ -112,7 +140,7 @@ class PathElimination:
             odd = odd + y[: len(pivot)] * down[:, None]
             odd[:inner] += y[1 : inner + 1] * up[:inner, None]
             y = _interleaved(y, odd)
-        return y.astype(np.float64)
+        return put_back(y.astype(np.float64), self._order)
 
 
 def _interleaved(even: Wide, odd: Wide) -> Wide:

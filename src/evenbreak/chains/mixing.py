@@ -1,10 +1,15 @@
 """How fast a chain forgets where it started: the spectral gap and the mixing time.
 
+    gap = 1 - the largest modulus of an eigenvalue off the unit circle,
+    mixing time = the first n at which M^n v is within eps of its limit from every start v.
+
 The transition matrix is block triangular in its classes, so its eigenvalues are those of
-the classes, each found by the method that suits it: a state by itself has its self-loop, a
-line of states is similar to a symmetric tridiagonal matrix (S_ij^2 = M_ij M_ji), any other
-class goes to LAPACK, or to ARPACK where it is large. Defects between classes, as in races,
-do no harm here.
+the classes, each found by the method that suits it: the self-loop of a single state; for a
+line of states those of a similar symmetric tridiagonal matrix (S_ij^2 = M_ij M_ji); LAPACK
+for any other class, or ARPACK if it is large. Defects between classes, as in races, do no
+harm here.
+
+Reference: Levin, Peres and Wilmer, Markov Chains and Mixing Times, chapters 4 and 12.
 """
 
 from __future__ import annotations
@@ -14,18 +19,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.linalg
-import scipy.sparse.csgraph
 import scipy.sparse.linalg
+from scipy.sparse import csc_array
 
 from evenbreak.chains.eigenpairs import DENSE, EPS
 from evenbreak.chains.limits import limit_matrix
+from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.powers import evened
 from evenbreak.checks import number
 from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from scipy.sparse import csc_array
 
     from evenbreak.chains.chain import Chain
 
@@ -35,20 +40,19 @@ def spectral_gap(chain: Chain) -> float:
 
     A closed class of period d has d eigenvalues on the unit circle, the d-th roots of 1.
     They are left out: for a ladder of +-1 steps (period 2, spectrum symmetric about 0) the
-    gap is 1 minus the largest eigenvalue below 1 and speaks of the two-step average. The
-    distance to the limit falls like (1 - gap)^n in the end.
+    gap is 1 minus the largest eigenvalue below 1 and describes the two-step average. In
+    the end the distance to the limit falls like (1 - gap)^n.
 
     Raises
     ------
     AccuracyError
-        if the gap cannot be told to three digits: an eigenvalue is too ill-conditioned,
+        if the gap cannot be found to three digits: an eigenvalue is too ill-conditioned,
         or the iteration for a class of more than 1000 states does not converge.
 
     Notes
     -----
-    For classes of more than 1000 states that are not lines ARPACK looks for the largest
-    moduli; it may miss one, and the gap is then an upper bound. Source: Levin, Peres &
-    Wilmer, Markov Chains and Mixing Times, chapter 12.
+    For classes of more than 1000 states that are not lines, ARPACK searches for the largest
+    moduli; it may miss one, and the gap is then an upper bound.
 
     >>> from evenbreak.chains import chain_of
     >>> round(spectral_gap(chain_of([(1, 1, 0.75), (1, 2, 0.25), (2, 1, 0.5), (2, 2, 0.5)])), 12)
@@ -69,14 +73,14 @@ def spectral_gap(chain: Chain) -> float:
     gap = 1.0 - max(moduli)
     if not max(bounds) - max(moduli) <= 1e-3 * gap:
         raise AccuracyError(
-            f"the gap is about {gap:.3g}, but an eigenvalue is known to "
-            f"{max(bounds) - max(moduli):.1e} only; follow the chain with propagate"
+            f"the gap is about {gap:.3g}, but an eigenvalue is known only to within "
+            f"{max(bounds) - max(moduli):.1e}; follow the chain with propagate"
         )
     return gap
 
 
 def _moduli(block: csc_array, period: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return moduli of a class but for the `period` on the unit circle, and their errors."""
+    """Return the moduli of a class, less the `period` on the unit circle, and their errors."""
     n = block.shape[0]
     if period == n:
         return np.empty(0), np.empty(0)
@@ -97,7 +101,7 @@ def _moduli(block: csc_array, period: int) -> tuple[NDArray[np.float64], NDArray
 def _overlaps(values: NDArray[Any], left: NDArray[Any], right: NDArray[Any]) -> NDArray[np.float64]:
     """Return 1 over the condition number of each eigenvalue: |y^H x| (Wilkinson).
 
-    The vectors of a repeated eigenvalue need not be paired: their overlaps are taken
+    The vectors of a repeated eigenvalue need not come in pairs: their overlaps are taken
     together, as the smallest singular value.
     """
     overlaps = np.abs(np.sum(left.conj() * right, axis=0))
@@ -108,25 +112,22 @@ def _overlaps(values: NDArray[Any], left: NDArray[Any], right: NDArray[Any]) -> 
 
 
 def _line(block: csc_array) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    """Return diagonal and off-diagonal of the similar symmetric matrix if the class is a line."""
-    n = block.shape[0]
-    coo = block.tocoo()
-    off = coo.row != coo.col
-    if off.sum() != 2 * (n - 1) or np.bincount(coo.row[off], minlength=n).max() > 2:
+    """Return the diagonal and off-diagonal of a similar symmetric matrix, if there is one."""
+    T = block.copy()
+    T.setdiag(0.0)
+    T.eliminate_zeros()
+    order = line_order(T)
+    if order is None:
         return None
-    end = int(np.argmin(np.bincount(coo.row[off], minlength=n)))
-    order: Any = scipy.sparse.csgraph.breadth_first_order(block, end, return_predecessors=False)
-    line = block[:, order][order]
+    line = csc_array(T[:, order])[order]
     up, down = line.diagonal(-1), line.diagonal(1)
-    if np.count_nonzero(up) + np.count_nonzero(down) != 2 * (n - 1):
-        return None
-    return np.asarray(line.diagonal()), np.asarray(np.sqrt(up) * np.sqrt(down))
+    return block.diagonal()[order], np.sqrt(up) * np.sqrt(down)
 
 
 def _ends_of_symmetric(
     diagonal: NDArray[np.float64], beside: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return the two lowest and two highest eigenvalues (all, of up to four)."""
+    """Return the two lowest and the two highest eigenvalues (all, if there are up to four)."""
     n = len(diagonal)
     if n <= 4:
         return np.asarray(scipy.linalg.eigvalsh_tridiagonal(diagonal, beside))
@@ -153,23 +154,23 @@ def _largest(block: csc_array, k: int) -> NDArray[Any]:
 def mixing_time(chain: Chain, eps: float = 0.25) -> int:
     """Return the number of steps after which every start is within `eps` of its limit.
 
-    Within: in total variation, half the sum of absolute differences, given the worst
-    start. Where a closed class is periodic, the average over d steps from then on is
-    compared, d being the least common multiple of the periods.
+    Distance is total variation, half the sum of absolute differences, from the worst start.
+    If a closed class is periodic, the average over the next d steps is compared, with d the
+    least common multiple of the periods.
 
     Raises
     ------
     InputError
         if `eps` is not between 0 and 1.
     ChainError
-        if the chain has more than 1000 states: dense powers are taken.
+        if the chain has more than 1000 states: the powers are dense.
     AccuracyError
         if `eps` is too small for rounding, or more than 2^60 steps are needed.
 
     Notes
     -----
-    Source: Levin, Peres & Wilmer, Markov Chains and Mixing Times, section 4.5. The
-    distance never grows, so repeated squaring and bisection find the step.
+    The distance never grows, so repeated squaring and bisection find the step (Levin, Peres
+    and Wilmer, section 4.5).
 
     >>> from evenbreak.chains import chain_of
     >>> winner_breaks = chain_of([(1, 1, 0.75), (1, 2, 0.25), (2, 1, 0.5), (2, 2, 0.5)])
@@ -183,7 +184,7 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
             f"the chain has {n} states; a mixing time needs {DENSE} or fewer, ask for spectral_gap"
         )
     structure = chain.structure
-    # Python's, for the least common multiple of a dozen periods may be beyond 64 bits.
+    # In Python's integers: the least common multiple of a dozen periods may exceed 64 bits.
     period = math.lcm(*structure.periods[structure.closed].tolist())
     M = evened(chain).toarray()
     average = _average_of_powers(M, period)
@@ -201,8 +202,8 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
         powers.append(square / square.sum(axis=0))
         if len(powers) > 60:
             raise AccuracyError(
-                f"the chain is not seen within {eps} of its limit after 2^60 steps; "
-                "give a larger eps"
+                f"the chain is not within {eps} of its limit after 2^60 steps, as far as floats "
+                "can show; give a larger eps"
             )
     for i in reversed(range(len(powers) - 1)):
         further = powers[i] @ reached
@@ -220,6 +221,6 @@ def _average_of_powers(M: NDArray[np.float64], terms: int) -> NDArray[np.float64
         if bit == "1":
             average = (eye + count * (M @ average)) / (count + 1)
             power, count = M @ power, count + 1
-        # Roundings of the sums would double with each square.
+        # Otherwise rounding errors of the sums would double with each square.
         power, average = power / power.sum(axis=0), average / average.sum(axis=0)
     return average

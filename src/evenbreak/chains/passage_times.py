@@ -1,14 +1,17 @@
-"""The steps that it takes to get somewhere: their distribution, mean and variance.
+"""How many steps it takes to reach a target: distribution, mean and variance.
 
-With Q the states from which the target can be reached, h_j the chance to reach it from j
-and x_t = Q^t v, the passage time T has P(T > t and the target is reached) = h . x_t, hence
+With Q the arcs among the states from which the target can be reached, h_j the chance of
+reaching it from j and x_t = Q^t v, the passage time T has P(T > t and the target is
+reached) = h . x_t, hence
 
     P(reached) = h . v,   E[T; reached] = sum_t h . x_t = u . v,   u = (I - Q)^-T h,
 
-two solves without subtraction. The variance is the sum of what each step adds to it,
-E sum_t (m(X_t+1) - m(X_t) + 1)^2 with m = u / h, the mean time left: a sum of squares
-under the chances given that the target is reached (Doob's transform), which loses no
-digits where the variance is small beside the squared mean (Kemeny & Snell 1960, ch. III).
+which takes two solves without subtraction. The variance is the sum of what each step adds
+to it, E sum_t (m(X_t+1) - m(X_t) + 1)^2 with m = u / h the mean time left: a sum of squares
+under the chances given that the target is reached (Doob's transform). No digits are lost
+where the variance is small beside the squared mean.
+
+Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
 """
 
 from __future__ import annotations
@@ -32,35 +35,35 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 TIE = 1e-12
-"""A cumulative probability this near below q counts as q: sums of floats miss ties."""
+"""A cumulative probability this close below q counts as q: sums of floats miss ties."""
 MOST_STEPS = 100_000
-"""A quantile further off than this is refused rather than waited for."""
+"""Quantiles beyond this are refused."""
 
 
 @dataclass(frozen=True, eq=False)
-class Passage:
+class PassageTime:
     """How many steps it takes to reach a target, given the start.
 
     Parameters
     ----------
     p_reached, p_never
-        the chances that the target is reached and that it never is.
+        the chances that the target is reached, and that it never is.
     mean, variance
-        of the number of steps; None unless the target must be reached.
+        of the number of steps; None unless the target is certain to be reached.
     mean_if_reached, variance_if_reached
-        of the number of steps, given that the target is reached; None where it cannot be.
-        The variance is inf where it is larger than any float.
+        of the number of steps, given that the target is reached; None if it cannot be.
+        The variance is inf if it is larger than any float.
     certain
-        whether the target must be reached, by the graph: then `p_never` is exactly 0.
+        whether the graph says that the target is always reached; then `p_never` is exactly 0.
     residual
-        None where these are right to about machine precision; else, after a large class
-        that only a sparse factorisation can solve, how far its equations are missed (see
-        `TransientPart.residual`).
+        None if these are right to about machine precision; otherwise, after a large class
+        that only a sparse factorisation can solve, by how much its equations are missed
+        (see `TransientPart.residual`).
 
     Notes
     -----
-    These come from linear solves, not from a truncated distribution. `distribution` and
-    `quantile` follow the chain step by step.
+    The chances and moments come from linear solves, not from a truncated distribution;
+    `distribution` and `quantile` follow the chain step by step.
     """
 
     p_reached: float
@@ -77,12 +80,12 @@ class Passage:
 
     @property
     def mean(self) -> float | None:
-        """The mean number of steps; None where the target may never be reached."""
+        """The mean number of steps; None if the target may never be reached."""
         return self.mean_if_reached if self.certain else None
 
     @property
     def variance(self) -> float | None:
-        """The variance of the number of steps; None where the target may never be reached."""
+        """The variance of the number of steps; None if the target may never be reached."""
         return self.variance_if_reached if self.certain else None
 
     def distribution(
@@ -93,15 +96,15 @@ class Passage:
         Parameters
         ----------
         tail
-            stop once the chance to reach the target later is no more than this.
+            stop when the chance of reaching the target later is no more than this.
         max_steps
-            stop after this many steps at the latest.
+            stop after this many steps.
 
         Returns
         -------
         array, float
-            the probabilities, and the chance to reach the target later than they tell:
-            their sum, the tail and `p_never` make 1.
+            the probabilities, and the chance of reaching the target later than they cover;
+            they, the tail and `p_never` sum to 1.
         """
         tail, max_steps = number_probability(tail, "tail"), whole(max_steps, "max_steps")
         chances = []
@@ -113,10 +116,10 @@ class Passage:
         return np.array(chances), left
 
     def quantile(self, q: float) -> int | None:
-        """Return the first t with P(reached within t steps) >= q; None where there is none.
+        """Return the first t with P(reached within t steps) >= q; None if there is none.
 
-        What is within 1e-12 of q counts as q, so that ties do not hang on a rounding: of a
-        time without a largest value the quantile at 1 is that at 1 - 1e-12.
+        A probability within 1e-12 of q counts as q, so that ties do not depend on rounding.
+        For a time without a largest value the quantile at 1 is that at 1 - 1e-12.
 
         Raises
         ------
@@ -148,7 +151,7 @@ class Passage:
 
 def steps_to_absorption(
     chain: Chain, start: Any = None, *, into: Literal["absorbing", "closed"] = "absorbing"
-) -> Passage:
+) -> PassageTime:
     """Return the number of steps until the chain is absorbed, given the start.
 
     Parameters
@@ -156,9 +159,9 @@ def steps_to_absorption(
     chain, start
         as in `propagate`.
     into
-        'absorbing': it is absorbed in a state that is never left (a match is over). A
-        closed class of several states is then a way never to be absorbed. 'closed':
-        entry into any closed class counts, which always happens.
+        'absorbing': until a state is reached that is never left (the match is over); a
+        closed class of several states is then a way of never being absorbed. 'closed':
+        until any closed class is entered, which always happens.
 
     Raises
     ------
@@ -167,7 +170,7 @@ def steps_to_absorption(
     ChainError
         if the start is not one.
     AccuracyError
-        if a mean is larger than any float, or cannot be vouched for.
+        if a mean is larger than any float, or cannot be guaranteed.
 
     Notes
     -----
@@ -188,7 +191,7 @@ def steps_to_absorption(
     return _passage(chain, chain.density(start), ends)
 
 
-def first_passage(chain: Chain, start: Any, target: Any) -> Passage:
+def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
     """Return the number of steps until the chain first visits a target, given the start.
 
     Parameters
@@ -196,14 +199,14 @@ def first_passage(chain: Chain, start: Any, target: Any) -> Passage:
     chain, start
         as in `propagate`; a start of None is the chain's own.
     target
-        a state, or a list or set of states. A start in the target counts as 0 steps.
+        a state, or a list or set of states. Starting in the target counts as 0 steps.
 
     Raises
     ------
     ChainError
         if a state is unknown, or no target is given.
     AccuracyError
-        if a mean is larger than any float, or cannot be vouched for.
+        if a mean is larger than any float, or cannot be guaranteed.
 
     >>> from evenbreak.chains import chain_of
     >>> walk = chain_of([(1, 0, 0.25), (1, 2, 0.75), (2, 1, 1.0)])
@@ -221,7 +224,7 @@ def first_passage(chain: Chain, start: Any, target: Any) -> Passage:
     return _passage(chain, chain.density(start), ends)
 
 
-def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> Passage:
+def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> PassageTime:
     n, arcs = len(chain), chain.arcs
     before = ~ends[arcs.sources]
     source, target, chance = arcs.sources[before], arcs.targets[before], arcs.chances[before]
@@ -250,10 +253,10 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
             variance = _variance(chain, v, ends, states, visits, hope, left, mean) / p_reached
         if mean == np.inf:
             raise AccuracyError("the mean number of steps is larger than any float")
-        # So many steps on average come from a state that is hard to leave: its mean squared.
+        # A mean this large comes from a state that is hard to leave; the variance is its square.
         variance = variance if np.isfinite(variance) else np.inf
     M = evened(chain)
-    return Passage(
+    return PassageTime(
         p_reached=p_reached,
         p_never=p_never,
         mean_if_reached=mean,

@@ -1,7 +1,7 @@
-"""The density after a number of steps: powers of the transition matrix on a density.
+"""The density after a number of steps: M^n v.
 
-M^n v takes n products with v, or about 2 log2(n) squares and products with a dense M, all
-free of subtraction. Squares are worth their n^3 only where the steps are very many.
+It takes n products with v, or about 2 log2(n) squares and products of a dense M, all free
+of subtraction. Squaring, cubic in the number of states, pays only for very many steps.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 MOST_APPLIED = 4_000_000_000
-"""More steps than this are refused: roundings of 2^-52 add up to 1e-6."""
+"""More steps than this are refused: rounding errors of 2^-52 would add up to 1e-6."""
 _SQUARED, _CALL = 500, 5000
-"""Up to so many states M may be squared; a step costs as much as so many more arcs."""
+"""M may be squared up to this many states; a call costs as much as this many arcs."""
 _MOST_WORK, _MOST_ENTRIES = 5e10, 100_000_000
-"""A minute or so of steps, counted in arcs; the densities of a path, 0.8 GB of them."""
+"""About a minute of steps, counted in arcs; the entries of a path, 0.8 GB of them."""
 
 
 def propagate(
@@ -51,18 +51,18 @@ def propagate(
     Raises
     ------
     InputError
-        if `steps` is not a whole number from 0 to 4 billion, or so many steps of so large
-        a chain would take minutes, or would not fit in memory with `path`.
+        if `steps` is not a whole number from 0 to 4 billion, or taking them would last
+        minutes, or a `path` would not fit in memory.
     ChainError
-        if the start is not one.
+        if the start is neither a state nor a density.
 
     Notes
     -----
-    M is applied `steps` times, or for very many steps of at most 500 states squared again
-    and again: only sums of products of nonnegative numbers, so the relative error of each
-    entry is at most about steps * (arcs into a state) * 2^-52, and n in place of the arcs
-    where M is squared. Where the arcs of a state miss 1 by a rounding they are scaled to
-    it, and so are the columns of the squares, so that no mass is lost on the way.
+    M is applied `steps` times or, for very many steps of at most 500 states, squared again
+    and again. These are sums of products of nonnegative numbers, so the relative error of
+    each entry is at most about steps * (arcs into a state) * 2^-52, with n in place of the
+    arcs if M is squared. Arcs of a state that miss a sum of 1 by rounding are scaled to it,
+    and so are the columns of the squares, so that no probability is lost on the way.
     Source: P5.23.
 
     >>> from evenbreak.chains import chain_of
@@ -77,8 +77,8 @@ def propagate(
     steps = whole(steps, "steps")
     if steps > MOST_APPLIED:
         raise InputError(
-            f"steps is {steps}, after which rounding would show; give {MOST_APPLIED} or fewer, "
-            "or ask for the stochastic limit"
+            f"steps is {steps}, after which rounding errors would show; give {MOST_APPLIED} or "
+            "fewer, or ask for the stochastic limit"
         )
     v = chain.density(start)
     one_by_one = steps * (_CALL + chain.matrix.nnz)
@@ -111,7 +111,7 @@ def propagate(
 def _by_squares(
     power: NDArray[np.float64], v: NDArray[np.float64], steps: int
 ) -> NDArray[np.float64]:
-    """Return M^steps v by the squares of M, which is `power` at first."""
+    """Return M^steps v by squaring `power`, which is M at first."""
     while steps:
         if steps & 1:
             v = power @ v
@@ -123,7 +123,7 @@ def _by_squares(
 
 
 def evened(chain: Chain) -> csc_array:
-    """Return the matrix of the chain with columns that sum to 1 to the last bit or so."""
+    """Return the matrix of the chain with columns scaled to sum to 1."""
     M = chain.matrix
     sums = np.asarray(M.sum(axis=0)).ravel()
     if np.all(sums == 1.0):

@@ -1,11 +1,13 @@
-"""What a chain earns: per step in the long run, and in total until it is absorbed.
+"""What a chain earns: per step in the long run, and in total until absorption.
 
 With r_j the expected reward of a step begun in j (of the state itself and of the arc then
 taken), pi the stochastic limit and x the expected visits to the transient states,
 
     per step in the long run: sum_j pi_j r_j,    until absorption: sum_j x_j r_j.
 
-Both pi and x come without subtraction, so rewards of one sign lose no digits.
+Neither pi nor x is computed by subtraction, so rewards of one sign lose no digits.
+
+Reference: Kemeny and Snell 1960, Finite Markov Chains, chapters III and IV.
 """
 
 from __future__ import annotations
@@ -34,8 +36,8 @@ def long_run_reward(
 ) -> float:
     """Return the expected reward per step in the long run, given the start.
 
-    Where the chain is periodic this is the average over a period; where several classes are
-    closed, the mean over where it may end.
+    For a periodic chain this is the average over a period; if several classes are closed,
+    the mean over the classes in which play may end.
 
     Parameters
     ----------
@@ -51,11 +53,11 @@ def long_run_reward(
     Raises
     ------
     ChainError
-        if a state or arc is unknown, a reward is not a finite number, or the start is not
-        one.
+        if a state or arc is unknown, a reward is not a finite number, or the start is
+        neither a state nor a density.
     AccuracyError
-        if the limit cannot be vouched for. (Of a large class that only a sparse
-        factorisation can solve, `stochastic_limit` tells the residual.)
+        if the limit cannot be guaranteed. (For a large class that only a sparse
+        factorisation can solve, `stochastic_limit` reports the residual.)
 
     Notes
     -----
@@ -80,8 +82,8 @@ def total_reward(
 ) -> float:
     """Return the expected total reward until absorption, given the start.
 
-    Steps count up to and with the one that enters a closed class; what is earned in it
-    does not (see `long_run_reward`), so the total is always finite.
+    All steps count up to and including the one that enters a closed class. What is earned
+    inside the class does not (see `long_run_reward`), so the total is always finite.
 
     Parameters
     ----------
@@ -93,7 +95,7 @@ def total_reward(
     ChainError
         as `long_run_reward`.
     AccuracyError
-        if the expected visits are larger than any float, or cannot be vouched for.
+        if the expected visits are larger than any float, or cannot be guaranteed.
 
     Notes
     -----
@@ -116,22 +118,17 @@ def _expected_reward(
     per_arc: Mapping[tuple[Hashable, Hashable], float] | None,
 ) -> NDArray[np.float64]:
     """Return the expected reward of a step begun in each state; shape (n,)."""
-    reward = np.zeros(len(chain))
-    if isinstance(per_state, Mapping):
-        for state, amount in per_state.items():
-            reward[chain.index(state)] = amount
-    elif per_state is not None:
-        given = np.asarray(per_state, dtype=float)
-        if given.shape != reward.shape:
-            raise ChainError(f"per_state has shape {given.shape}; give {reward.shape}")
-        reward += given
+    if per_state is None:
+        per_state = {}
+    elif not isinstance(per_state, Mapping):
+        per_state = np.asarray(per_state, dtype=float)
+    reward = chain.vector(per_state, "per_state")
     for (source, target), amount in (per_arc or {}).items():
         j, i = chain.index(source), chain.index(target)
         chance = float(chain.matrix[i, j])
         if chance == 0.0:
             raise ChainError(f"there is no arc {source!r} -> {target!r} to earn a reward on")
         reward[j] += chance * amount
-    if not np.all(np.isfinite(reward)):
-        state = chain.states[int(np.flatnonzero(~np.isfinite(reward))[0])]
-        raise ChainError(f"the reward of state {state!r} is not finite; give finite numbers")
+    if not np.isfinite(reward).all():
+        raise ChainError("the reward of an arc is not finite; give finite numbers")
     return reward

@@ -1,13 +1,12 @@
-"""Products of many factors, mantissa and exponent apart, so that none over- or underflows.
+"""Products of many factors, significand and exponent apart, so that none over- or underflows.
 
 A number is a pair: a significand in [1/2, 1) and a whole exponent of 2. A law that spans
-thousands of decades keeps all its digits in this form; only the last step, to floats of a
-common scale, lets what is smaller than any float be zero.
+thousands of decades keeps all its digits in this form. Only the last step, to floats on a
+common scale, turns into zero what is smaller than any float.
 
-Numerators and denominators are multiplied up apart. A running product of quotients would
-repeat the rounding error of one quotient n times where all are equal; a running product of
-the given numbers rounds differently at each step, so that its error grows like the square
-root of n.
+Numerators and denominators are multiplied separately. A running product of quotients would
+repeat the rounding error of one quotient n times if all are equal; a running product of the
+given numbers rounds differently at each step, so its error grows like the square root of n.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ _STRETCH = 900
 def prefix_products(
     numerators: NDArray[np.float64], denominators: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], Places]:
-    """Return the quotients of the products of the first i numerators and denominators.
+    """Return, for each i, the first i numerators multiplied over the first i denominators.
 
     Parameters
     ----------
@@ -43,8 +42,8 @@ def prefix_products(
     -------
     (value, exponent)
         shape (n + 1,) each, beginning with the empty product: the quotients are
-        value * 2**exponent, times a common power of 2 that makes the largest lie in
-        [1/2, 1). Exponents below -5000 are cut off there.
+        value * 2**exponent, scaled by a common power of 2 so that the largest lies in
+        [1/2, 1). Exponents below -5000 become -5000.
 
     >>> value, exponent = prefix_products(np.full(1500, 0.5), np.full(1500, 1.0))
     >>> np.ldexp(value[[0, 10, 1000]], exponent[[0, 10, 1000]] + 1000)
@@ -82,7 +81,7 @@ def prefix_products(
 
 
 def _fill(rows: NDArray[np.float64], factors: NDArray[np.float64]) -> None:
-    """Write the factors down the columns of `rows`, and ones where none are left."""
+    """Write the factors down the columns of `rows`, and ones after the last of them."""
     full = len(factors) // _BLOCK
     rest = len(factors) - full * _BLOCK
     rows[:, :full] = factors[: full * _BLOCK].reshape(full, _BLOCK).T
@@ -116,7 +115,7 @@ def _prefix_of_blocks(
 
 
 def shares(value: NDArray[np.float64], exponent: Places, split: int) -> tuple[float, float]:
-    """Return what the first `split` numbers, and the rest, are of the sum of all.
+    """Return the shares of the first `split` numbers and of the rest in the sum of all.
 
     >>> shares(np.full(4, 0.5), np.array([0, 0, -2000, -2000]), 2)
     (1.0, 0.0)

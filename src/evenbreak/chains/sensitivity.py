@@ -1,16 +1,16 @@
-"""How the stochastic limit answers to small changes of the chances.
+"""How the stochastic limit responds to small changes of the probabilities.
 
-F = c . P v is a weighted sum of the limit's entries, P being the projection on the
-eigenvalue 1. If M changes by dM (columns summing to 0, no class opened or joined),
+F = c . P v is a weighted sum of the limit's entries, with P the projection on eigenvalue 1.
+If M changes by dM (columns that sum to 0; no class opened or joined to another),
 
     dF = c . (P dM A + A dM P) v,    A = (I - M)^# the group inverse,
 
 so dF is the sum over arcs j -> i of dM_ij G_ij with
 
-    G_ij = x_j a_i   for transient j:  x the expected visits, a_i = F if started from i;
+    G_ij = x_j a_i   for transient j:  x the expected visits, a_i the value of F from i;
     G_ij = pi_j h_i  for recurrent j:  pi the limit, (I - M^T) h = c - a on its class.
 
-One solve forwards (x, pi) and one backwards (a, h) serve all arcs at once.
+One solve forwards (x, pi) and one backwards (a, h) serve all arcs.
 
 References: Meyer 1975 and Schweitzer 1968 for the group inverse; Kato, Perturbation Theory,
 ch. II for dP; Caswell 2019 for compensation in proportion.
@@ -25,7 +25,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.chains.limits import largest, stationary_laws, stochastic_limit
+from evenbreak.chains.limits import largest, stochastic_limit
+from evenbreak.chains.stationary import stationary_laws
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class _Slopes:
-    """G of the module's head, up to a constant for each source, which no change notices."""
+    """G above, up to a constant for each source, which no change of M can see."""
 
     recurrent: NDArray[np.bool_]
     forward: NDArray[np.float64]
@@ -61,11 +62,11 @@ class Sensitivity:
         the weighted sum itself.
     matrix
         shape (n, n), sparse, with the arcs of the chain: entry [i, j] is the derivative of
-        `value` to the probability of the arc from j to i, its mass taken from the other
-        arcs of j in proportion; 0 where j has no other arc.
+        `value` with respect to the probability of the arc from j to i, taken from the other
+        arcs of j in proportion; 0 if j has no other arc.
     residual
-        None where the solves behind these are right to about machine precision; else the
-        largest of theirs, as in `Limit`.
+        None if the solves behind these are right to about machine precision; otherwise the
+        largest residual, as in `Limit`.
     """
 
     chain: Chain
@@ -81,7 +82,7 @@ class Sensitivity:
         return float(self.matrix[i, j])
 
     def to_dict(self) -> dict[tuple[Hashable, Hashable], float]:
-        """Return the derivative to each arc, by (source, target)."""
+        """Return the derivative with respect to each arc, by (source, target)."""
         states, entries = self.chain.states, self.matrix.tocoo()
         return {
             (states[j], states[i]): derivative
@@ -91,20 +92,20 @@ class Sensitivity:
         }
 
     def along(self, change: Mapping[tuple[Hashable, Hashable], float]) -> float:
-        """Return the derivative to a parameter that several arcs share.
+        """Return the derivative with respect to a parameter on which several arcs depend.
 
         Parameters
         ----------
         change
-            the derivative of each arc's probability to the parameter, by (source, target);
-            those of a source sum to 0. At an edge (an arc of probability 0 about to open)
-            it is the one-sided derivative.
+            the derivative of each arc's probability with respect to the parameter, by
+            (source, target); those of a source sum to 0. Where an arc of probability 0
+            opens, the result is the one-sided derivative.
 
         Raises
         ------
         ChainError
             if a state is unknown, the changes of a source do not sum to 0, or an arc
-            leads out of a closed class: the limit would jump.
+            leads out of a closed class, where the limit would jump.
 
         >>> from evenbreak.chains import chain_of
         >>> duel = chain_of([("S1", "W", 0.5), ("S1", "S2", 0.5),
@@ -137,7 +138,7 @@ class Sensitivity:
 
 
 def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
-    """Return the derivatives of a weighted sum of the limit to every arc, given the start.
+    """Return the derivatives of a weighted sum of the limit with respect to every arc.
 
     Parameters
     ----------
@@ -147,18 +148,18 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
         what is summed: a state (its limit probability), a mapping from states to weights
         (0 for those not named), or an array of shape (n,).
     start
-        as in `stochastic_limit`; it does not change.
+        as in `stochastic_limit`; it is held fixed.
 
     Raises
     ------
     ChainError
         if a state is unknown or a weight is not finite.
     AccuracyError
-        if the limit, or a relative value, cannot be vouched for.
+        if the limit, or a relative value, cannot be guaranteed.
 
     Notes
     -----
-    Holds where the chain is periodic too, for the long-run average. A derivative is a
+    For periodic chains these are derivatives of the long-run average. A derivative is a
     difference of nonnegative sums, so it may lose digits where these nearly cancel.
 
     >>> from evenbreak.chains import chain_of
@@ -167,7 +168,7 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     >>> round(share.value, 12), round(share[1, 1], 12)
     (0.666666666667, 0.888888888889)
     """
-    c = _weights(chain, weights)
+    c = chain.vector(weights, "weights")
     structure, part = chain.structure, chain.transient
     recurrent = structure.recurrent
     limit = stochastic_limit(chain, start)
@@ -186,22 +187,6 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
         residual=largest(limit.residual, part.residual, missed),
         _slopes=slopes,
     )
-
-
-def _weights(chain: Chain, weights: Any) -> NDArray[np.float64]:
-    c = np.zeros(len(chain))
-    if isinstance(weights, np.ndarray):
-        if weights.shape != c.shape:
-            raise ChainError(f"weights has shape {weights.shape}; give {c.shape}")
-        c += weights
-    elif isinstance(weights, Mapping):
-        for state, weight in weights.items():
-            c[chain.index(state)] = weight
-    else:
-        c[chain.index(weights)] = 1.0
-    if not np.all(np.isfinite(c)):
-        raise ChainError("a weight is not finite; give finite numbers")
-    return c
 
 
 def _signed_values(part: TransientPart, r: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -227,10 +212,10 @@ def _relative_values(
 
 
 def _in_proportion(chain: Chain, slopes: _Slopes) -> csc_array:
-    """Return the derivative to each arc, its mass taken from the other arcs in proportion.
+    """Return the derivative for each arc, its probability taken from the others in proportion.
 
-    Per source it is G_i - sum_{k != i} p_k G_k / sum_{k != i} p_k. The sums without the
-    largest arc are taken without it, those without another by subtraction, which is safe.
+    For each source it is G_i - sum_{k != i} p_k G_k / sum_{k != i} p_k. Leaving out the
+    largest arc is done by not adding it, leaving out another by subtraction, which is safe.
     """
     M = chain.matrix
     n = len(chain)

@@ -1,14 +1,15 @@
 """Eigenvalues and eigenvectors of the transition matrix, and the limit that they give.
 
-M R = R diag(lambda), L M = diag(lambda) L, L R = I. Eigenvalue 1 repeats once for each
-closed class; its right vectors are then taken as the stationary laws of those classes and
-its left vectors as the chances of ending there, so that the stochastic limit is
-sum R_i (L_i v) over the eigenvalues 1 (the source text's derivation after P5.22).
+M R = R diag(lambda), L M = diag(lambda) L, L R = I. Eigenvalue 1 occurs once for each closed
+class; its right vectors are scaled to be the stationary laws of those classes and its left
+vectors the chances of ending there, so that the stochastic limit is
 
-This is the second route to the limit: it shares nothing with the eliminations of
-`stochastic_limit` but the chain's arcs and structure, and loses digits where they do not, in
-chains that are slow or nearly fall apart. Every answer comes with a bound on its error that
-is proved with the answer (see `lu_solves`), and is refused where it cannot be vouched for.
+    sum over the eigenvalues 1 of R_i (L_i v)
+
+(the source text's derivation after P5.22). This is the second route to the limit. It shares
+only the chain's arcs and structure with the eliminations of `stochastic_limit`, and loses
+digits where they do not: in chains that are slow or nearly fall apart. Every answer comes
+with a proved bound on its error (see `certified_lu`) and is refused if the bound is too large.
 """
 
 from __future__ import annotations
@@ -30,9 +31,9 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 MOST_ENTRIES = 20_000_000
-"""More entries of vectors than this (k times n) are refused: they fill the memory."""
+"""More entries of vectors than this (k times n) are refused: they would fill the memory."""
 LEADING = 6
-"""Beyond `DENSE` this many eigenvalues are found unless more repeat at 1."""
+"""Beyond `DENSE` states, this many eigenvalues are found, or as many as are 1."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +45,8 @@ class Spectrum:
     chain
         the chain.
     values
-        shape (k,): the eigenvalues 1 first, then by falling modulus (beyond 1000 states:
-        those nearest to 1 come first).
+        shape (k,): the eigenvalues 1 first, the others by falling modulus (beyond 1000
+        states: those nearest to 1 first).
     right
         shape (n, k): column i is the right vector of eigenvalue i. Those of eigenvalue 1
         are the stationary laws of the closed classes.
@@ -57,8 +58,7 @@ class Spectrum:
     residual
         the largest absolute entry of `M R - R diag(values)`, `L M - diag(values) L` and `L R - I`.
     limit_error
-        bound on the sum of the absolute errors of `limit`, from any start: that of the laws
-        in `right` and of the chances in `left` that belong to eigenvalue 1.
+        a bound on the sum of the absolute errors of `limit`, from any start.
     """
 
     chain: Chain
@@ -72,15 +72,15 @@ class Spectrum:
     def limit(self, start: Any = None) -> NDArray[np.float64]:
         """Return the stochastic limit by eigenvectors: sum R_i (L_i v) over eigenvalue 1.
 
-        Conditional on `start` (see `Chain.density`). Entries are good to `limit_error`,
-        absolutely; `stochastic_limit` is good to every digit of every entry.
+        It is conditional on `start` (see `Chain.density`). Entries are right to an absolute
+        error of `limit_error`; `stochastic_limit` is right in every digit of every entry.
 
         Raises
         ------
         AccuracyError
             if `limit_error` is above 1e-8: the chain is nearly decomposable, or slow.
         """
-        self._vouch()
+        self._check_error()
         v = self.chain.density(start)
         return np.asarray((self.right[:, : self.units] @ (self.left[: self.units] @ v)).real)
 
@@ -90,10 +90,10 @@ class Spectrum:
         return spectral_gap(self.chain)
 
     def mixing_time(self, eps: float = 0.25) -> int:
-        """Return the steps after which every start is within `eps`; see `mixing_time`."""
+        """Return the steps after which every start is within `eps` of its limit."""
         return mixing_time(self.chain, eps)
 
-    def _vouch(self) -> None:
+    def _check_error(self) -> None:
         if not self.limit_error <= TOLERANCE:
             raise AccuracyError(
                 f"the limit by eigenvectors may be wrong by {self.limit_error:.1e} "
@@ -111,28 +111,28 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
         the chain, n states.
     k
         how many eigenvalues: at least the number of closed classes, at most n. By
-        default all up to 1000 states, beyond that the 6 nearest to 1 (more if more
-        classes are closed).
+        default all of them up to 1000 states, beyond that the 6 nearest to 1 (more if
+        more classes are closed).
 
     Raises
     ------
     InputError
         if k is too small or too large.
     ChainError
-        if the vectors would have more than 20 million entries, k times n; a race with many
-        scores to end at has an eigenvalue 1 for each.
+        if the vectors would have more than 20 million entries, k times n; a race has an
+        eigenvalue 1 for every final score.
     AccuracyError
         if the vectors asked for do not exist, or only barely: the matrix is defective
-        (every race is: its states empty after finitely many racks, so eigenvalue 0 has
-        too few vectors), or k cuts through a repeated eigenvalue. The eigenvalues 1 alone
-        (k = number of closed classes) are never defective. Or if other eigenvalues are so
-        near to 1 that no bound on the errors of its vectors can be proved.
+        (every race is: its states empty after finitely many racks, so eigenvalue 0 has too
+        few vectors), or k cuts through a repeated eigenvalue. The eigenvalues 1 alone (k =
+        the number of closed classes) are never defective. Also if other eigenvalues are so
+        close to 1 that no bound on the errors of its vectors can be proved.
 
     Notes
     -----
-    Eigenvalue 1 repeats as often as classes are closed, by the structure; its vectors solve
-    equations class by class. The others come from LAPACK's geev up to 1000 states; beyond,
-    those nearest to 1 from ARPACK in shift-invert mode.
+    The structure says how often eigenvalue 1 occurs: once for each closed class; its vectors
+    are solved for class by class. The others come from LAPACK's geev up to 1000 states;
+    beyond that, those nearest to 1 come from ARPACK in shift-invert mode.
 
     >>> from evenbreak.chains import Chain
     >>> from scipy.sparse import csc_array
@@ -156,8 +156,8 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     pairs = UnitPairs(chain)
     if not np.isfinite(pairs.error):
         raise AccuracyError(
-            "nothing can be said of the errors of the eigenvectors of eigenvalue 1: the chain "
-            "is too slow or too nearly falls apart; use stochastic_limit"
+            "the errors of the eigenvectors of eigenvalue 1 cannot be bounded: the chain is too "
+            "slow or too close to falling apart; use stochastic_limit"
         )
     values, left, right = leading_pairs(chain, pairs, k)
     M = evened(chain)

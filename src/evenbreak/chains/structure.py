@@ -1,10 +1,14 @@
 """What the graph of a chain says before any number is computed: classes, kinds, periods.
 
 Two states belong to the same (communicating) class if each can be reached from the other.
-The classes form an acyclic graph; they are numbered in a topological order of it, upstream
-first. A class that is never left is closed; its states are recurrent (absorbing where it
-is a single state), all others are transient. The period of a class is the greatest common
-divisor of the lengths of its cycles.
+The classes form an acyclic graph and are numbered in a topological order of it, upstream
+first. A class that is never left is closed. Its states are recurrent, or absorbing if the
+class is a single state; all other states are transient. The period of a class is the
+greatest common divisor of the lengths of its cycles,
+
+    d = gcd over arcs j -> i in the class of (depth[j] + 1 - depth[i]),
+
+for depths in any tree of arcs that reaches the whole class.
 
 References: Tarjan 1972 and Pearce 2005 for the classes (through scipy); Denardo 1977,
 "Periods of connected networks and powers of nonnegative matrices", for the periods.
@@ -32,7 +36,7 @@ class Structure:
     Parameters
     ----------
     label
-        shape (n,): the class of each state; no arc leads to a class of a smaller number.
+        shape (n,): the class of each state; no arc leads to a class with a smaller number.
     count
         the number of classes k.
     arcs
@@ -60,7 +64,7 @@ class Structure:
 
     @cached_property
     def in_order(self) -> bool:
-        """Whether the states already stand class by class, upstream first."""
+        """Whether the states are already listed class by class, upstream first."""
         return bool((self.label[:-1] <= self.label[1:]).all())
 
     @cached_property
@@ -89,9 +93,10 @@ class Structure:
 
     @cached_property
     def kinds(self) -> list[str]:
-        """The kind of each state: 'transient', 'recurrent' or (alone and never left) 'absorbing'.
+        """The kind of each state: 'transient', 'recurrent' or 'absorbing'.
 
-        A state of a closed class with others is 'recurrent'.
+        A state that is never left is 'absorbing'; the states of a larger closed class are
+        'recurrent'.
         """
         alone = np.diff(self.offsets)[self.label] == 1
         code = self.recurrent * (1 + alone)
@@ -106,7 +111,7 @@ class Structure:
     def periods(self) -> Places:
         """The period of each closed class, 0 for the others; shape (k,).
 
-        A state that is never left has period 1, also where its self-loop is not listed.
+        A state that is never left has period 1, even if its self-loop is not listed.
         """
         sizes = np.diff(self.offsets)
         periods = np.where(self.closed, 1, 0).astype(np.int64)
@@ -126,9 +131,9 @@ class Structure:
 
     @cached_property
     def phases(self) -> Places:
-        """The step of its period at which each state of a closed class is met; shape (n,).
+        """The step of the period at which each state of a closed class is visited; shape (n,).
 
-        Counted from the first state of the class; 0 outside the closed classes.
+        It is counted from the first state of the class, and 0 outside the closed classes.
 
         >>> from evenbreak.chains import chain_of
         >>> chain_of([("A", "B", 1.0), ("B", "A", 1.0), ("S", "B", 1.0)]).structure.phases
@@ -143,7 +148,7 @@ class Structure:
     def _depths(self, searched: NDArray[np.bool_]) -> Places:
         """Return the depth of each state of the `searched` classes in a tree of arcs.
 
-        All trees are grown in one breadth-first search, from a root above them all.
+        One breadth-first search grows all trees, from a root with an arc to each of theirs.
         """
         n = self.arcs.size
         roots = self.order[self.offsets[:-1][searched]]
@@ -163,15 +168,15 @@ class Structure:
 def structure_of(arcs: Arcs, loops: NDArray[np.bool_] | None = None) -> Structure:
     """Return the communicating classes of the graph that `arcs` make.
 
-    Cost is linear in the number of arcs. Where the arcs all lead forward in the given
-    order, or all backward, no search is made.
+    Time is linear in the number of arcs. If all arcs lead forward in the given order, or
+    all lead backward, no search is needed.
 
     Parameters
     ----------
     arcs
         the arcs between different states.
     loops
-        shape (n,): whether the state has a self-loop, which only the periods ask.
+        shape (n,): whether the state has a self-loop; only the periods depend on it.
     """
     n = arcs.size
     if loops is None:
@@ -181,7 +186,7 @@ def structure_of(arcs: Arcs, loops: NDArray[np.bool_] | None = None) -> Structur
         return Structure(np.arange(n), n, arcs, loops)
     if not forward.any():
         return Structure(np.arange(n)[::-1].copy(), n, arcs, loops)
-    # Read by rows, the columns of M are the arcs as csgraph wants them. Pearce's algorithm
+    # Read as rows, the columns of M are the arcs as csgraph needs them. Pearce's algorithm
     # numbers a class only after all classes downstream of it.
     graph: csr_array[np.float64] = csr_array((arcs.chances, arcs.targets, arcs.indptr), (n, n))
     count, found = csgraph.connected_components(graph, directed=True, connection="strong")

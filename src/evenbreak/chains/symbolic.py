@@ -5,7 +5,9 @@ sum over C of pi_C a_C(s), where a_C = (I - M_TT)^-T (M_CT^T 1) is the probabili
 ending in C and pi_C solves M_CC pi_C = pi_C, sum pi_C = 1. Both are linear systems over
 the field of rational functions of the symbols.
 
-Needs sympy, which the extra `symbolic` brings along.
+It needs sympy, which the extra `symbolic` installs.
+
+Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
 """
 
 from __future__ import annotations
@@ -28,8 +30,8 @@ def symbolic_limit(
 ) -> dict[Hashable, sympy.Expr]:
     """Return the long-run probability of every state as a formula, given the start.
 
-    It is the limit of M^n v where the chain settles down, and the long-run average where
-    it is periodic: one formula holds for both.
+    It is the limit of M^n v if the chain settles down and the long-run average if it is
+    periodic; one formula holds for both.
 
     Parameters
     ----------
@@ -38,7 +40,7 @@ def symbolic_limit(
         (source, target, probability); or an object with `start` and `moves(state)`.
         A probability is a sympy expression or a number (write 1/3 as
         `sympy.Rational(1, 3)`); those of a state sum to 1 identically. A state without
-        arcs of its own absorbs.
+        arcs absorbs.
     start
         the state in which the game begins; by default the game's own start, the graph's
         node of kind 'start', or the source of the first arc.
@@ -51,16 +53,16 @@ def symbolic_limit(
     Raises
     ------
     ChainError
-        if there are no arcs, an arc is no (source, target, probability) or is listed
+        if there are no arcs, an arc is not (source, target, probability) or is listed
         twice, the probabilities of a state do not sum to 1, or the start is unknown.
     ModuleNotFoundError
         if sympy is not installed.
 
     Notes
     -----
-    Every listed arc counts as possible (its probability is not identically zero): the
-    formulas hold for such values of the symbols, and at the edges (p = 0, p = 1) only
-    where they have a limit. Source: P5.20, P5.24, P5.27.
+    Every listed arc whose probability is not identically zero counts as possible. The
+    formulas hold where all of these are positive; at the edges (p = 0, p = 1) they hold
+    only if they have a limit. Source: P5.20, P5.24, P5.27.
 
     >>> import sympy
     >>> p1, p2 = sympy.symbols("p1 p2")
@@ -213,7 +215,7 @@ def _absorbed(
 
 
 def _stationary(graph: nx.DiGraph[Any], members: list[Any]) -> list[Any]:
-    """Return the stationary law of a closed class; one balance equation gives way to the sum."""
+    """Return the stationary law of a closed class; the sum replaces one balance equation."""
     sympy = _sympy()
     balance = _block(graph, members)
     balance[0, :] = sympy.ones(1, len(members))

@@ -1,15 +1,16 @@
-"""One forward substitution through the states alone in their class and the small classes.
+"""One forward substitution through single states and small classes.
 
-A state that is never met again is watched only when it moves: with P[i, j] the arc from j
-to i over the sum of all arcs out of j, the flow f through the states from a density b obeys
+A state that is alone in its class is watched only when it moves: with P[i, j] the arc from
+j to i over the sum of all arcs out of j, the flow f through the states from a density b
+obeys
 
     f[i] = b[i] + sum over j of P[i, j] f[j],
 
-upstream states first: a triangular system whose terms all have one sign, and the visits
-are f[j] over the sum of the arcs out of j. A small class of more than one state enters it
-with each state twice: as it is entered and as it is left, joined by the factors of
-`blocks`. So the whole is triangular, its size is at most twice the number of states, and
-both I - T and its transpose are solved in one call.
+upstream states first. This is a triangular system whose terms all have one sign, and the
+expected visits are f[j] over the sum of the arcs out of j. A small class of several states
+enters it with each state twice, as it is entered and as it is left, joined by the factors
+of `blocks`. So the whole is triangular, its size at most twice the number of states, and
+I - T and its transpose are each solved in one call.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from evenbreak.chains.arcs import Places
 
 
-class Flow:
+class TriangularSolve:
     """(I - T) factored for consecutive classes, all of them small.
 
     Parameters
@@ -36,10 +37,11 @@ class Flow:
     sources, targets, chances
         the arcs among the states, which are numbered class by class, upstream first.
     leak
-        shape (m,): the chance to leave for other states, given the state; only read where
-        a class has more than one state.
+        shape (m,): the chance of leaving all these states, given the state; only read for
+        classes of several states.
     outflow
-        shape (m,): the chance to leave the state; only read where it is alone in its class.
+        shape (m,): the chance of leaving the state; only read for states alone in their
+        class.
     offsets
         shape (classes + 1,): the first state of each class, and m.
     """
@@ -69,7 +71,7 @@ class Flow:
         begin = np.cumsum(width) - width
         number = np.arange(m) - offsets[label]
         self._enter = begin[label] + number
-        # Left in the opposite order: the last to be eliminated is the first to be known.
+        # Left in the opposite order: the last state to be eliminated is known first.
         self._leave = np.where(twice[label], begin[label] + width[label] - 1 - number, self._enter)
         inside = label[sources] == label[targets]
         across = ~inside
@@ -124,7 +126,7 @@ class Flow:
 
 
 class _Inner:
-    """The arcs within classes, sorted by class, to be written into stacks."""
+    """The arcs within classes, sorted by class, from which stacks are made."""
 
     def __init__(
         self,
@@ -165,7 +167,7 @@ def _unit_lower(
     rows: Places,
     entries: NDArray[np.float64],
 ) -> csc_array:
-    """Return I - E for arcs that all lead forward, as SuperLU wants it: sorted, with ones."""
+    """Return I - E for arcs E that all lead forward, sorted and with ones as SuperLU needs it."""
     places = np.arange(size, dtype=np.int32)
     return csc_array(
         (

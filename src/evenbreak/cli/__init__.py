@@ -1,8 +1,8 @@
-"""The command line: thin click commands, one file a command.
+"""The command line: thin click commands, one file for each.
 
-Nothing is computed here: a command reads what a person typed, asks the layers below,
-and prints. `base` holds the program itself; a command's module is imported only when
-that command runs.
+Nothing is computed here. A command reads its options, puts the question to the rooms below
+and returns their `Answer`, which `kit.faces` prints. `program` holds the program itself; a
+command's module is imported only when that command runs.
 """
 
 import atexit
@@ -18,15 +18,15 @@ _code: object = 0
 def main() -> None:
     """Run the program on the words of the command line, and exit."""
     global _code
-    atexit.register(_end_of_interrupted)  # the first is called last, when all is cleared away
-    # What a start makes lives to the end: the collector would look through it in vain
-    # several times over, and once more when all is done while a person waits.
+    atexit.register(_exit_if_interrupted)  # registered first, called last
+    # What is made at the start lives to the end: collecting it would only cost time, now and
+    # once more at exit.
     gc.set_threshold(100_000)
     try:
         from evenbreak.cli.program import program
 
         program()
-    except KeyboardInterrupt:  # before the program is there to take it
+    except KeyboardInterrupt:  # before the program could handle it
         sys.stderr.write("Interrupted.\n")
         _code = INTERRUPTED
         sys.exit(INTERRUPTED)
@@ -37,11 +37,11 @@ def main() -> None:
         gc.freeze()
 
 
-def _end_of_interrupted() -> None:
-    """End with the exit code where Python would end by a signal.
+def _exit_if_interrupted() -> None:
+    """Exit with the code for an interrupt, where Python would kill itself by a signal.
 
-    It does so after an interrupt in what is run by `exec`, such as parts of an import, although
-    somebody caught it.
+    Python does so after an interrupt in code run by `exec`, such as parts of an import, even
+    if the interrupt was caught.
     """
     if _code == INTERRUPTED:
         if sys.stderr is not None:

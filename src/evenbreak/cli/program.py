@@ -1,4 +1,4 @@
-"""The program `evenbreak`: its list of commands, and how one is found and run."""
+"""The program `evenbreak`: its list of commands, and how one of them is run."""
 
 from __future__ import annotations
 
@@ -11,50 +11,53 @@ import click
 from evenbreak import __version__
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
-COMMANDS = {
-    "report": Entry("league.report", "Make the fair-race sheet of a league from its results file."),
-    "rate": Entry(
-        "league.rate", "Rate players from their results, and say how sure each rating is."
-    ),
-    "odds": Entry("match.odds", "Answer what the chances of a match are, and how long it lasts."),
-    "live": Entry("match.live", "Tell the odds of a match under way, rack by rack."),
-    "compare": Entry(
-        "match.compare", "Compare match formats: who gains by which, and where they cross."
-    ),
-    "fair": Entry("match.fair", "Find the race that is nearest to an even chance."),
-    "matchups": Entry("league.matchups", "Tell tonight's races for a list of rated players."),
-    "chart": Entry("chart", "List and show handicap charts, audit one, or design one."),
-    "ladder": Entry("ladder.ladder", "Tell how wrong a league's ratings are, how fair its nights."),
-    "sandbag": Entry("sandbag", "Tell what losing on purpose pays, and watch for it."),
-    "simulate": Entry(
-        "league.simulate", "Simulate a league's season: ratings, nights, who profits."
-    ),
-    "validate": Entry("league.validate", "Tell how far the ratings of a league can be trusted."),
-    "oneball": Entry("match.oneball", "Answer who wins the one-ball game, and which shot is best."),
-    "breaks": Entry(
-        "match.breaks", "Weigh break formats and stakes for two players, in the long run."
-    ),
-    "runs": Entry("practice.runs", "Answer how long runs are, and what several innings bring."),
-    "straight": Entry(
-        "match.straight", "Answer who wins at straight pool, and what handicap is even."
-    ),
-    "drill": Entry(
-        "practice.drill", "Find where a progressive drill settles, and what to practise."
-    ),
-    "practice": Entry(
-        "practice.practice", "Tell what practice scores say: was it luck, did it help?"
-    ),
-    "physics": Entry("physics", "Answer what ball, cloth and cue do: throw, aim, spin."),
-    "reproduce": Entry(
-        "reproduce", "Write all numbers and figures of the source text, computed anew."
-    ),
-    "chain": Entry("match.chain", "Find the stochastic limit of any chain, from a file of arcs."),
+SECTIONS = {
+    "Run a match": {
+        "odds": Entry("match.odds", "The odds and the length of one match."),
+        "live": Entry("match.live", "The odds of a match under way, game by game."),
+        "fair": Entry("match.fair", "The fairest race for two players."),
+        "compare": Entry("match.compare", "Match formats side by side: which is better for whom."),
+        "breaks": Entry("match.breaks", "What each break format is worth, and fair stakes."),
+        "straight": Entry("match.straight", "Straight pool: who wins, and which spot is fair."),
+    },
+    "Run a league": {
+        "report": Entry("league.report", "The fair-race sheet of a league, from its results."),
+        "rate": Entry("league.rate", "Ratings from results, and how certain each one is."),
+        "matchups": Entry("league.matchups", "Tonight's races for a list of rated players."),
+        "validate": Entry("league.validate", "How well the ratings predict your own results."),
+        "simulate": Entry("league.simulate", "A season played out many times: who benefits?"),
+    },
+    "Handicap systems": {
+        "chart": Entry("chart", "Handicap charts: list, show, audit or design one."),
+        "ladder": Entry("ladder.ladder", "How far off ratings get under a handicap system."),
+        "sandbag": Entry("sandbag", "What losing on purpose gains, and how to spot it."),
+    },
+    "Practise": {
+        "practice": Entry("practice.practice", "Practice scores: are you getting better?"),
+        "drill": Entry("practice.drill", "A progressive drill: your level, and what to work on."),
+        "runs": Entry("practice.runs", "How long runs get, and the score of several innings."),
+        "oneball": Entry("match.oneball", "The one-ball game: who wins, and which shot to play."),
+    },
+    "The table side": {
+        "physics": Entry("physics", "Ball, cloth and cue: throw, aim, spin, speed."),
+    },
+    "The engine": {
+        "chain": Entry("match.chain", "Any Markov chain: where it ends, from a file of arcs."),
+        "reproduce": Entry("reproduce", "Every table, figure and number of the source text."),
+    },
 }
-"""Each command, with its module and its line of help."""
+"""The commands by who needs them, each with its module and its line of help."""
+
+COMMANDS = {
+    name: entry._replace(section=section)
+    for section, entries in SECTIONS.items()
+    for name, entry in entries.items()
+}
+"""Each command by name."""
 
 
 class Program(LazyGroup):
-    """The group of all commands, which ends with the exit code of what it ran."""
+    """The group of all commands; it exits with the code of the command that ran."""
 
     def main(
         self,
@@ -64,7 +67,7 @@ class Program(LazyGroup):
         standalone_mode: bool = True,
         **extra: Any,
     ) -> Any:
-        """Run a command and exit; with `standalone_mode=False` return, and let errors pass."""
+        """Run a command and exit; with `standalone_mode=False`, return and let errors through."""
         if not standalone_mode:
             return super().main(args, prog_name, complete_var, standalone_mode=False, **extra)
         try:
@@ -83,7 +86,8 @@ class Program(LazyGroup):
     cls=Program,
     table=COMMANDS,
     context_settings={"help_option_names": ["-h", "--help"]},
+    epilog="evenbreak COMMAND --help shows the options of a command, with examples.",
 )
 @click.version_option(__version__, prog_name="evenbreak", message="%(prog)s %(version)s")
 def program() -> None:
-    """Fair races, odds and ratings for pool, from Markov chains."""
+    """Fair races, odds and ratings for pool."""

@@ -1,4 +1,4 @@
-"""CSV that is the same to the byte each time, and safe to open in a spreadsheet."""
+"""CSV with the same bytes every time, and safe to open in a spreadsheet."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 DECIMALS = 6
 FORMULA_STARTS = ("=", "+", "-", "@")
-"""What text begins with that a spreadsheet may run as a formula."""
+"""Text that begins with one of these may be run as a formula by a spreadsheet."""
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 
@@ -24,30 +24,40 @@ def to_csv(frame: pd.DataFrame, *, excel: bool = False) -> bytes:
     Parameters
     ----------
     frame
-        the table; its order of columns and rows is kept.
+        the table; the order of its columns and rows is kept.
     excel
-        begin with a byte order mark and end lines with CRLF, as Excel likes it.
+        whether to begin with a byte order mark and end lines with CRLF, as Excel prefers.
 
     >>> import pandas as pd
     >>> frame = pd.DataFrame({"player": ["Ann", "=1+1"], "p_win_a": [0.5, -1e-9]})
     >>> to_csv(frame)
     b"player,p_win_a\nAnn,0.500000\n'=1+1,0.000000\n"
     """
-    columns = [
-        column.astype(object).where(column.notna(), None).tolist() for _, column in frame.items()
-    ]
-    lines = csv_lines(list(map(str, frame.columns)), zip(*columns, strict=True))
+    lines = csv_lines(list(map(str, frame.columns)), rows_of(frame))
     if excel:
         return "".join(f"{line[:-1]}\r\n" for line in lines).encode("utf-8-sig")
     return "".join(lines).encode()
 
 
+def rows_of(frame: pd.DataFrame) -> list[tuple[Any, ...]]:
+    """Return the rows of a frame as plain values, None where one is missing.
+
+    >>> import pandas as pd
+    >>> rows_of(pd.DataFrame({"player": ["Ann", "Bo"], "rating": [92.5, float("nan")]}))
+    [('Ann', 92.5), ('Bo', None)]
+    """
+    columns = [
+        column.astype(object).where(column.notna(), None).tolist() for _, column in frame.items()
+    ]
+    return list(zip(*columns, strict=True))
+
+
 def csv_lines(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Iterator[str]:
     r"""Yield a header and rows as lines of CSV, each with its line end.
 
-    A comma between cells. Floats have six decimals, whole numbers none; a value that is None,
-    NaN or infinite is an empty cell; dates are ISO. Text that begins with = + - @ or a control
-    character, which a spreadsheet might run as a formula, gets an apostrophe before it; numbers
+    Cells are separated by commas. Floats have six decimals, whole numbers none; None, NaN and
+    infinities are empty cells; dates are ISO. Text that begins with = + - @ or a control
+    character, which a spreadsheet might run as a formula, gets an apostrophe in front; numbers
     never do.
 
     >>> list(csv_lines(["race_a", "p_win_a"], [[7, 0.5], [8, None]]))
@@ -79,7 +89,7 @@ def _number(value: float) -> str:
 
 
 def text_cell(text: str) -> str:
-    """Return text as a cell of CSV that no spreadsheet takes for a formula.
+    """Return text as a CSV cell that no spreadsheet takes for a formula.
 
     >>> text_cell("@SUM(A1)"), text_cell("Ann-Marie"), text_cell('5" ball'), text_cell("-1")
     ("'@SUM(A1)", 'Ann-Marie', '"5"" ball"', '-1')
@@ -87,5 +97,5 @@ def text_cell(text: str) -> str:
     control = unicodedata.category(text[:1] or "x") == "Cc"
     if control or (text.startswith(FORMULA_STARTS) and not _NUMBER.fullmatch(text)):
         text = f"'{text}"
-    # The csv module would leave a lone CR bare, where readers of CSV end a line.
+    # The csv module would leave a lone CR unquoted, and readers end a line there.
     return '"' + text.replace('"', '""') + '"' if set(text) & set(',"\r\n') else text

@@ -1,11 +1,10 @@
-"""Writing several files so that a reader finds the old ones or the new ones, whatever happens.
+"""Writing several files at once: a reader finds all the old ones or all the new ones.
 
-All files are written under temporary names and forced to the disk before any takes its
-place. A new folder takes its place with all its files in one step (POSIX rename). In a
-folder that is there already each file takes its place in one step, one after the other
-within a fraction of a millisecond, during which requests to end are made to wait. What
-remains: an end that cannot wait (SIGKILL, a power cut) in just that moment leaves whole
-files, some of them old and some new.
+All files are written under temporary names and forced to disk before any takes its place. A
+new folder takes its place with all its files in one step (POSIX rename). In an existing folder
+each file takes its place in one step, one after the other within a fraction of a millisecond,
+and requests to end are held back meanwhile. Only an end that cannot be held back (SIGKILL, a
+power cut) at that very moment leaves a mixture: whole files, some old and some new.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from pathlib import Path
 from types import FrameType
 
 LITTER_AGE = 3600.0
-"""Seconds after which a temporary name is taken to be left over from a run that was killed."""
+"""Seconds after which a temporary file is taken as a leftover from a killed run."""
 
 ENDINGS = [
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
@@ -32,9 +31,9 @@ ENDINGS = [
 
 
 def check_folder(folder: str | Path) -> None:
-    """Find out, before a long computation, whether `write_files` may write into a folder.
+    """Check, before a long computation, that `write_files` can write into a folder.
 
-    Leaves nothing behind, and does not make the folder.
+    Leaves nothing behind, and does not create the folder.
 
     Raises
     ------
@@ -46,7 +45,9 @@ def check_folder(folder: str | Path) -> None:
     folder = Path(folder)
     try:
         if folder.is_symlink() and not folder.exists():
-            raise NotADirectoryError(errno.ENOTDIR, "a link to what is not there; name another")
+            raise NotADirectoryError(
+                errno.ENOTDIR, "a link to something that does not exist; name another"
+            )
         there = folder if folder.exists() else _folder_above(folder)
         probe = _temporary(there / "probe")
         try:
@@ -58,7 +59,7 @@ def check_folder(folder: str | Path) -> None:
 
 
 def _folder_above(folder: Path) -> Path:
-    """Return the nearest folder above that is there."""
+    """Return the nearest folder above that exists."""
     above = next(above for above in folder.parents if above.exists())
     if not above.is_dir():
         raise NotADirectoryError(
@@ -68,14 +69,14 @@ def _folder_above(folder: Path) -> Path:
 
 
 def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
-    """Write files into a folder, which is made if need be: all of them, or none.
+    """Write files into a folder, which is created if needed: all of them, or none.
 
     Parameters
     ----------
     folder
         where to write.
     files
-        the content of each file, by name; they take their places in this order.
+        the content of each file by name; they take their places in this order.
 
     Raises
     ------
@@ -95,7 +96,7 @@ def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
         else:
             _write_new(folder, files)
     except OSError as error:
-        # The temporary name that the system complains of would tell a person nothing.
+        # The system would name a temporary file, which means nothing to a person.
         raise OSError(error.errno, error.strerror, str(folder)) from error
     _sync(folder)
     _sweep(folder, files)
@@ -148,7 +149,7 @@ def _write(path: Path, content: bytes) -> None:
 
 @contextlib.contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Let requests to end wait until the block is done; other threads cannot ask for that."""
+    """Hold back requests to end until the block is done; only the main thread can do that."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -169,7 +170,7 @@ def _undisturbed() -> Iterator[None]:
 
 
 def _sync(folder: Path) -> None:
-    """Force the folder's new entries to the disk, where the system lets a folder be opened."""
+    """Force the folder's new entries to disk, where the system lets a folder be opened."""
     with contextlib.suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:
@@ -179,7 +180,7 @@ def _sync(folder: Path) -> None:
 
 
 def _sweep(folder: Path, names: Iterable[str]) -> None:
-    """Remove what killed runs left under temporary names, but nothing that may be in use."""
+    """Remove temporary files that killed runs left behind, but none that may be in use."""
     for name in names:
         for path in folder.glob(f".{glob.escape(name)}.*.tmp"):
             with contextlib.suppress(OSError):

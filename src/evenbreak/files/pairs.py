@@ -1,15 +1,14 @@
-"""From a list of who meets whom to places in a roster, with all its problems told at once."""
+"""Lists of who plays whom: from a CSV file to places in a roster."""
 
 from __future__ import annotations
 
-from collections import defaultdict
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evenbreak.files.known_names import KnownNames
 from evenbreak.files.problems import quoted
 from evenbreak.files.results_columns import REQUIRED as RESULTS
 from evenbreak.files.results_columns import clean_name
@@ -25,14 +24,14 @@ PAIRS = {name: RESULTS[name] for name in ("player_a", "player_b")}
 
 @dataclass(frozen=True, eq=False)
 class PairsFile:
-    """Who meets whom.
+    """Who plays whom.
 
     Parameters
     ----------
     pairs
         places in the roster, shape (matches, 2), in the order of the file.
     warnings
-        what a person should look at although the file can be used, a line each.
+        what to look at although the file can be used, a line each.
     """
 
     pairs: NDArray[np.int64]
@@ -42,13 +41,13 @@ class PairsFile:
 def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     r"""Read a list of pairs from a CSV file, a match a row; '-' is standard input.
 
-    Names are those of the roster; upper and lower case may differ where that leaves no doubt.
+    Names are those of the roster; upper and lower case may differ where that is unambiguous.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: missing columns, no rows, names that the roster
-        does not have, a player against himself.
+        with every problem of the file: missing columns, no rows, names that the roster does
+        not have, a player on both sides.
 
     >>> import tempfile, pathlib
     >>> club = Roster(["Ann", "Bo", "Cy"], [92, 71, 80])
@@ -68,51 +67,26 @@ def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
 
 def pairs_in(table: Table, roster: Roster) -> NDArray[np.int64]:
     """Return the pairs in a table as places in the roster, -1 where it notes a problem."""
-    find = _Finder(roster)
+    known = KnownNames(roster.players)
     pairs = np.full((len(table), 2), -1)
     for side, column in enumerate(PAIRS):
         if column not in table:
             continue
-        for row, text in enumerate(table.cells(column)):
-            place = find(text)
-            if isinstance(place, str):
-                table.problems.add(int(table.lines[row]), f"{column} {place}")
-            else:
+        for row, name in enumerate(map(clean_name, table.cells(column))):
+            place = known.place(name)
+            if place is not None:
                 pairs[row, side] = place
+                continue
+            problem = "is empty; write a name from the roster"
+            if name:
+                unknown = f"{quoted(name)} is not in the roster{known.hint(name)}"
+                problem = f"{unknown}; write names as the roster does"
+            table.problems.add(int(table.lines[row]), f"{column} {problem}")
     table.problems.add_rows(
         table.lines,
         np.flatnonzero((pairs[:, 0] == pairs[:, 1]) & (pairs[:, 0] >= 0)),
         lambda row: (
-            f"{quoted(roster.players[pairs[row, 0]])} meets himself; write two different players"
+            f"{quoted(roster.players[pairs[row, 0]])} is on both sides; write two different players"
         ),
     )
     return pairs
-
-
-class _Finder:
-    """Finds the place of a name in a roster, or says why there is none."""
-
-    def __init__(self, roster: Roster) -> None:
-        self.exact = {name: place for place, name in enumerate(roster.players)}
-        self.folded: defaultdict[str, list[str]] = defaultdict(list)
-        for name in roster.players:
-            self.folded[name.casefold()].append(name)
-        self.told: dict[str, int | str] = {}
-
-    def __call__(self, text: str) -> int | str:
-        name = clean_name(text)
-        if name not in self.told:
-            self.told[name] = self._find(name)
-        return self.told[name]
-
-    def _find(self, name: str) -> int | str:
-        if not name:
-            return "is empty; write a name of the roster"
-        same = [name] if name in self.exact else self.folded.get(name.casefold(), [])
-        if len(same) == 1:
-            return self.exact[same[0]]
-        close = same or [
-            self.folded[key][0] for key in get_close_matches(name.casefold(), self.folded, n=3)
-        ]
-        hint = f" (did you mean {' or '.join(map(quoted, close))}?)" if close else ""
-        return f"{quoted(name)} is not in the roster{hint}; write names as the roster does"

@@ -1,4 +1,4 @@
-"""From a list of rated players to `Roster`, with everything that is wrong in it told at once."""
+"""Lists of rated players: from a CSV file to a `Roster`."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ WRITTEN = dict.fromkeys(
     ),
     (),
 )
-"""What the lists that `evenbreak rate` and `evenbreak report` write say besides."""
+"""Further columns of the lists that `evenbreak rate` and `evenbreak report` write."""
 
 LEAGUE = {
     "skill": ("true skill", "true rating", "strength"),
@@ -51,13 +51,13 @@ LEAGUE = {
     "leaves": ("last week", "leaves after week"),
     "absence": ("absent", "p absent"),
 }
-"""The columns that a season is simulated by, with their other names; else they are passed over."""
+"""The columns that a simulated season uses, with their other names; others skip them."""
 
 LARGEST = 1e6
-"""The largest rating or error that is taken for one, in points."""
+"""The largest rating or error that is accepted, in points."""
 
 WARNED = 20
-"""How many groups of similar names are told; the rest are counted."""
+"""How many groups of similar names are listed; the rest are counted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +73,7 @@ class RosterFile:
     source
         what the file is called in messages.
     warnings
-        what a person should look at although the file can be used, a line each.
+        what to look at although the file can be used, a line each.
     sha256
         fingerprint of the bytes that were read.
     by_quasi
@@ -91,15 +91,15 @@ class RosterFile:
 def read_roster(path: str | Path) -> RosterFile:
     r"""Read a list of rated players from a CSV file; '-' is standard input.
 
-    A player without a rating is new; he may have played no games. An empty standard_error
-    is not stated, and so are empty games and matches. Where a quasi_error is stated it is taken in
-    place of the standard_error, for a roster's errors are used for differences of ratings.
+    A player without a rating is new and must have no games. An empty standard_error, games or
+    matches is not stated. Where a quasi_error is stated, it is used in place of the
+    standard_error, because a roster's errors are used for differences of ratings.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: missing columns, no rows, cells that are no
-        numbers, a name that stands there twice.
+        with every problem of the file: missing columns, no rows, cells that are not
+        numbers, a name that appears twice.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -109,13 +109,13 @@ def read_roster(path: str | Path) -> RosterFile:
     >>> club.players, club.rating, club.games
     (('Ann', 'Bo'), array([92.5,  nan]), array([140,   0]))
     """
-    # Each name by itself: two columns of a season that mean the same matter only to it.
+    # Each name by itself: two columns with one meaning are a problem only for a season.
     seasons = {name: () for known, others in LEAGUE.items() for name in (known, *others)}
     return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **seasons}))
 
 
 def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
-    """Return the roster in a table, told with what else is wrong in it already.
+    """Return the roster in a table, or raise all the problems found in it.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
         table.problems.add_rows(
             table.lines,
             np.flatnonzero(unrated & (games <= 0)),
-            lambda _: "rating is empty; write the rating with which the player begins",
+            lambda _: "rating is empty; write the rating that the player starts with",
         )
     table.problems.raise_any()
     roster = Roster(names, rating, error, games, component=component, matches=matches)
@@ -161,7 +161,7 @@ def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
 
 
 def _names(table: Table) -> list[str]:
-    """Return the names, noting those that are empty or stand in the file already."""
+    """Return the names, noting those that are empty or appear twice."""
     names = [clean_name(text) for text in table.cells("player")]
     first: dict[str, int] = {}
     for name, line in zip(names, table.lines.tolist(), strict=True):
@@ -171,8 +171,8 @@ def _names(table: Table) -> list[str]:
         elif first.setdefault(name, line) != line:
             table.problems.add(
                 line,
-                f"player {quoted(name)} stands in line {first[name]} already; delete one of the "
-                "two, or tell two players of one name apart, such as by a number",
+                f"player {quoted(name)} is already in line {first[name]}; delete one of the two, "
+                "or tell two players of the same name apart, for example with a number",
             )
     return names
 
@@ -197,10 +197,11 @@ def _points(table: Table, name: str, remedy: str, *, least: float) -> NDArray[np
 
 def _alike(names: list[str], source: str) -> list[str]:
     groups = similar_names(names)
-    told = [
+    listed = [
         f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one "
-        "player; if so, keep one of them"
+        "player; if so, keep only one of them"
         for group in groups[:WARNED]
     ]
     more = len(groups) - WARNED
-    return [*told, f"{source}: and {more:,} more groups of similar names"] if more > 0 else told
+    more_groups = [f"{source}: and {more:,} more groups of similar names"] if more > 0 else []
+    return [*listed, *more_groups]

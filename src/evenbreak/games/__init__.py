@@ -1,6 +1,6 @@
-"""Games described as directed graphs: one family a file, each a small frozen dataclass.
+"""Games as directed graphs, one family of games in each module.
 
-Nothing here solves anything; `evenbreak.chains` and `evenbreak.matches` do.
+Games are only described here; `evenbreak.chains` and `evenbreak.matches` solve them.
 """
 
 import lazy_loader

@@ -1,18 +1,19 @@
-"""The n-ahead match m:n: player 1 wins when m ahead, player 2 when n ahead."""
+"""The n-ahead match m:n: player 1 wins by leading by m games, player 2 by leading by n."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from evenbreak.games.match import Match, Score
+from evenbreak.games.rack import ChanceT
 
 
 @dataclass(frozen=True)
-class Ahead(Match):
+class Ahead(Match[ChanceT]):
     """First to lead by the games needed: m for player 1, n for player 2 (P5.27, Fig. 5.10).
 
-    Only the lead matters, so a state's score is the lead: (2, 0) is player 1 ahead by
-    two games, (0, 1) player 2 ahead by one. The parameters are those of `Match`.
+    Only the lead matters, so the score of a state is the lead: (2, 0) means that player 1
+    leads by two games, (0, 1) that player 2 leads by one. The parameters are those of `Match`.
 
     Raises
     ------
@@ -34,6 +35,6 @@ class Ahead(Match):
         return 2 if b - a >= self.n else None
 
     def fold(self, a: int, b: int) -> Score:
-        """Return the lead as a score: the common games taken off."""
+        """Return the lead as a score: what both players have is taken off."""
         common = min(a, b)
         return a - common, b - common

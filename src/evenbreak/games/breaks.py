@@ -1,7 +1,7 @@
 """Break formats: who breaks the next rack, given who broke the last one and who won it.
 
-A format is a plain function of (breaker, winner), both 1 or 2, so a league with a
-rule of its own passes its own function.
+A format is a plain function of (breaker, winner), both 1 or 2, so a league with its own
+rule passes its own function.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ def alternate_breaks(breaker: int, winner: int) -> int:  # noqa: ARG001
 
 
 def player_1_breaks(breaker: int, winner: int) -> int:  # noqa: ARG001
-    """Return the next breaker: player 1, always; a handicap."""
+    """Return the next breaker: always player 1; a handicap."""
     return 1
 
 
 def player_2_breaks(breaker: int, winner: int) -> int:  # noqa: ARG001
-    """Return the next breaker: player 2, always; a handicap."""
+    """Return the next breaker: always player 2; a handicap."""
     return 2
 
 
@@ -51,12 +51,12 @@ BREAK_FORMATS: dict[str, BreakFormat] = {
 
 
 def checked_format(breaks: Any) -> BreakFormat:
-    """Return `breaks` if it names the next breaker after every rack.
+    """Return `breaks` if it gives the next breaker after every rack.
 
     Raises
     ------
     InputError
-        if it is no function, or answers anything but 1 or 2.
+        if it is not a function, or returns anything but 1 or 2.
 
     >>> checked_format(lambda breaker, winner: winner - 1)
     Traceback (most recent call last):

@@ -1,4 +1,4 @@
-"""One sample of each kind of game; the contract tests run over all of them."""
+"""One example of each kind of game; the contract tests run over all of them."""
 
 from __future__ import annotations
 

@@ -12,8 +12,8 @@ from evenbreak.checks import number_probabilities, number_probability, whole
 class Drill:
     """A progressive drill of n levels (P5.26, Fig. 5.7).
 
-    Success at a level leads to the next one (the last level repeats), failure to the
-    one before (the first level repeats).
+    A success leads to the next level (the last level repeats), a failure to the previous one
+    (the first level repeats).
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ class Drill:
     Raises
     ------
     InputError
-        if no level is given or a value is not a probability.
+        if there is no level or a value is not a probability.
 
     >>> Drill([1, 0.5, 0.25]).moves(2)
     {3: 0.5, 1: 0.5}

@@ -1,7 +1,7 @@
 """What all matches share: racks are played, a score is kept, the break passes on.
 
-A match is a rack of a longer match (closure): a race whose rack is a race is a
-match of sets, and so on to any depth.
+A match can itself be the rack of a longer match: a race whose rack is a race is a match of
+sets, and so on to any depth.
 """
 
 from __future__ import annotations
@@ -9,19 +9,19 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, TypeAlias
+from typing import Any, Generic, TypeAlias
 
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, checked_format
-from evenbreak.games.rack import Rack
+from evenbreak.games.rack import ChanceT, Rack
 
 Score: TypeAlias = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Match(ABC):
-    """Base of `Race` and `Ahead`: a score a:b that grows by racks until it is decided.
+class Match(ABC, Generic[ChanceT]):
+    """Base of `Race` and `Ahead`: a score a:b that grows rack by rack until one player wins.
 
     Parameters
     ----------
@@ -30,10 +30,9 @@ class Match(ABC):
     rack
         what is played for one point of the score: a `Rack`, or another match (a set).
     breaks
-        who breaks next (see `evenbreak.games.breaks`). Needed where the break matters.
-        In a match of sets it says who breaks first in the next set, from who broke
-        first in the last one and who won it; None there means that the set's own
-        format simply goes on across the sets.
+        who breaks next (see `evenbreak.games.breaks`); needed if the break matters. In a
+        match of sets it decides who breaks first in the next set, given who broke first in
+        the last one and who won it; with None the set's own format carries on across sets.
     first_breaker
         who breaks the first rack to be played, 1 or 2.
     score
@@ -41,16 +40,15 @@ class Match(ABC):
 
     Notes
     -----
-    A state is (a, b) where the break does not matter, (a, b, breaker) where it does,
-    and (a, b, state of the set) in a match of sets, with the set's first breaker
-    before the set's state if the match has a break format of its own. Scores that
-    differ only in racks that no longer matter are one state, so that matches without
-    a longest length have finite graphs.
+    A state is (a, b) if the break does not matter, (a, b, breaker) if it does, and (a, b,
+    state of the set) in a match of sets, with the set's first breaker before the set's state
+    if the match has its own break format. Scores that differ only in racks that no longer
+    matter are one state, so even a match without a longest length has a finite graph.
     """
 
     m: int
     n: int
-    rack: Rack | Match
+    rack: Rack[ChanceT] | Match[ChanceT]
     _: KW_ONLY
     breaks: BreakFormat | None = None
     first_breaker: int = 1
@@ -62,11 +60,13 @@ class Match(ABC):
         if not isinstance(self.rack, (Rack, Match)):
             raise InputError(f"rack is {self.rack!r}; give a Rack(p), a Rack(p1, p2) or a match")
         if isinstance(self.rack, Match) and self.rack.decided(*self.rack.score) is not None:
-            raise InputError("rack is a set that is over at its start score; give one under way")
+            raise InputError(
+                "rack is a set that is over at its start score; give a set that is not"
+            )
         if isinstance(self.rack, Rack) and self.rack.break_matters and self.breaks is None:
             raise InputError(
-                "breaks is missing: in Rack(p1, p2) the break matters; "
-                "give for example breaks=winner_breaks"
+                "breaks is missing, and in Rack(p1, p2) the break matters; "
+                "give one such as breaks=winner_breaks"
             )
         if self.breaks is not None:
             checked_format(self.breaks)
@@ -115,8 +115,8 @@ class Match(ABC):
         return self.rack.break_matters
 
     @property
-    def innermost_rack(self) -> Rack:
-        """The rack of the racks, where sets are made of sets."""
+    def innermost_rack(self) -> Rack[ChanceT]:
+        """The rack at the bottom of a match of sets, or of sets of sets."""
         return self.rack if isinstance(self.rack, Rack) else self.rack.innermost_rack
 
     @property
@@ -126,7 +126,7 @@ class Match(ABC):
         return self.open(self.first_breaker)
 
     def open(self, breaker: int) -> Any:
-        """Return the state before the first rack if `breaker` breaks it."""
+        """Return the state before the first rack, given that `breaker` breaks it."""
         return self._state(self.score, breaker)
 
     def moves(self, state: Any) -> Mapping[Any, float]:
@@ -143,7 +143,7 @@ class Match(ABC):
         return self.decided(state[0], state[1])
 
     def next_breaker(self, state: Any) -> int:
-        """Return who would break after a finished match: the last entry of its state."""
+        """Return who would break the rack after a finished match: the last entry of its state."""
         return int(state[2]) if self.break_matters else 1
 
     def _after_rack(self, a: int, b: int, breaker: int, rack: Rack) -> dict[Any, float]:

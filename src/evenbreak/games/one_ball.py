@@ -15,7 +15,7 @@ class OneBall:
     Parameters
     ----------
     p1, p2
-        P(player 1, 2 makes the ball | he shoots).
+        P(player 1, 2 makes the ball | that player shoots).
 
     Raises
     ------
@@ -53,25 +53,25 @@ class OneBall:
 
 @dataclass(frozen=True)
 class OneBallLookAhead:
-    """The n-shot look-ahead: n shots with chances of their own, then a given chance.
+    """The n-shot look-ahead: n shots, each with its own chance, then a given chance of winning.
 
     Parameters
     ----------
     shots
-        P(the shooter makes shot i | all before it were missed), i = 1, 2, ...;
-        player 1 takes the odd shots, player 2 the even ones.
+        P(the shooter makes shot i | all shots before it were missed), i = 1, 2, ...;
+        player 1 takes shots 1, 3, ..., player 2 shots 2, 4, ...
     after
         P(player 1 wins | all shots were missed); 1/2 in the text.
 
     Raises
     ------
     InputError
-        if a probability is not one, or no shot is given.
+        if a value is not a probability, or there is no shot.
 
     Notes
     -----
-    Source: P5.21, Figs. 5.2 and 5.4. State Si: shot i is about to be taken; Wi, Li:
-    won or lost by it; W, L: won or lost afterwards.
+    Source: P5.21, Figs. 5.2 and 5.4. State Si: shot i is next; Wi, Li: player 1 has won or
+    lost by it; W, L: won or lost afterwards.
 
     >>> OneBallLookAhead([0.4, 0.8]).moves("S2")
     {'L2': 0.8, 'W': 0.09999999999999998, 'L': 0.09999999999999998}

@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 
 from evenbreak.checks import whole
 from evenbreak.games.match import Match, Score
-from evenbreak.games.rack import Rack
+from evenbreak.games.rack import ChanceT, Rack
 
 if TYPE_CHECKING:
     from evenbreak.game import ArcArrays
 
 
 @dataclass(frozen=True)
-class Race(Match):
+class Race(Match[ChanceT]):
     """First to the games needed: m for player 1, n for player 2 (P5.5, P5.6).
 
     Parameters
     ----------
     win_by
-        player 1 wins at the score a:b when a >= m and (a - m) - (b - n) >= win_by, and
+        player 1 wins at the score a:b if a >= m and (a - m) - (b - n) >= win_by, and
         player 2 likewise; 1 is the plain race.
 
     The other parameters are those of `Match`.
@@ -64,8 +64,8 @@ class Race(Match):
     def fold(self, a: int, b: int) -> Score:
         """Return the first score from which the race goes on as it does from a:b.
 
-        Once both players are within `win_by` games of what they need, only the
-        difference of what they still need matters ("deuce").
+        Once both players are within `win_by` games of what they need, only the difference
+        between what they still need matters ("deuce").
 
         >>> from evenbreak.games import Rack
         >>> Race(5, 5, Rack(0.5), win_by=2).fold(8, 7)
@@ -77,7 +77,7 @@ class Race(Match):
     def arcs(self) -> ArcArrays | None:
         """Return all states and arcs as arrays; None for a race of sets or a race win-by-K.
 
-        The same law as `moves`, without a Python loop over the states.
+        They are those of `moves`, made without a Python loop over the states.
 
         >>> from evenbreak.games import Rack
         >>> len(Race(100, 100, Rack(0.5)).arcs().states)

@@ -1,7 +1,7 @@
-"""The arcs of a plain race as arrays, so that no Python loop runs per state.
+"""The arcs of a plain race as arrays, made without a Python loop over the states.
 
-The law is that of `Race.moves`; only the making differs. The states lie on the grid
-of scores, sorted by the number of racks played, so every arc leads to a later state.
+They are those of `Race.moves`. The states are the scores, sorted by the number of racks
+played, so every arc leads to a later state.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 class ScoreStates(Sequence[tuple[int, ...]]):
-    """States (a, b) or (a, b, breaker) that are made when asked for.
+    """States (a, b) or (a, b, breaker), each made when it is asked for.
 
     Parameters
     ----------
     a, b
-        one score a cell.
+        the score of each cell.
     place
         the number of each state: its cell, or 2 cell + breaker - 1 with breakers.
     with_breaker
@@ -72,7 +72,7 @@ class ScoreStates(Sequence[tuple[int, ...]]):
         return tuple(int(column[key]) for column in self._columns)
 
     def index(self, value: Any, start: int = 0, stop: int | None = None) -> int:
-        """Return the position of a state; ValueError if it is not here."""
+        """Return the position of a state; raise ValueError if there is no such state."""
         if isinstance(value, tuple) and len(value) == len(self._columns):
             here = np.ones(len(self), dtype=bool)
             for column, entry in zip(self._columns, value, strict=True):
@@ -98,8 +98,8 @@ def race_arcs(
     Returns
     -------
     ArcArrays
-        the states that can be reached, sorted by racks played; the arcs sorted by
-        source, each probability conditional on it.
+        the states that can be reached, sorted by racks played; the arcs sorted by source,
+        each with the probability of its target, given the source.
 
     Raises
     ------
@@ -115,8 +115,8 @@ def race_arcs(
     count = len(breakers)
     a, b, after_loss = _cells(need[0] - score[0], need[1] - score[1])
     on = np.flatnonzero((a < need[0] - score[0]) & (b < need[1] - score[1])).astype(a.dtype)
-    # One row a state, one column for each winner. Player 2's win first: at one rack more
-    # the smaller score of player 1 comes first, so the arcs come out sorted.
+    # One row for each state, one column for each winner. Player 2's win comes first: after
+    # one more rack the smaller score of player 1 comes first, so the arcs are sorted.
     targets = np.empty((on.size, count, 2), dtype=on.dtype)
     chances = np.empty((count, 2))
     for j, breaker in enumerate(breakers):
@@ -140,18 +140,18 @@ def race_arcs(
 def _cells(m: int, n: int) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return the scores a, b of a race m:n from 0:0, sorted by a + b, then by a.
 
-    The third array is the position of (a, b+1); that of (a+1, b) is the next one. Both
-    mean nothing where the race is over.
+    The third array is the position of (a, b+1); that of (a+1, b) is the next one. Neither
+    means anything where the race is over.
     """
     index_type = np.int32 if 2 * (m + 1) * (n + 1) < 2**31 else np.int64
-    if m == 0 or n == 0:  # it is over before it begins
+    if m == 0 or n == 0:  # over before it begins
         zero = np.zeros(1, dtype=index_type)
         return zero, zero, zero
     racks = np.arange(m + n + 1, dtype=index_type)
     least = np.maximum(racks - n, 0)  # the smallest a on each diagonal
     length = np.minimum(racks, m) - least + 1
     offset = np.cumsum(length, dtype=index_type) - length - least  # position less a
-    # The last diagonal is the score at which both have won.
+    # The last diagonal holds only the score at which both would have won.
     racks, length, step = racks[:-1], length[:-1], np.diff(offset)
     place = np.arange(length.sum(), dtype=index_type)
     a = place - np.repeat(offset[:-1], length)
@@ -167,8 +167,8 @@ def _reached(
 ) -> tuple[NDArray[np.bool_], NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return which states can be reached, and the arcs between them by their new positions.
 
-    Out of reach are the other first breaker and a breaker that nobody becomes. Row k of
-    `targets` and `probabilities` holds the two arcs out of state `sources[k]`.
+    The other first breaker cannot be reached, nor can a breaker whom the format never names.
+    Row k of `targets` and `probabilities` holds the two arcs out of state `sources[k]`.
     """
     from scipy.sparse import csr_array
     from scipy.sparse.csgraph import breadth_first_order

@@ -31,8 +31,8 @@ class Series:
 
     Notes
     -----
-    State i: player i is about to break. The long-run reward of
-    `series.rack.chance(1, state)` is the fraction of racks that player 1 wins.
+    State i: player i breaks next. The long-run reward of `series.rack.chance(1, state)` is the
+    fraction of racks that player 1 wins.
 
     >>> from evenbreak.games import Rack, winner_breaks
     >>> Series(Rack(0.75, 0.5), breaks=winner_breaks).moves(1)
@@ -58,7 +58,7 @@ class Series:
         return self.first_breaker
 
     def moves(self, state: int) -> Mapping[int, float]:
-        """Return the probability of each next breaker, given that `state` breaks now."""
+        """Return the probability of each next breaker, given that player `state` breaks now."""
         by_winner = {winner: self.breaks(state, winner) for winner in (1, 2)}
         if by_winner[1] == by_winner[2]:
             return {by_winner[1]: 1.0}
@@ -69,5 +69,5 @@ class Series:
         }
 
     def winner(self, state: int) -> None:  # noqa: ARG002
-        """Return None: nobody wins an endless series."""
+        """Return None: an endless series has no winner."""
         return

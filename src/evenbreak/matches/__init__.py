@@ -1,7 +1,7 @@
 """Exact answers for matches: who wins, how long it takes, with what score.
 
-`win_probability`, `match_length` and `final_scores` take arrays of chances;
-`evenbreak.matches.odds` answers for plain numbers without numpy.
+`win_probability`, `match_length` and `final_scores` take arrays of probabilities.
+`match_odds` and `race_odds` take plain numbers and need no numpy.
 """
 
 import lazy_loader

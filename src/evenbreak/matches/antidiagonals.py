@@ -1,8 +1,9 @@
-"""The race with break formats, worked out one rack at a time on slices of arrays.
+"""Who wins a race in any break format, and after how many racks, for arrays of probabilities.
 
-All scores i : k - i that can stand after k racks lie on an antidiagonal of the score
-table. The masses on it, one row per breaker, move to the next one by two products
-with a slice: won racks shift the row by one, lost racks leave it in place.
+All scores i : k - i that are possible after k racks lie on an antidiagonal of the score
+table. Its probabilities, one row for each breaker, move to the next antidiagonal by two
+products with a slice: a rack that player 1 wins shifts the row by one, a rack that player 2
+wins leaves it in place.
 """
 
 from __future__ import annotations
@@ -14,9 +15,8 @@ from numpy.typing import NDArray
 
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import shape_of
 
-# Parameters are taken in blocks whose masses stay in the processor's cache.
+# Parameters are taken in blocks small enough for the processor's cache.
 _BLOCK = 1 << 16
 
 
@@ -30,7 +30,7 @@ class Endings(NamedTuple):
 def race_endings(
     need_1: int, need_2: int, rack: Rack, breaks: BreakFormat | None, first_breaker: int
 ) -> Endings:
-    """Return who wins a race and after how many racks.
+    """Return who wins a race, and after how many racks.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def race_endings(
     >>> endings.win_1.tolist(), endings.win_2.tolist()
     ([0.0, 0.0, 0.25], [0.0, 0.5, 0.25])
     """
-    shape = shape_of(rack)
+    shape = rack.shape
     kinds, chances = _kinds(rack, breaks if rack.break_matters else None, shape)
     first = first_breaker - 1 if rack.break_matters else 0
     ends = np.zeros((2, need_1 + need_2, chances.shape[2]))
@@ -66,9 +66,9 @@ def race_endings(
 def _kinds(
     rack: Rack, breaks: BreakFormat | None, shape: tuple[int, ...]
 ) -> tuple[list[tuple[int, int]], NDArray[np.float64]]:
-    """Return what a rack can do, as (winner, row of the next breaker), lost racks first.
+    """Return the possible outcomes of a rack as (winner, row of the next breaker), losses first.
 
-    The array holds the chance of each kind, by the row of the breaker and by parameter.
+    The array holds the probability of each outcome, by row of the breaker and by parameter.
     """
     chance: dict[tuple[int, int], NDArray[np.float64]] = {}
     rows = 2 if breaks is not None else 1
@@ -78,7 +78,7 @@ def _kinds(
             by_row = chance.setdefault(kind, np.zeros((rows, int(np.prod(shape)))))
             by_row[breaker - 1] = np.broadcast_to(rack.chance(winner, breaker), shape).ravel()
     for row in range(rows):
-        # Every row is written at every rack, so that no mass stays behind in it.
+        # Every row must be written at every rack, so that nothing stays behind in it.
         if not any(after == row for _, after in chance):
             chance[2, row] = np.zeros((rows, int(np.prod(shape))))
     kinds = sorted(chance, reverse=True)
@@ -99,7 +99,7 @@ def _play(
     mass[first, 0] = 1.0
     leaving = np.zeros((2, ends.shape[1], len(kinds), size))
     if size == 1:
-        # One product of small matrices does what takes several array operations otherwise.
+        # One product of small matrices replaces several array operations.
         mass, chances, leaving = mass[:, :, 0], chances[:, :, 0].copy(), leaving[:, :, :, 0]
     written = [any(after == row for _, after in kinds[:i]) for i, (_, row) in enumerate(kinds)]
     for k in range(ends.shape[1] - 1):

@@ -1,8 +1,8 @@
 """Where a match is even, and where two matches are worth the same to a player.
 
-Along p, where the break does not matter, both questions ask for the zeros of a polynomial
-with whole coefficients: they are counted exactly, and none is missed. Where it matters, the
-log-odds of the two matches are compared on a fine grid and every change of sign is refined.
+If the break does not matter, both questions ask for the zeros of a polynomial with whole
+coefficients, which are counted exactly, so none is missed. If it does, the log-odds of the
+two matches are compared on a fine grid, and every change of sign is refined.
 """
 
 from __future__ import annotations
@@ -27,23 +27,23 @@ from evenbreak.matches.win import win_probability
 from evenbreak.matches.win_forms import Form, degree_of, product, win_forms
 
 _HIGHEST_DEGREE = 500
-"""Of a polynomial that is solved exactly; it would take seconds beyond."""
+"""Of a polynomial that is solved exactly; a higher degree would take seconds."""
 _P1 = expit(np.linspace(-14.0, 14.0, 2801))
-"""The grid: a hundredth apart in the log-odds of p1, 0.0025 in the middle of p1."""
+"""The grid: steps of a hundredth in the log-odds of p1, of 0.0025 in p1 near 1/2."""
 _NOISE = 1e-10
-"""A difference of log-odds that may be rounding."""
+"""Smaller differences of log-odds may be rounding."""
 
 
 class Crossing(NamedTuple):
-    """Where a match is even, or two are worth the same.
+    """A point where a match is even, or where two matches are worth the same.
 
     Parameters
     ----------
     p1
-        P(player 1 wins a rack | player 1 breaks); P(player 1 wins a rack) where the break
-        does not matter.
+        P(player 1 wins a rack | player 1 breaks); P(player 1 wins a rack) if the break does
+        not matter.
     p2
-        P(player 2 wins a rack | player 2 breaks); None where the break does not matter.
+        P(player 2 wins a rack | player 2 breaks); None if the break does not matter.
     p_win_1
         P(player 1 wins the match) there.
     """
@@ -54,19 +54,19 @@ class Crossing(NamedTuple):
 
 
 class Crossings(NamedTuple):
-    """All places where two matches are worth the same, and which is better between them.
+    """All points where two matches are worth the same, and which is better between them.
 
     Parameters
     ----------
     points
-        the places, by rising p1.
+        the points, by rising p1.
     better
-        which match player 1 should rather play, 1 or 2, below the first place, between
-        each two, and above the last; 0 for matches that are worth the same everywhere.
+        which match is better for player 1, 1 or 2: below the first point, between each two
+        points, and above the last; 0 if the matches are worth the same everywhere.
     exact
-        whether the places were counted exactly: none is missed. If not, two that are
-        nearer to each other than a hundredth in the log-odds of p1 may be missed, and so
-        may a touch without crossing, and a place where a chance is below 1e-308.
+        whether the points were counted exactly, so that none is missed. If not, two points
+        closer together than a hundredth in the log-odds of p1 may be missed, as may curves
+        that touch without crossing, and a point where a probability is below 1e-308.
     """
 
     points: tuple[Crossing, ...]
@@ -89,32 +89,32 @@ def even_probability(
     played
         the match, or a text such as "9:5" (see `match_format`).
     p2
-        P(player 2 wins a rack | player 2 breaks it), which stays while p1 varies.
+        P(player 2 wins a rack | player 2 breaks it), which stays fixed as p1 varies.
     break_odds
-        instead: the break's advantage stays, as the number of times that player 1's odds
-        of a rack are better when player 1 breaks it than when player 2 does:
-        p1/(1 - p1) × p2/(1 - p2). Without either the break does not matter, and p1 is
-        P(player 1 wins a rack).
+        instead of p2: the advantage of the break, which stays fixed as p1 varies. It is the
+        factor by which player 1's odds of winning a rack are better on player 1's break than
+        on player 2's: p1/(1 - p1) × p2/(1 - p2). With neither p2 nor break_odds the break
+        does not matter, and p1 is P(player 1 wins a rack).
     breaks
-        who breaks, where the break matters and the format does not say it.
+        who breaks, if the break matters and the format does not say.
     first_breaker
         who breaks the first rack, 1 or 2.
 
     Returns
     -------
     tuple of Crossing
-        by rising p1. Where the break does not matter there is exactly one.
+        by rising p1. If the break does not matter, there is exactly one.
 
     Raises
     ------
     InputError
         if a parameter has a value that it cannot have, both `p2` and `break_odds` are
-        given, or the break matters and nobody says who breaks.
+        given, or the break matters and the break format is missing.
 
     Notes
     -----
-    Source: problem P5.7, by which 4:2 is even at .686; how sure the answer is, is said at
-    `Crossings.exact`.
+    Source: problem P5.7, where 4:2 is even at .686. `Crossings.exact` says what may be missed
+    if the break matters.
 
     >>> [round(point.p1, 7) for point in even_probability("4:2")]
     [0.6861898]
@@ -179,14 +179,14 @@ def crossings(
 
 
 def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = None) -> Rack:
-    """Return the rack of the players whom `crossings` compares at p1, a number or an array.
+    """Return the rack of the players that `crossings` looks at for p1, a number or an array.
 
     >>> rack_along(0.6, break_odds=2.25)
     Rack(p1=0.6, p2=0.6)
     """
     if p2 is not None:
         if break_odds is not None:
-            raise InputError("p2 and break_odds cannot both stay as they are; leave one out")
+            raise InputError("p2 and break_odds cannot both stay fixed; leave one out")
         return Rack(p1, number_probability(p2, "p2"))
     if break_odds is None:
         return Rack(p1)
@@ -208,7 +208,7 @@ def _difference(one: MatchFormat, two: MatchFormat) -> Form:
 
 
 class _Line(NamedTuple):
-    """The players that are compared: one pair for each p1."""
+    """The pairs of players that matches are compared for: one pair for each p1."""
 
     p2: float | None
     break_odds: float | None
@@ -241,7 +241,7 @@ class _Line(NamedTuple):
         return played.match(rack, breaks=self.breaks, first_breaker=self.first_breaker)
 
     def log_odds(self, played: MatchFormat, p1: Any) -> Any:
-        """Return the log-odds of the match, right in both tails; NaN where a chance is 0."""
+        """Return the log-odds of the match, accurate in both tails; NaN where a chance is 0."""
         if p1 is _P1:
             return _log_odds_on_grid(self, played)
         match = self.match(played, p1)
@@ -259,14 +259,14 @@ class _Line(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _log_odds_on_grid(line: _Line, played: MatchFormat) -> Any:
-    """Return the curve of a match: each is looked at once, however many it is compared with."""
+    """Return the curve of a match, worked out once for all comparisons."""
     return line.log_odds(played, _P1.copy())
 
 
 def _changes_of_sign(function: Callable[[Any], Any]) -> tuple[list[float], list[int]]:
-    """Return where a function of p1 changes its sign, and its signs between; none if all is noise.
+    """Return where a function of p1 changes sign, and its signs between; nothing if all is noise.
 
-    The signs are those on the grid: halfway between two zeros both chances may underflow.
+    The signs are those on the grid: halfway between two zeros both probabilities may underflow.
     """
     values = function(_P1)
     known = np.abs(values) > _NOISE  # false for NaN too

@@ -1,7 +1,7 @@
-"""After how many racks a match ends, and who has won it then: the one distribution.
+"""After how many racks a match ends, and who wins it then.
 
-Races of racks go by antidiagonals. Every other match is played rack by rack over all
-its states at once: a rack from any state leads to one of two, by who wins it.
+Races of racks are solved on antidiagonals. Every other match is played rack by rack over all
+its states at once: a rack leads from each state to one of two, depending on who wins it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import Endings, race_endings
-from evenbreak.matches.parameters import shape_of, with_rack
+from evenbreak.matches.rack_graph import rack_moves
 
 _LONGEST = 100_000
 _MOST_CELLS = 20_000_000
@@ -39,24 +39,24 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
     Parameters
     ----------
     match
-        a match whose parameters have one shape.
+        a match whose p1 and p2 have the same shape.
     never
         P(the match never ends), of that shape.
     tail
-        a match without a longest length is followed until no more than this much
-        mass has not ended (beyond what never ends), or for 100,000 racks, or for
-        fewer where there are so many parameters that this would not fit in memory.
+        a match without a longest length is followed until the probability that it is still
+        going on (and ends some time) is at most this; for 100,000 racks at most, or fewer if
+        there are so many parameters that they would not fit in memory.
     """
     winner = match.decided(*match.score)
     rack = match.innermost_rack
-    shape = shape_of(rack)
+    shape = rack.shape
     if winner is not None:
         return Endings(*(np.full((1, *shape), float(winner == player)) for player in (1, 2)))
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
         need_1, need_2 = match.m - match.score[0], match.n - match.score[1]
         return race_endings(need_1, need_2, rack, match.breaks, match.first_breaker)
     size = math.prod(shape)
-    play = _play_of(match, rack, size)
+    play = _play_of(match, size)
     if is_bounded(match):
         wins = _followed(play, np.zeros(size), math.inf)
     else:
@@ -67,7 +67,7 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
 
 @dataclass(frozen=True)
 class _Play:
-    """The states of a match as arrays: what a won and a lost rack do to the mass on them."""
+    """The states of a match as arrays: where a won and a lost rack lead, and how likely each is."""
 
     won: csr_array
     lost: csr_array
@@ -76,42 +76,24 @@ class _Play:
     alive: int
 
 
-def _play_of(match: Match, rack: Rack, size: int) -> _Play:
-    even = Rack(0.5, 0.5) if rack.break_matters else Rack(0.5)
-    template = with_rack(match, even)
-    after: dict[Any, list[Any]] = {}
-    queue = [template.start]
-    for state in queue:
-        if state not in after:
-            after[state] = list(template.moves(state))
-            queue.extend(after[state])
-    alive = [state for state, targets in after.items() if targets]
-    row = {state: i for i, state in enumerate(alive)}
-    # The two rows after the states that go on collect the wins of player 1 and of player 2.
-    row |= {
-        state: len(alive) + (template.winner(state) == 2) for state in after if state not in row
-    }
-    ones, columns = np.ones(len(alive)), np.arange(len(alive))
-    shape = (len(alive) + 2, len(alive))
-    # A state's moves are listed with the one that player 1 wins first.
-    won, lost = (
-        csr_array((ones, ([row[after[state][i]] for state in alive], columns)), shape=shape)
-        for i in (0, 1)
-    )
-    breakers = [_breaker(state) if rack.break_matters else 1 for state in alive]
-    chance = {
-        (player, breaker): np.broadcast_to(np.ravel(rack.chance(player, breaker)), (size,))
-        for player in (1, 2)
-        for breaker in set(breakers)
-    }
-    p_won, p_lost = (
-        np.array([chance[player, breaker] for breaker in breakers]) for player in (1, 2)
-    )
-    return _Play(won, lost, p_won, p_lost, len(alive))
+def _play_of(match: Match, size: int) -> _Play:
+    moves = rack_moves(match)
+    row = {state: i for i, state in enumerate(moves)}
+    alive, columns = len(moves), np.arange(len(moves))
 
+    def place(state: Any) -> int:
+        """Return a state's row; the wins of player 1, player 2 are collected in the last two."""
+        return row[state] if state in row else alive + (match.winner(state) == 2)
 
-def _breaker(state: Any) -> int:
-    return _breaker(state[-1]) if isinstance(state[-1], tuple) else int(state[-1])
+    def after(player: int) -> tuple[csr_array, NDArray[np.float64]]:
+        targets, chances = zip(*(pair[player - 1] for pair in moves.values()), strict=True)
+        rows = [place(state) for state in targets]
+        matrix = csr_array((np.ones(alive), (rows, columns)), shape=(alive + 2, alive))
+        flat = {id(p): np.broadcast_to(np.ravel(p), (size,)) for p in chances}
+        return matrix, np.array([flat[id(p)] for p in chances])
+
+    (won, p_won), (lost, p_lost) = after(1), after(2)
+    return _Play(won, lost, p_won, p_lost, alive)
 
 
 def _followed(play: _Play, enough: NDArray[np.float64], most: float) -> NDArray[np.float64]:

@@ -1,12 +1,12 @@
-"""When an evening of matches ends: several tables, a list of matches, chance lengths.
+"""When an evening of matches ends: several tables, a list of matches, random lengths.
 
-Whenever a table is free, the first match of the list of which neither player is at another
-table begins there. Lengths are independent of each other.
+Whenever a table is free, the first match on the list whose players are both free begins there.
+The lengths of matches are independent of each other.
 
-With one table the end is the sum of all lengths, a convolution. With several, and nobody on
-the list twice, the state after each match is when each table gets free, in the order of
-those times: the law of the end is exact while these states are few. Otherwise the evening is
-played out many times by pseudo-random numbers.
+With one table the end is the sum of all lengths, a convolution. With several tables and no
+player on the list twice, the state after each match is the list of times at which the tables
+become free, in order; the distribution of the end is exact as long as there are few such
+states. Otherwise the evening is simulated many times.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
 _MOST_MOVES = 1_000_000  # states times lengths of one exact step
-_WORK = 200_000_000  # matches times matches times runs that are played out
+_WORK = 200_000_000  # matches times matches times simulated runs
 _FEWEST_RUNS, _MOST_RUNS = 1_000, 50_000
 _MOST_MATCHES = 1_000
 _LONGEST = 100_000  # games of a match
 
 
-class LengthLaw(Protocol):
-    """Anything that says how long a match lasts: P(it takes games[k] games) = probability[k]."""
+class LengthLike(Protocol):
+    """Anything with the length of a match: P(it takes games[k] games) = probability[k]."""
 
     @property
     def games(self) -> ArrayLike:
@@ -43,12 +43,12 @@ class LengthLaw(Protocol):
 
     @property
     def probability(self) -> ArrayLike:
-        """The chance of each length."""
+        """The probability of each length."""
         ...
 
 
 class Length(NamedTuple):
-    """The law of one match's length: P(it takes games[k] games) = probability[k]."""
+    """How long one match lasts: P(it takes games[k] games) = probability[k]."""
 
     games: ArrayLike
     probability: ArrayLike
@@ -56,19 +56,19 @@ class Length(NamedTuple):
 
 @dataclass(frozen=True)
 class Evening:
-    """When the last match ends, in games: the time that one game takes is the unit.
+    """When the last match ends; the unit of time is one game.
 
     Parameters
     ----------
     mean, sd
         mean and standard deviation of the end.
     p90
-        the smallest time by which all is over with chance .9.
+        the smallest time by which all matches are over with probability .9.
     runs
-        how many evenings were played out; 0 where the answer is exact.
+        how many evenings were simulated; 0 if the answer is exact.
     mean_error
-        the standard error of `mean` from playing out; 0 where exact. `p90` has none: it is a
-        whole number, which as a rule comes out the same each time.
+        the standard error of `mean` from the simulation; 0 if exact. `p90` has none: it is a
+        whole number, which usually comes out the same each time.
     """
 
     mean: float
@@ -79,12 +79,12 @@ class Evening:
 
     @property
     def exact(self) -> bool:
-        """Whether the answer is exact, without pseudo-random numbers."""
+        """Whether the answer is exact, found without simulation."""
         return self.runs == 0
 
 
 def evening(
-    lengths: Sequence[LengthLaw],
+    lengths: Sequence[LengthLike],
     *,
     tables: int = 1,
     players: Sequence[tuple[Hashable, Hashable]] | None = None,
@@ -96,60 +96,59 @@ def evening(
     Parameters
     ----------
     lengths
-        the law of each match's length in games, in the order of the list: a `Length`, a
-        `MatchLength`, a `RaceLaw`.
+        the length of each match in games, in the order of the list: a `Length`, a
+        `MatchLength` or a `RaceOdds`.
     tables
         how many tables there are.
     players
-        the two players of each match, so that nobody plays twice at once; None: no player is
-        on the list twice.
+        the two players of each match, so that nobody plays two matches at once; None: no
+        player is on the list twice.
     rng
-        where pseudo-random numbers come from, if there is need of them; None: a generator
-        with the seed 0.
+        the source of random numbers, if any are needed; None: a generator with seed 0.
     runs
-        how often the evening is played out; None: exact where that is quick, otherwise
-        50,000 times, fewer for more than some sixty matches.
+        how often to simulate the evening; None: find the exact answer if that is quick, else
+        simulate 50,000 evenings, fewer for more than about sixty matches.
 
     Raises
     ------
     InputError
-        if there is no match, a length is no law, `tables` is not a whole number above 0,
-        `players` has not just one pair of two different players for each match, or more than
-        a thousand matches would have to be played out.
+        if there is no match, a length is not a distribution, `tables` is not a whole number
+        above 0, `players` does not have one pair of different players for each match, or
+        more than a thousand matches would have to be simulated.
 
     >>> coin = Length([1, 2], [0.5, 0.5])
     >>> evening([coin] * 4).p90, evening([coin] * 4).mean, evening([coin] * 4, tables=2).mean
     (7, 6.0, 3.375)
     """
-    laws = [_law(length, f"length {k}") for k, length in enumerate(lengths, 1)]
-    if not laws:
+    found = [_chances(length, f"length {k}") for k, length in enumerate(lengths, 1)]
+    if not found:
         raise InputError("lengths is empty; give one for each match")
-    tables = min(whole(tables, "tables", at_least=1), len(laws))
-    pairs = _numbered(players, len(laws))
+    tables = min(whole(tables, "tables", at_least=1), len(found))
+    pairs = _numbered(players, len(found))
     if runs is None:
         end = None
         if tables == 1:
-            end = _one_table(laws)
+            end = _one_table(found)
         elif len(np.unique(pairs)) == pairs.size:
-            end = _all_at_once(laws) if tables == len(laws) else _several_tables(laws, tables)
+            end = _all_at_once(found) if tables == len(found) else _several_tables(found, tables)
         if end is not None:
             return _exact(end)
-    return _played_out(laws, tables, pairs, rng or np.random.default_rng(0), runs)
+    return _simulated(found, tables, pairs, rng or np.random.default_rng(0), runs)
 
 
-def _law(length: LengthLaw, name: str) -> Floats:
+def _chances(length: LengthLike, name: str) -> Floats:
     """Return P(the match takes k games) for k = 0, 1, ..."""
     games, probability = np.asarray(length.games), np.asarray(length.probability)
     right = games.ndim == 1 and games.shape == probability.shape and games.size > 0
     if not right or games.dtype.kind not in "iu" or probability.dtype.kind not in "iuf":
-        raise InputError(f"{name} is no law; give games, whole numbers, and a chance for each")
+        raise InputError(f"{name} is not a length; give whole numbers of games, with a chance each")
     if games.min() < 0 or games.max() > _LONGEST:
         raise InputError(f"{name} has games outside 0 to {_LONGEST:,}; give numbers of games")
     if not (probability >= 0).all() or abs(probability.sum() - 1.0) > 1e-6:
         raise InputError(f"{name} has chances that do not sum to 1; give probabilities")
-    law = np.bincount(games, probability)
-    total: Floats = law / law.sum()
-    return total
+    counted = np.bincount(games, probability)
+    chances: Floats = counted / counted.sum()
+    return chances
 
 
 def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int) -> Ints:
@@ -163,47 +162,47 @@ def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int)
     number: dict[Hashable, int] = {}
     for one, other in players:
         if one == other:
-            raise InputError(f"players has {one!r} against himself; give two players")
+            raise InputError(f"players has {one!r} on both sides; give two players")
     return np.array(
         [[number.setdefault(player, len(number)) for player in pair] for pair in players]
     )
 
 
-def _one_table(laws: list[Floats]) -> Floats:
+def _one_table(lengths: list[Floats]) -> Floats:
     end = np.ones(1)
-    for law in laws:
-        end = np.convolve(end, law)
+    for length in lengths:
+        end = np.convolve(end, length)
     return end
 
 
-def _all_at_once(laws: list[Floats]) -> Floats:
-    """Return the law of the longest of all."""
-    longest = max(map(len, laws))
-    within = np.prod([np.cumsum(np.pad(law, (0, longest - len(law)))) for law in laws], axis=0)
-    return np.diff(within, prepend=0.0)
+def _all_at_once(lengths: list[Floats]) -> Floats:
+    """Return the distribution of the longest of all."""
+    longest = max(map(len, lengths))
+    padded = np.array([np.pad(length, (0, longest - len(length))) for length in lengths])
+    return np.diff(padded.cumsum(axis=1).prod(axis=0), prepend=0.0)
 
 
-def _several_tables(laws: list[Floats], tables: int) -> Floats | None:
-    """Return the law of the end where no player plays twice; None if that takes too many states.
+def _several_tables(lengths: list[Floats], tables: int) -> Floats | None:
+    """Return the distribution of the end if no player plays twice; None if it has too many states.
 
-    A state is when each table gets free, in ascending order; the next match begins at the
-    first of these times.
+    A state is the list of times at which the tables become free, in order; the next match begins
+    at the first of them.
     """
-    base = sum(len(law) for law in laws)
+    base = sum(map(len, lengths))
     if tables * math.log2(base) > 62:
         return None
     place = base ** np.arange(tables - 1, -1, -1)
     states = np.zeros((1, tables), dtype=np.int64)
     chances: Floats = np.ones(1)
-    for law in laws:
-        games = np.flatnonzero(law)
+    for length in lengths:
+        games = np.flatnonzero(length)
         if len(states) * len(games) > _MOST_MOVES:
             return None
         after = np.repeat(states, len(games), axis=0)
         after[:, 0] += np.tile(games, len(states))
         after.sort(axis=1)
         key, first, back = np.unique(after @ place, return_index=True, return_inverse=True)
-        arriving: Floats = np.outer(chances, law[games]).ravel()
+        arriving: Floats = np.outer(chances, length[games]).ravel()
         chances = np.bincount(back, arriving, len(key)).astype(float)
         states = after[first]
     end: Floats = np.bincount(states[:, -1], chances).astype(float)
@@ -214,23 +213,22 @@ def _exact(end: Floats) -> Evening:
     times = np.arange(len(end))
     mean = float(times @ end)
     sd = math.sqrt(float((times - mean) ** 2 @ end))
-    p90 = quantile_of(end.tolist(), 0.9)
-    return Evening(mean, sd, int(p90 or 0), 0, 0.0)
+    return Evening(mean, sd, quantile_of(end.tolist(), 0.9), 0, 0.0)
 
 
-def _played_out(
-    laws: list[Floats], tables: int, pairs: Ints, rng: np.random.Generator, runs: int | None
+def _simulated(
+    lengths: list[Floats], tables: int, pairs: Ints, rng: np.random.Generator, runs: int | None
 ) -> Evening:
-    matches = len(laws)
+    matches = len(lengths)
     if matches > _MOST_MATCHES:
         raise InputError(f"lengths has {matches:,} matches; give {_MOST_MATCHES:,} at most")
     if runs is None:
         runs = min(_MOST_RUNS, max(_FEWEST_RUNS, _WORK // matches**2))
     runs = whole(runs, "runs", at_least=2)
-    lengths = np.empty((runs, matches), dtype=np.int64)
-    for k, law in enumerate(laws):
-        lengths[:, k] = np.searchsorted(np.cumsum(law)[:-1], rng.random(runs), side="right")
-    end = np.sort(_ends(lengths, tables, pairs))
+    played = np.empty((runs, matches), dtype=np.int64)
+    for k, length in enumerate(lengths):
+        played[:, k] = np.searchsorted(np.cumsum(length)[:-1], rng.random(runs), side="right")
+    end = np.sort(_ends(played, tables, pairs))
     sd = float(end.std(ddof=1))
     p90 = int(end[math.ceil(0.9 * runs) - 1])
     return Evening(float(end.mean()), sd, p90, runs, sd / math.sqrt(runs))
@@ -247,7 +245,7 @@ def _ends(lengths: Ints, tables: int, pairs: Ints) -> Ints:
     for _ in range(matches):
         table = table_free.argmin(axis=1)
         free = table_free[row, table]
-        # Of the matches that can begin first, the first of the list.
+        # Of the matches that can begin soonest, the first on the list.
         match = np.maximum(ready, free[:, None]).argmin(axis=1)
         done = np.maximum(ready[row, match], free) + lengths[row, match]
         table_free[row, table] = done

@@ -1,9 +1,9 @@
-"""Where a form with whole coefficients is zero for 0 < p < 1: every place, and no other.
+"""Every zero of a form with whole coefficients for 0 < p < 1.
 
-By Descartes' rule the changes of sign in the coefficients of p^k q^(N-k) bound the number of
-zeros, and none or one is what there is. Where there are more changes, the interval is halved
-and the form written for each half anew (Vincent; Collins & Akritas 1976). All is counted in
-whole numbers, so rounding neither makes a zero nor loses one.
+By Descartes' rule, the changes of sign in the coefficients of p^k q^(N-k) bound the number of
+zeros; with no change there is none, with one change there is one. With more changes the
+interval is halved and the form rewritten for each half (Vincent; Collins & Akritas 1976). All
+of it is done in whole numbers, so rounding neither makes a zero nor loses one.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from itertools import pairwise
 from evenbreak.matches.win_forms import Form, value_at
 
 _FINEST = 48
-"""Halvings after which zeros that still stand together are told as one."""
+"""Halvings after which zeros that are still together count as one."""
 _BITS = 64
-"""Halvings of an interval that has one zero: more than a float can tell apart."""
+"""Halvings of an interval with one zero: more than a float can resolve."""
 
 
 def form_roots(form: Sequence[int]) -> list[float] | None:
     """Return the zeros of a form in 0 < p < 1, ascending; None if it is zero everywhere.
 
-    Zeros nearer to each other than 2^-48 are told once.
+    Zeros closer together than 2^-48 count as one.
 
     >>> form_roots([-1, 1]), form_roots([1, 1]), form_roots([0, 0])
     ([0.5], [], None)
@@ -59,7 +59,7 @@ def sign_at(form: Sequence[int], p: float) -> int:
 
 
 def _stripped(form: Form) -> Form:
-    """Return the form without its factors p and q, which are zero at the ends only."""
+    """Return the form without its factors p and q, which are zero only at the ends."""
     places = [k for k, c in enumerate(form) if c]
     return form[places[0] : places[-1] + 1]
 
@@ -70,7 +70,7 @@ def _changes(form: Form) -> int:
 
 
 def _refined(form: Form, place: int, depth: int) -> float:
-    """Return the one zero of a form, which is written for the interval `place` of 2^depth."""
+    """Return the one zero of a form that is written for interval number `place` of 2^depth."""
     low, rising = 0, form[-1] > 0
     for bit in range(1, _BITS + 1):
         low *= 2

@@ -1,4 +1,4 @@
-"""How people write down what is played: 9:5, 3:1 of 3:3, ahead 5:3, 7:7 win by 2."""
+"""Match formats as people write them: 9:5, 3:1 of 3:3, ahead 5:3, 7:7 win by 2."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from evenbreak.games.rack import Rack
 _LONGEST = 1000
 _WAYS = (
     "9:5, '7:7 win by 2', 'ahead 5:3', '3:1 of 3:3' or 'best of 9', "
-    "perhaps with 'winner breaks' after it"
+    "perhaps followed by 'winner breaks'"
 )
 _BREAKS = {
     "winner": "winner",
@@ -32,26 +32,26 @@ _TAIL = re.compile(rf",? ({'|'.join(_BREAKS)}) breaks$")
 
 @dataclass(frozen=True)
 class MatchFormat:
-    """What is played, whoever plays it.
+    """A match format, for any two players.
 
     Parameters
     ----------
     m, n
-        what player 1 and player 2 need: games, or sets where there is a `set_`.
+        what player 1 and player 2 need: games, or sets if there is a `set_`.
     ahead
-        whether they need to lead by m and n, in place of reaching them.
+        whether they must lead by m and n instead of reaching them.
     win_by
-        the race goes on until one leads by so many (see `evenbreak.games.Race`).
+        the race goes on until one player leads by this many (see `evenbreak.games.Race`).
     set_
         what is played for one point of the score; None: a rack.
     breaks
-        who breaks, a name in `evenbreak.games.BREAK_FORMATS`; None: not said here.
+        the break format, a name in `evenbreak.games.BREAK_FORMATS`; None: left open.
 
     Raises
     ------
     InputError
-        if a number is not whole or below 1, `breaks` is no such name, or `win_by` stands in
-        an n-ahead match.
+        if a number is not whole or is below 1, `breaks` is not such a name, or an n-ahead
+        match has a `win_by`.
 
     >>> played = MatchFormat(3, 1, set_=MatchFormat(3, 3))
     >>> str(played), played.match(Rack(2 / 3)).rack.m
@@ -77,22 +77,22 @@ class MatchFormat:
     def match(
         self, rack: Rack, *, breaks: BreakFormat | None = None, first_breaker: int = 1
     ) -> Match:
-        """Return the match that two players with the chances of `rack` play.
+        """Return the match between two players with the chances of `rack`.
 
         Parameters
         ----------
         rack
             the chances, numbers or arrays.
         breaks
-            who breaks next, where the format itself does not say it. Across sets the break
-            goes on as within them.
+            who breaks next, if the format itself leaves it open. The break carries on from
+            set to set.
         first_breaker
             who breaks the first rack, 1 or 2.
 
         Raises
         ------
         InputError
-            if the break matters and nobody says who breaks.
+            if the break matters and the break format is missing.
         """
         if self.breaks is not None:
             breaks = BREAK_FORMATS[self.breaks]
@@ -113,7 +113,7 @@ class MatchFormat:
 
     @property
     def scores(self) -> int:
-        """About how many scores the match can have: what its kernels take time for."""
+        """About how many scores the match can have, which is what its kernels take time for."""
         reach = max(self.m, self.win_by) * max(self.n, self.win_by)
         own = self.m + self.n if self.ahead else reach
         return own * (self.set_.scores if self.set_ else 1)
@@ -136,19 +136,19 @@ def match_format(text: str) -> MatchFormat:
     Parameters
     ----------
     text
-        `9:5` (player 1, whom the text calls A, needs 9 games, player 2, B, needs 5),
-        `7:7 win by 2`, `ahead 5:3`, or one of them `of` another, which then is the set:
-        `3:1 of 3:3`. `best of 9` is `5:5`. After it may stand who breaks: `winner breaks`, or
-        loser, alternate, A or B. Each number is from 1 to 1000.
+        `9:5` (player 1, called A, needs 9 games, player 2, called B, needs 5), `7:7 win by 2`,
+        `ahead 5:3`, or one of them `of` another, which is then the set: `3:1 of 3:3`.
+        `best of 9` means `5:5`. The break format may follow: `winner breaks`, or loser,
+        alternate, A or B. Each number is from 1 to 1000.
 
     Raises
     ------
     InputError
-        if the text is not of that form; it says what to write.
+        if the text is not a match format; it says what to write.
 
     Notes
     -----
-    Source: problems P5.7 and P5.8, from which the notation is taken.
+    Source: problems P5.7 and P5.8, where the notation comes from.
 
     >>> match_format("3:1 of 3:3").scores
     27
@@ -159,7 +159,7 @@ def match_format(text: str) -> MatchFormat:
     >>> match_format("nine games")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: 'nine games' is no match format; write 9:5, '7:7 win by 2', ...
+    evenbreak.errors.InputError: 'nine games' is not a match format; write 9:5, '7:7 win by 2', ...
     """
     words = re.sub(r" ?: ?", ":", " ".join(str(text).lower().split()))
     for most in map(int, _BEST_OF.findall(words)):
@@ -176,21 +176,21 @@ def match_format(text: str) -> MatchFormat:
     found: MatchFormat | None = None
     for part in reversed(parts):
         if part is None:
-            raise InputError(f"{text!r} is no match format; write {_WAYS}")
+            raise InputError(f"{text!r} is not a match format; write {_WAYS}")
         kind, *numbers = part.groups(default="")
         m, n, win_by = (int(number or 1) for number in numbers)
         if not 1 <= min(m, n, win_by) <= max(m, n, win_by) <= _LONGEST:
-            raise InputError(f"{text!r} has a number that is not from 1 to {_LONGEST}; mend it")
+            raise InputError(f"{text!r} has a number that is not from 1 to {_LONGEST}; correct it")
         if kind == "ahead " and win_by > 1:
             raise InputError(f"{text!r}: 'ahead' does not go with 'win by'; leave one out")
         innermost = found is None
         found = MatchFormat(m, n, kind == "ahead ", win_by, found, breaks if innermost else None)
-    assert found is not None  # noqa: S101  a split has one part at least
+    assert found is not None  # noqa: S101  a split has at least one part
     return found
 
 
 def _half(most: int) -> str:
-    """Return the race of which the longest match has so many games, or one more.
+    """Return the race that takes at most so many games, or one more.
 
     >>> _half(9), _half(10)
     ('5:5', '6:6')

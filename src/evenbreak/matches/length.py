@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,14 +11,26 @@ from numpy.typing import NDArray
 from evenbreak.checks import number_probability
 from evenbreak.errors import AccuracyError
 from evenbreak.games.match import Match, Score
+from evenbreak.games.rack import ChanceT
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, broadcast, plain
+from evenbreak.matches.parameters import at_score, broadcast, in_shape
 from evenbreak.matches.quantiles import TIE
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
+    MeanT = TypeVar("MeanT", covariant=True, default=Any)
+else:
+    from typing import TypeVar
+
+    MeanT = TypeVar("MeanT", covariant=True)
+
+Floats: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class MatchLength:
+class MatchLength(Generic[ChanceT, MeanT]):
     """The distribution of the length of a match in racks, from its start score on.
 
     Parameters
@@ -28,23 +40,23 @@ class MatchLength:
     probability
         P(the match takes exactly games[i] racks), shape `(*parameters, k)`.
     mean, sd
-        mean and standard deviation in racks, right also where `games` leaves out a
-        tail; None (NaN in arrays) where the match may never end.
+        mean and standard deviation in racks, exact even where `games` leaves out a tail;
+        None (NaN in arrays) if the match may never end.
     p_never_ends
         P(the match goes on for ever).
     tail_mass
-        P(the match ends, but after more than games[-1] racks); 0 where it has a
-        longest length.
+        P(the match ends, but after more than games[-1] racks); 0 if there is a longest
+        length.
     bounded
-        whether it has a longest length.
+        whether there is a longest length.
     """
 
     games: NDArray[np.int64]
-    probability: NDArray[np.float64]
-    mean: Any
-    sd: Any
-    p_never_ends: Any
-    tail_mass: Any
+    probability: Floats
+    mean: MeanT
+    sd: MeanT
+    p_never_ends: ChanceT
+    tail_mass: ChanceT
     bounded: bool
 
     @property
@@ -52,8 +64,12 @@ class MatchLength:
         """The longest length in `games`."""
         return int(self.games[-1])
 
-    def quantile(self, q: float) -> Any:
-        """Return the smallest k with P(length <= k) >= q; a tie in the last ulps counts.
+    @overload
+    def quantile(self: MatchLength[float, Any], q: float) -> int | None: ...
+    @overload
+    def quantile(self: MatchLength[Any, Any], q: float) -> Floats: ...
+    def quantile(self: MatchLength[Any, Any], q: float) -> Any:
+        """Return the smallest k with P(length <= k) >= q; ties within rounding count.
 
         Parameters
         ----------
@@ -63,14 +79,14 @@ class MatchLength:
         Returns
         -------
         int, None or numpy.ndarray
-            None (NaN in arrays) where the chance of ending never reaches q.
+            None (NaN in arrays) if the probability of ending never reaches q.
 
         Raises
         ------
         InputError
             if q is not a probability.
         AccuracyError
-            if the quantile lies in the tail that was left out.
+            if the quantile lies in the tail that is left out.
 
         >>> from evenbreak.games import Race, Rack
         >>> match_length(Race(2, 2, Rack(0.5))).quantile(0.5)
@@ -81,7 +97,7 @@ class MatchLength:
         if q <= 0.5:
             reached = (np.cumsum(chances, axis=-1) >= q * (1.0 - TIE)) & (chances > 0.0)
         else:
-            # The upper levels are read off the tail, a small sum of small terms there.
+            # The upper levels are read off the tail, a small sum of small terms.
             beyond = np.asarray(self.tail_mass + self.p_never_ends)[..., np.newaxis]
             tail = np.cumsum(np.concatenate([beyond, chances[..., :0:-1]], axis=-1), axis=-1)
             reached = tail[..., ::-1] <= (1.0 - q) * (1.0 + TIE)
@@ -89,8 +105,8 @@ class MatchLength:
         ends = np.asarray(1.0 - self.p_never_ends)
         if not self.bounded and ((ends >= q) & (q < 1.0) & ~found).any():
             raise AccuracyError(
-                f"the {q:g} quantile lies beyond the span of {self.span} racks; "
-                "ask for the length with a smaller tail, or match_odds for the .5 and .9 quantiles"
+                f"the {q:g} quantile lies beyond {self.span} racks, where the distribution is cut "
+                "off; give a smaller tail, or use match_odds for the .5 and .9 quantiles"
             )
         at = self.games[reached.argmax(axis=-1)]
         if chances.ndim == 1:
@@ -98,8 +114,18 @@ class MatchLength:
         return at if found.all() else np.where(found, at, np.nan)
 
 
-def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-12) -> MatchLength:
-    """Return the distribution of the racks that `match` still takes.
+@overload
+def match_length(
+    match: Match[float], score: Score | None = None, *, tail: float = 1e-12
+) -> MatchLength[float, float | None]: ...
+@overload
+def match_length(
+    match: Match[Any], score: Score | None = None, *, tail: float = 1e-12
+) -> MatchLength[Floats, Floats]: ...
+def match_length(
+    match: Match, score: Score | None = None, *, tail: float = 1e-12
+) -> MatchLength[Any, Any]:
+    """Return the distribution of the number of racks that `match` still takes.
 
     Parameters
     ----------
@@ -108,9 +134,9 @@ def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-1
     score
         the score now (see `win_probability`); None: the match's own start score.
     tail
-        how much mass of a match without a longest length may be left out of the
-        distribution. It is cut off after 100,000 racks in any case (fewer for many
-        parameters); the answer says what was left out.
+        how much probability may be left out of the distribution if there is no longest
+        length. It is cut off after 100,000 racks in any case (fewer for large arrays);
+        `tail_mass` is what was left out.
 
     Raises
     ------
@@ -119,9 +145,8 @@ def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-1
 
     Notes
     -----
-    Source: problems P5.5, P5.24, P5.27. Mean and standard deviation of matches without
-    a longest length come from the absorbing chain of the score, not from the cut
-    distribution.
+    Source: problems P5.5, P5.24, P5.27. If there is no longest length, mean and standard
+    deviation come from the absorbing chain of the score, not from the cut distribution.
 
     >>> from evenbreak.games import Ahead, Race, Rack
     >>> length = match_length(Race(2, 2, Rack(0.5)))
@@ -134,7 +159,7 @@ def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-1
     match, shape = broadcast(at_score(match, score))
     tail = number_probability(tail, "tail")
     bounded = is_bounded(match)
-    # A race of racks is too large for the chain of its scores, and needs no tail.
+    # A race of racks has too many scores for a chain, and no tail.
     outcomes = None if bounded else outcomes_of(match)
     never = 0.0 if outcomes is None else outcomes.never
     endings = endings_of(match, never, tail)
@@ -154,8 +179,8 @@ def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-1
         probability=chances[..., first:],
         mean=_unless_endless(mean, never, shape),
         sd=_unless_endless(sd, never, shape),
-        p_never_ends=plain(never, shape),
-        tail_mass=plain(left, shape),
+        p_never_ends=in_shape(never, shape),
+        tail_mass=in_shape(left, shape),
         bounded=bounded,
     )
 
@@ -163,4 +188,4 @@ def match_length(match: Match, score: Score | None = None, *, tail: float = 1e-1
 def _unless_endless(value: Any, never: Any, shape: tuple[int, ...]) -> Any:
     if not shape:
         return None if never > 0.0 else float(value)
-    return plain(np.where(np.asarray(never) > 0.0, np.nan, value), shape)
+    return in_shape(np.where(np.asarray(never) > 0.0, np.nan, value), shape)

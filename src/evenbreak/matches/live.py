@@ -1,7 +1,7 @@
-"""A match under way: the chances at every score, and what the next rack is worth.
+"""A match under way: the odds at every score, and what the next rack is worth.
 
-One pass over the scores that can still come gives the chances at all of them at once:
-the match as it went, the leverage of a rack and the comeback table are read off it.
+One pass over the scores that can still come gives the odds at all of them: the course of the
+match, the leverage of a rack and the comeback table are read off it.
 """
 
 from __future__ import annotations
@@ -11,23 +11,21 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-import numpy as np
-from scipy.sparse import csr_array
-
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
-from evenbreak.matches.elimination import NEVER, Elimination
-from evenbreak.matches.parameters import checked_match, with_rack
-from evenbreak.matches.quantiles import TIE
+from evenbreak.matches.parameters import checked_match
+from evenbreak.matches.rack_by_rack import racks_within
+from evenbreak.matches.rack_graph import breaker_in, rack_moves
+from evenbreak.matches.score_chain import NEVER, ScoreChain
 
 _LONGEST = 100_000
 """Racks after which a length that is not reached is given up."""
 
 
 class Standing(NamedTuple):
-    """What there is to know at one moment of a match; all chances are given that moment.
+    """Where a match stands at one moment; all probabilities are given that moment.
 
     Parameters
     ----------
@@ -36,16 +34,16 @@ class Standing(NamedTuple):
     breaker
         who breaks the next rack; None if the break does not matter or the match is over.
     p_win_1, p_win_2
-        P(player 1, 2 wins the match); they add up to 1 minus the chance that it never ends.
+        P(player 1, 2 wins the match); they add up to 1 minus P(it never ends).
     p_win_1_after
         P(player 1 wins the match), given that player 1, player 2 wins the next rack; None
-        when the match is over.
+        if the match is over.
     mean_racks
         the mean number of racks still to be played; None if the match may never end.
     racks_p90
-        the least number of racks within which the match ends with chance .9; None if it
-        never reaches that chance, or only after more than 100,000 racks, and in a comeback
-        table.
+        the smallest number of racks within which the match ends with probability .9; None
+        in a comeback table, if the match never ends with that probability, or if it takes
+        more than 100,000 racks and has more than 1,000 states.
     """
 
     scores: tuple[Score, ...]
@@ -58,19 +56,19 @@ class Standing(NamedTuple):
 
     @property
     def leverage(self) -> float | None:
-        """How much the next rack moves the match: W if player 1 wins it less W if not."""
+        """What the next rack is worth: player 1's chance after winning it minus after losing it."""
         after = self.p_win_1_after
         return None if after is None else after[0] - after[1]
 
 
 @dataclass(frozen=True, eq=False)
 class LiveOdds:
-    """A match as it went and as it can still go.
+    """A match so far, and how it can still go.
 
     Parameters
     ----------
     course
-        the moment before the first rack, and the one after each rack.
+        where the match stood before the first rack, and after each rack.
     winners
         who won each rack, 1 or 2.
     """
@@ -82,7 +80,7 @@ class LiveOdds:
 
     @property
     def now(self) -> Standing:
-        """The last moment of the course."""
+        """Where the match stands now: the last entry of the course."""
         return self.course[-1]
 
     @property
@@ -92,10 +90,10 @@ class LiveOdds:
         return tuple(after - before for before, after in pairwise(wins))
 
     def comebacks(self) -> list[Standing]:
-        """Return the moments that can still come, by score: the comeback table.
+        """Return the standing at every score that can still come: the comeback table.
 
-        Scores that differ only in racks that no longer matter are one moment: an n-ahead
-        match tells the lead. Moments at which the match is over are left out.
+        Scores that differ only in racks that no longer matter are one entry: in an n-ahead
+        match the lead. Scores at which the match is over are left out.
         """
         states = self._values.from_(self._state)
         return sorted(
@@ -112,25 +110,25 @@ def live_odds(
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks or of sets, with numbers as chances. The course
-        begins at its start score, and its first breaker breaks the first of the racks.
+        a race or an n-ahead match, of racks or of sets, with plain numbers as probabilities.
+        The course begins at its start score; its first breaker breaks the first rack.
     winners
         who won each rack since then, 1 or 2.
     set_score
-        the score of the set under way at the beginning of the course, in a match of sets
-        of racks; None: the set's own start score. Where the match has a break format of its
-        own for sets, the first breaker is taken to have begun that set too.
+        in a match of sets of racks, the score of the set under way at the beginning of the
+        course; None: the set's own start score. If the match has its own break format for
+        sets, the first breaker is taken to have begun that set too.
 
     Raises
     ------
     InputError
-        if the chances are arrays, a winner is not 1 or 2, the match is over before the last
-        rack, or the set cannot stand at `set_score`.
+        if the probabilities are arrays, a winner is not 1 or 2, the match is over before the
+        last rack, or the set cannot have the score `set_score`.
 
     Notes
     -----
-    Source: problems P5.5 and P5.6, whose table W(p; m, n) holds every score of a race on the
-    way to the last one; P5.8, P5.24 and P5.27 for the other matches.
+    Source: problems P5.5 and P5.6, whose table W(p; m, n) has every score on the way through
+    a race; P5.8, P5.24 and P5.27 for the other matches.
 
     >>> from evenbreak.games import Race, Rack
     >>> live = live_odds(Race(3, 2, Rack(0.5)), [1, 2])
@@ -141,70 +139,55 @@ def live_odds(
     >>> [(standing.scores[0], standing.p_win_1) for standing in live.comebacks()]
     [((1, 1), 0.25), ((2, 1), 0.5)]
     """
-    rack = checked_match(match).innermost_rack.of_numbers()
-    values = _Values(match, rack, _state_at(match, set_score))
+    checked_match(match).innermost_rack.of_numbers()
+    values = _Values(match, _state_at(match, set_score))
     state, scores = values.start, _scores_of(match, values.start)
     scores = (match.score, *scores[1:])
-    states, told = [state], [scores]
+    states, listed = [state], [scores]
     for i, winner in enumerate(winners, 1):
         one_of(winner, f"winner of rack {i}", (1, 2))
-        if state not in values.after:
+        if state not in values.moves:
             raise InputError(
                 f"the match is over after {i - 1} of {len(winners)} racks, at "
-                f"{scores[0][0]}:{scores[0][1]}; leave out the racks after it"
+                f"{scores[0][0]}:{scores[0][1]}; leave out the other racks"
             )
-        state, scores = values.after[state][winner - 1], _counted(match, scores, winner)
+        state, scores = values.moves[state][winner - 1][0], _counted(match, scores, winner)
         states.append(state)
-        told.append(scores)
-    ends = values.racks_within(0.9, states)
+        listed.append(scores)
+    ends = racks_within(values.moves, [(state, 0.9) for state in states], values.never)
     course = [
         values.standing(state)._replace(scores=scores, racks_p90=end)
-        for state, scores, end in zip(states, told, ends, strict=True)
+        for state, scores, end in zip(states, listed, ends, strict=True)
     ]
     return LiveOdds(tuple(course), tuple(winners), values, state)
 
 
 class _Values:
-    """The chances at every state that can be reached from `start`."""
+    """The odds at every state that can be reached from `start`."""
 
-    def __init__(self, match: Match, rack: Rack, start: Any) -> None:
+    def __init__(self, match: Match, start: Any) -> None:
         self.match, self.start = match, start
-        self.after = _graph(match, rack, start)
-        self.breaker = {
-            state: _breaker(state) if rack.p2 is not None else 1 for state in self.after
-        }
-        self.chances = {
-            state: (rack.chance(1, breaker), rack.chance(2, breaker))
-            for state, breaker in self.breaker.items()
-        }
-        ends = {t for pair in self.after.values() for t in pair if t not in self.after} | (
-            {start} - set(self.after)
-        )
+        self.moves = rack_moves(match, start)
+        reached = {start} | {state for row in self.moves.values() for state, _ in row}
         won: dict[int, dict[Any, float]] = {1: {}, 2: {}}
-        for state in ends:
+        for state in reached - self.moves.keys():
             won[match.winner(state) or 0][state] = 1.0
-        chain = Elimination(
-            {
-                state: dict(zip(self.after[state], self.chances[state], strict=True))
-                for state in self.after
-            }
-        )
+        chain = ScoreChain({state: dict(row) for state, row in self.moves.items()})
         self.win = {player: chain.solve(won[player]) for player in (1, 2)}
         self.never = chain.solve({NEVER: 1.0})
         self.mean = chain.solve(reward=lambda _: 1.0)
 
     def standing(self, state: Any) -> Standing:
-        """Return the moment at a state, without the 90 % length."""
-        pair = self.after.get(state)
-        over = pair is None
+        """Return where the match stands in a state, without `racks_p90`."""
+        row = self.moves.get(state)
+        after = None if row is None else [self._chance(1, target) for target, _ in row]
+        breaks = self.match.break_matters and row is not None
         return Standing(
             scores=_scores_of(self.match, state),
-            breaker=self.breaker[state] if self.match.break_matters and not over else None,
+            breaker=breaker_in(self.match, state) if breaks else None,
             p_win_1=self._chance(1, state),
             p_win_2=self._chance(2, state),
-            p_win_1_after=None
-            if pair is None
-            else (self._chance(1, pair[0]), self._chance(1, pair[1])),
+            p_win_1_after=None if after is None else (after[0], after[1]),
             mean_racks=None if self.never.get(state, 0.0) > 0.0 else self.mean.get(state, 0.0),
             racks_p90=None,
         )
@@ -213,58 +196,14 @@ class _Values:
         return min(1.0, float(self.win[player].get(state, 0.0)))  # rounding may bring a sum above 1
 
     def from_(self, state: Any) -> Iterator[Any]:
-        """Yield the states at which the match goes on that can be reached from `state`."""
-        queue = [state] if state in self.after else []
-        seen = set(queue)
+        """Yield the states that can be reached from `state` and at which the match goes on."""
+        queue = [state]
+        seen = set()
         for here in queue:
-            yield here
-            for target in self.after[here]:
-                if target in self.after and target not in seen:
-                    seen.add(target)
-                    queue.append(target)
-
-    def racks_within(self, q: float, states: Sequence[Any]) -> list[int | None]:
-        """Return, for each state, the least k with P(over within k racks) >= q."""
-        row = {state: i for i, state in enumerate(self.after)}
-        arcs = [
-            (i, row[target], chance)
-            for state, i in row.items()
-            for target, chance in zip(self.after[state], self.chances[state], strict=True)
-            if target in row
-        ]
-        rows, columns, chances = zip(*arcs, strict=True) if arcs else ((), (), ())
-        moves = csr_array((chances, (rows, columns)), shape=(len(row), len(row)))
-        allowed = (1.0 - q) * (1.0 + TIE)
-        found: dict[Any, int | None] = {state: 0 if state not in row else None for state in states}
-        missing = {s for s in states if s in row and self.never.get(s, 0.0) <= allowed}
-        left: Any = np.ones(len(row))  # P(the match goes on after k racks | state)
-        for k in range(1, _LONGEST + 1):
-            if not missing:
-                break
-            left = moves @ left
-            reached = {state for state in missing if left[row[state]] <= allowed}
-            found.update(dict.fromkeys(reached, k))
-            missing -= reached
-        return [found[state] for state in states]
-
-
-def _graph(match: Match, rack: Rack, start: Any) -> dict[Any, tuple[Any, Any]]:
-    """Return, for each state that goes on, the next one if player 1, player 2 wins the rack.
-
-    All of them, also where the chance of a rack is 0 or 1: people win racks that a model
-    gives them no chance of.
-    """
-    template = with_rack(match, Rack(0.5, 0.5) if rack.break_matters else Rack(0.5))
-    after: dict[Any, tuple[Any, Any]] = {}
-    queue = [start]
-    for state in queue:
-        if state in after or template.winner(state) is not None:
-            continue
-        # A state's moves are listed with the one that player 1 wins first.
-        won, lost = template.moves(state)
-        after[state] = won, lost
-        queue += [won, lost]
-    return after
+            if here in self.moves and here not in seen:
+                seen.add(here)
+                yield here
+                queue += [target for target, _ in self.moves[here]]
 
 
 def _state_at(match: Match, set_score: Score | None) -> Any:
@@ -273,23 +212,19 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     inside = match.rack
     if isinstance(inside, Rack) or not isinstance(inside.rack, Rack):
         raise InputError(
-            "set_score is given and the match is not one of sets of racks; leave it out"
+            "set_score is given, but the match is not one of sets of racks; leave it out"
         )
     under_way = replace(inside, score=set_score, first_breaker=match.first_breaker)
     if under_way.decided(*under_way.score) is not None:
         a, b = under_way.score
-        raise InputError(f"set_score is {a}:{b}, where the set is over; count it in the score")
+        raise InputError(f"set_score is {a}:{b}, where the set is over; count the set in the score")
     if match.decided(*match.score) is not None:
-        raise InputError("set_score is given and the match is over; leave it out")
+        raise InputError("set_score is given, but the match is over; leave it out")
     return (*match.start[:-1], under_way.start)
 
 
-def _breaker(state: Any) -> int:
-    return _breaker(state[-1]) if isinstance(state[-1], tuple) else int(state[-1])
-
-
 def _scores_of(match: Match, state: Any) -> tuple[Score, ...]:
-    """Return the scores that a state tells, the match's first."""
+    """Return the scores in a state, that of the match first."""
     own = (state[0], state[1])
     if isinstance(match.rack, Rack) or match.winner(state) is not None:
         return (own,)
@@ -297,7 +232,7 @@ def _scores_of(match: Match, state: Any) -> tuple[Score, ...]:
 
 
 def _counted(match: Match, scores: tuple[Score, ...], winner: int) -> tuple[Score, ...]:
-    """Return the scores after a rack, with the racks that a state leaves out."""
+    """Return the scores after a rack, including the racks that a state leaves out."""
     (a, b), *inside = scores
     rack = match.rack
     if not isinstance(rack, Rack):

@@ -1,4 +1,4 @@
-"""Odds of one match in plain numbers, without numpy: what the command line needs."""
+"""The odds of one match in plain numbers, worked out without numpy if it is a race."""
 
 from __future__ import annotations
 
@@ -9,13 +9,11 @@ from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.matches.parameters import checked_match
-from evenbreak.matches.races import race_law
+from evenbreak.matches.races import race_odds
 
 
-class Odds(NamedTuple):
-    """What there is to know about one match before its next rack.
-
-    Everything is conditional on the match's start score and first breaker.
+class MatchOdds(NamedTuple):
+    """The odds of one match, from its start score and first breaker on.
 
     Parameters
     ----------
@@ -24,18 +22,18 @@ class Odds(NamedTuple):
     p_never_ends
         P(the match goes on for ever).
     mean_games, sd_games
-        mean and standard deviation of the racks still to be played, sets included rack
-        by rack; None if the match may never end, or no float holds so large a number.
+        mean and standard deviation of the number of racks still to be played, in all sets;
+        None if the match may never end, or the number is too large for a float.
     games_p50, games_p90
-        the smallest number of racks within which the match ends with chance .5, .9;
-        None if it never reaches that chance, or only after more than 100,000 racks of a
-        match with more than 1,000 states.
+        the smallest number of racks within which the match ends with probability .5, .9;
+        None if it never does, or if it takes more than 100,000 racks and has more than 1,000
+        states.
     p_hill_hill
-        P(the last possible rack decides); None where no rack is the last possible one
-        (n-ahead, win by 2 or more) and in sets.
+        P(the last possible rack decides); None for matches of sets and those without a last
+        possible rack (n-ahead, win by 2 or more).
     p_shutout_1, p_shutout_2
         P(player 1, 2 wins and the other wins no rack from the start score on); None for
-        n-ahead matches and sets.
+        n-ahead matches and matches of sets.
     """
 
     p_win_1: float
@@ -50,18 +48,18 @@ class Odds(NamedTuple):
     p_shutout_2: float | None
 
 
-def match_odds(match: Match) -> Odds:
+def match_odds(match: Match) -> MatchOdds:
     """Return the odds of `match`: who wins, how long it takes, how close it gets.
 
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks or of sets, with plain numbers as chances.
+        a race or an n-ahead match, of racks or of sets, with plain numbers as probabilities.
 
     Raises
     ------
     InputError
-        if the chances are arrays, or `match` is another game.
+        if the probabilities are arrays, or `match` is another game.
 
     Notes
     -----
@@ -76,31 +74,34 @@ def match_odds(match: Match) -> Odds:
     if not isinstance(rack.p1, float) or not isinstance(rack.p2, float | None):
         raise InputError("match holds arrays; use win_probability and match_length for those")
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
-        law = race_law(
+        race = race_odds(
             match.m, match.n, rack.p1, rack.p2, match.breaks, match.first_breaker, match.score
         )
-        return Odds(
-            p_win_1=law.p_win_1,
-            p_win_2=law.p_win_2,
+        return MatchOdds(
+            p_win_1=race.p_win_1,
+            p_win_2=race.p_win_2,
             p_never_ends=0.0,
-            mean_games=law.mean,
-            sd_games=law.sd,
-            games_p50=law.quantile(0.5),
-            games_p90=law.quantile(0.9),
-            p_hill_hill=law.p_hill_hill,
-            p_shutout_1=law.p_shutout_1,
-            p_shutout_2=law.p_shutout_2,
+            mean_games=race.mean,
+            sd_games=race.sd,
+            games_p50=race.quantile(0.5),
+            games_p90=race.quantile(0.9),
+            p_hill_hill=race.p_hill_hill,
+            p_shutout_1=race.p_shutout_1,
+            p_shutout_2=race.p_shutout_2,
         )
-    # A plain race, the commonest question by far, is answered without loading what follows.
+    # A plain race, by far the most common question, does not load what follows.
     from evenbreak.matches.outcomes import outcomes_of
-    from evenbreak.matches.rack_by_rack import length_quantiles
+    from evenbreak.matches.rack_by_rack import racks_within
+    from evenbreak.matches.rack_graph import rack_moves
     from evenbreak.matches.shutout import shutout_probability
 
     outcomes = outcomes_of(match)
     ends = outcomes.never == 0.0
     length = outcomes.length
-    p50, p90 = length_quantiles(match, length.chance, (0.5, 0.9))
-    return Odds(
+    start = match.start
+    moves = rack_moves(match)
+    p50, p90 = racks_within(moves, [(start, 0.5), (start, 0.9)], {start: outcomes.never})
+    return MatchOdds(
         p_win_1=outcomes.p_win(1),
         p_win_2=outcomes.p_win(2),
         p_never_ends=outcomes.never,

@@ -1,12 +1,12 @@
-"""How a match comes out, from how its racks (or sets) come out.
+"""The outcomes of a match, from the outcomes of its racks or sets.
 
-A unit, rack or set, begun by a breaker comes out as (winner, next breaker), each
-outcome with its chance and the mean and standard deviation of the racks it takes. The score
-after each unit is a small Markov chain; absorbing it gives the outcomes of the match
-in the same form, so that a match is a unit of a longer match. Floats and arrays of
-one shape are treated alike.
+The outcome of a unit (a rack or a set) is (winner, next breaker), with its probability and the
+mean and standard deviation of the number of racks it takes, given who breaks first in it. The
+score after each unit is a small Markov chain; absorption in it gives the outcomes of the match
+in the same form, so a match can be a unit of a longer match. Floats and arrays of one shape are
+treated alike.
 
-A length may be as long as 1e300 racks, of which no float holds the square: squares are
+A mean may be as long as 1e300 racks, whose square is too large for a float, so squares are
 taken in units of the longest mean.
 """
 
@@ -19,12 +19,12 @@ from typing import Any, NamedTuple
 
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
-from evenbreak.matches.elimination import NEVER, Elimination, ratio
 from evenbreak.matches.parameters import first_breaker
+from evenbreak.matches.score_chain import NEVER, ScoreChain, ratio
 
 
 class Outcome(NamedTuple):
-    """The chance of one outcome; mean and standard deviation of its racks, given it."""
+    """The probability of one outcome; mean and standard deviation of its racks, given it."""
 
     chance: Any
     mean: Any
@@ -49,12 +49,12 @@ class Outcomes:
     def p_win(self, player: int) -> Any:
         """P(`player` wins the match)."""
         chance = sum((o.chance for (won, _), o in self.by_result.items() if won == player), 0.0)
-        # Rounding may bring a sum above 1.
+        # Rounding may take a sum above 1.
         return min(chance, 1.0) if isinstance(chance, float) else chance.clip(max=1.0)
 
     @property
     def length(self) -> Outcome:
-        """Chance that the match ends, and mean and standard deviation of its racks if it does."""
+        """P(the match ends), and mean and standard deviation of its racks if it does."""
         return _mixture(list(self.by_result.values()))
 
 
@@ -66,7 +66,7 @@ def outcomes_of(match: Match, *, lengths: bool = True) -> Outcomes:
     match
         a race or an n-ahead match, of racks or of sets to any depth; floats or arrays.
     lengths
-        whether means and standard deviations are wanted too; they are 0 if not.
+        whether to work out means and standard deviations too; if not, they are 0.
 
     >>> from evenbreak.games import Race, Rack
     >>> round(outcomes_of(Race(3, 1, Race(3, 3, Rack(2 / 3)))).p_win(1), 12)
@@ -78,7 +78,7 @@ def outcomes_of(match: Match, *, lengths: bool = True) -> Outcomes:
 def unit_outcomes(match: Match, *, lengths: bool = True) -> dict[int, Outcomes]:
     """Return the outcomes of one rack or set of `match`, by who breaks first in it.
 
-    Where the break does not matter, breaker 1 stands for both.
+    If the break does not matter, breaker 1 stands for both.
     """
     breakers = (1, 2) if match.break_matters else (1,)
     return {breaker: _unit(match, breaker, lengths=lengths) for breaker in breakers}
@@ -92,8 +92,8 @@ def _unit(match: Match, breaker: int, *, lengths: bool) -> Outcomes:
         }
         never = 0.0
     else:
-        law = _absorb(rack, rack.score, breaker, lengths=lengths)
-        inside, never = law.by_result, law.never
+        of_set = _absorb(rack, rack.score, breaker, lengths=lengths)
+        inside, never = of_set.by_result, of_set.never
     grouped: dict[tuple[int, int], list[Outcome]] = {}
     for (winner, carried), outcome in inside.items():
         after = match.breaks(breaker, winner) if match.breaks is not None else carried
@@ -117,7 +117,7 @@ def _square(sd: Any, surprise: Any, unit: Any) -> Any:
 
 
 def _unit_of_length(lengths: Iterable[Any]) -> Any:
-    """Return the greatest of some lengths, 1 at least, for each place of arrays."""
+    """Return the longest of some lengths, but at least 1; elementwise for arrays."""
     return reduce(_greater, lengths, 1.0)
 
 
@@ -136,7 +136,7 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
     start = (*match.fold(*score), breaker)
     units = unit_outcomes(match, lengths=lengths)
     arcs = _score_chain(match, start, units)
-    chain = Elimination(
+    chain = ScoreChain(
         {
             state: {target: outcome.chance for target, outcome in row.items()}
             | {NEVER: units[state[2]].never}
@@ -160,7 +160,7 @@ _Arcs = dict[_State, dict[_State | _Result, Outcome]]
 def _score_chain(match: Match, start: _State, units: dict[int, Outcomes]) -> _Arcs:
     """Return the arcs from each (a, b, breaker) to the next one, or to (winner, next breaker).
 
-    All scores with one result are one final state: eliminated rows then stay short.
+    All scores with the same result are one final state, which keeps eliminated rows short.
     """
     arcs: _Arcs = {}
     queue = [start]
@@ -182,13 +182,13 @@ def _score_chain(match: Match, start: _State, units: dict[int, Outcomes]) -> _Ar
 
 
 def _with_length(
-    chain: Elimination, arcs: _Arcs, reach: dict[Hashable, Any], start: _State
+    chain: ScoreChain, arcs: _Arcs, reach: dict[Hashable, Any], start: _State
 ) -> Outcome:
-    """Return the outcome whose chance from each state is `reach`, with its length.
+    """Return the outcome whose probability from each state is `reach`, with its length.
 
-    Every reward is weighted with the chance that this outcome follows, which makes
-    the sums those of the chain given the outcome. The spread adds up squared
-    surprises (how far each unit moves the mean), so it is right when it is tiny.
+    Every reward is weighted with the probability that this outcome follows, so the sums are
+    those of the chain given the outcome. The variance adds up squared surprises (how far each
+    unit moves the mean), so it is accurate even if it is tiny.
     """
 
     def mean_reward(state: Any) -> Any:

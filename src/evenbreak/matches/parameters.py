@@ -1,6 +1,6 @@
-"""The chances inside a match: numbers or arrays, whichever the innermost rack holds.
+"""The probabilities inside a match: plain numbers or arrays.
 
-Numpy is loaded only where arrays are looked at: the scalar kernels stand on this too.
+Numpy is loaded only for arrays, because the scalar kernels use this module too.
 """
 
 from __future__ import annotations
@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, TypeVar
 
-from evenbreak.checks import together
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
@@ -17,7 +16,7 @@ AnyMatch = TypeVar("AnyMatch", bound=Match)
 
 
 def checked_match(match: AnyMatch) -> AnyMatch:
-    """Return `match` if it is one; other games are answered by their chains.
+    """Return `match` if it is a race or an n-ahead match; other games are solved as chains.
 
     >>> checked_match(Rack(0.5))  # doctest: +ELLIPSIS
     Traceback (most recent call last):
@@ -30,7 +29,7 @@ def checked_match(match: AnyMatch) -> AnyMatch:
 
 
 def first_breaker(match: Match) -> int:
-    """Return the breaker in a match's states: 1 for both where the break does not matter."""
+    """Return the first breaker as it stands in states: 1 if the break does not matter."""
     return match.first_breaker if match.break_matters else 1
 
 
@@ -41,9 +40,9 @@ def with_rack(match: AnyMatch, rack: Rack) -> AnyMatch:
 
 
 def broadcast(match: AnyMatch) -> tuple[AnyMatch, tuple[int, ...]]:
-    """Return the match with p1 and p2 of one shape, and the shape; () for numbers."""
+    """Return the match with p1 and p2 of the same shape, and that shape; () for numbers."""
     rack = match.innermost_rack
-    shape = shape_of(rack)
+    shape = rack.shape
     if not shape or rack.p2 is None:
         return match, shape
     import numpy as np
@@ -52,19 +51,14 @@ def broadcast(match: AnyMatch) -> tuple[AnyMatch, tuple[int, ...]]:
     return with_rack(match, Rack(p1, p2)), shape
 
 
-def shape_of(rack: Rack) -> tuple[int, ...]:
-    """Return the shape that p1 and p2 have together; () for numbers."""
-    return together(p1=rack.p1, p2=rack.p2)
-
-
 def at_score(match: AnyMatch, score: Score | None) -> AnyMatch:
     """Return the match from `score` on; its first breaker breaks the next rack."""
     match = checked_match(match)
     return match if score is None else replace(match, score=score)
 
 
-def plain(value: Any, shape: tuple[int, ...]) -> Any:
-    """Return a float where the parameters were numbers, else an array of their shape."""
+def in_shape(value: Any, shape: tuple[int, ...]) -> Any:
+    """Return a float if the parameters are numbers, else an array of their shape."""
     if not shape:
         return float(value)
     import numpy as np

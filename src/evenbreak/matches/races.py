@@ -1,7 +1,7 @@
-"""The race, worked out with plain numbers: one list a rack, no numpy.
+"""The odds of a race in plain numbers, without numpy.
 
-After k racks the score is i : k - i, so the scores form a list over i; a rack moves
-the mass at i to i + 1 or leaves it, and what leaves the list has won the race.
+After k racks the score is i : k - i, so the probabilities of the scores are a list over i. The
+next rack moves what is at i to i + 1 or leaves it; what leaves the list has won the race.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.quantiles import quantile_of
 
 
-class RaceLaw(NamedTuple):
-    """Who wins a race and after how many racks, as one joint distribution.
+class RaceOdds(NamedTuple):
+    """Who wins a race, and after how many racks.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class RaceLaw(NamedTuple):
 
     @property
     def p_win_2(self) -> float:
-        """P(player 2 wins the race); a sum of its own, so that it is right when tiny."""
+        """P(player 2 wins the race); summed by itself, so it is accurate even if it is tiny."""
         return _total(self.win_2)
 
     @property
@@ -71,14 +71,11 @@ class RaceLaw(NamedTuple):
         )
 
     def quantile(self, q: float) -> int:
-        """Return the smallest k with P(length <= k) >= q; a tie in the last ulps counts."""
-        at = quantile_of(self.probability, q)
-        if at is None:
-            raise InputError(f"q is {q!r}; give a number from 0 to 1")
-        return self.games[at]
+        """Return the smallest k with P(length <= k) >= q; ties within rounding count."""
+        return self.games[quantile_of(self.probability, q)]
 
 
-def race_law(
+def race_odds(
     m: int,
     n: int,
     p1: float,
@@ -86,22 +83,22 @@ def race_law(
     breaks: BreakFormat | None = None,
     first_breaker: int = 1,
     score: tuple[int, int] = (0, 0),
-) -> RaceLaw:
-    """Return who wins the race m:n and after how many racks, from the start score on.
+) -> RaceOdds:
+    """Return who wins the race m:n, and after how many racks, from the start score on.
 
     Parameters
     ----------
     m, n
         the games that player 1 and player 2 need.
     p1, p2
-        P(player 1, 2 wins a rack | he breaks it); with p2 None the break does not
+        P(player 1, 2 wins a rack | that player breaks it); if p2 is None, the break does not
         matter and p1 is P(player 1 wins a rack).
     breaks
         who breaks next; needed with p2.
     first_breaker
         who breaks the first rack, 1 or 2.
     score
-        the games that each has at the start. A player who has what he needs has won.
+        the games that each has at the start. A player who has all the games they need has won.
 
     Raises
     ------
@@ -112,8 +109,8 @@ def race_law(
     -----
     Source: problems P5.5 and P5.6 (the race), P5.24 (break formats).
 
-    >>> law = race_law(3, 2, 2 / 3)
-    >>> round(law.p_win_1, 12), law.games
+    >>> race = race_odds(3, 2, 2 / 3)
+    >>> round(race.p_win_1, 12), race.games
     (0.592592592593, [2, 3, 4])
     """
     rack = Rack(number_probability(p1, "p1"), None if p2 is None else number_probability(p2, "p2"))
@@ -142,7 +139,7 @@ def race_law(
         win_2.append(sum(row[lost_at] for row in after) if lost_at >= 0 else 0.0)
         at = after
     shortest = min(need_1, need_2)
-    return RaceLaw(
+    return RaceOdds(
         games=list(range(shortest, need_1 + need_2)),
         win_1=win_1[shortest:],
         win_2=win_2[shortest:],
@@ -153,14 +150,14 @@ def race_law(
 
 
 def _total(chances: Sequence[float]) -> float:
-    """Return the sum of the chances of exclusive events, which rounding may bring above 1."""
+    """Return the sum of the probabilities of exclusive events, which rounding may take above 1."""
     return min(1.0, math.fsum(chances))
 
 
 def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, float, int, int]]:
-    """Return for each breaker P(1 wins), P(2 wins) and the place here of who breaks after each.
+    """Return for each breaker P(1 wins), P(2 wins) and the place here of the next breaker for each.
 
-    One entry stands for both breakers where the break does not matter.
+    If the break does not matter, one entry stands for both breakers.
     """
     if breaks is None or not rack.break_matters:
         return [(rack.chance(1), rack.chance(2), 0, 0)]
@@ -176,8 +173,10 @@ def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, flo
     ]
 
 
-def _already_won(need_1: int, need_2: int) -> RaceLaw:
+def _already_won(need_1: int, need_2: int) -> RaceOdds:
     if need_1 <= 0 and need_2 <= 0:
-        raise InputError("score has both players where they have won; give a score before the end")
+        raise InputError(
+            "both players have won at this score; give a score at which at most one has"
+        )
     won_1 = float(need_1 <= 0)
-    return RaceLaw([0], [won_1], [1.0 - won_1], 0.0, won_1, 1.0 - won_1)
+    return RaceOdds([0], [won_1], [1.0 - won_1], 0.0, won_1, 1.0 - won_1)

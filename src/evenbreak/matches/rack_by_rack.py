@@ -1,96 +1,134 @@
-"""How long a match takes, played rack by rack in plain numbers, all its courses at once."""
+"""Within how many racks a match ends with a given probability, from any of its states.
+
+P(the match is still going on after k + 1 racks), given the state now, is the mean of P(it is
+still going on after k racks) over the states that the next rack leads to. Short matches are
+worked out in plain Python, longer ones with a sparse matrix. For very long ones the matrix of a
+rack is squared again and again, so 2^j racks cost j products. After every product each row is
+scaled so that it sums to 1 together with the probability of having ended; otherwise rounding
+would add up to an end that is not there.
+"""
 
 from __future__ import annotations
 
-import math
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from typing import Any
 
-from evenbreak.games.match import Match
-from evenbreak.matches.quantiles import quantile_of
+from evenbreak.matches.quantiles import TIE
 
-_ROUNDING = 1e-9
-_PATIENCE = 200_000
-"""Moves of mass after which numpy is loaded to go on with."""
+Moves = Mapping[Hashable, Sequence[tuple[Hashable, float]]]
+_Arcs = list[list[tuple[int, float]]]
 
-_Moves = dict[Any, list[tuple[Any, float]]]
+_PATIENCE = 100_000
+"""After this many additions in plain Python it is quicker to load scipy."""
+_LONGEST = 100_000
+"""The most racks that are played one by one, in a match with many states."""
+_MOST_STATES = 1_000
+"""With more states than this, dense products take longer than playing rack by rack."""
+_MOST_DOUBLINGS = 1_100
+"""Within 2^1100 racks even an event as unlikely as the smallest float has happened."""
 
 
-def length_quantiles(match: Match, ends: float, levels: tuple[float, ...]) -> list[int | None]:
-    """Return the least number of racks within which `match` ends with each chance in `levels`.
+def racks_within(
+    moves: Moves, asked: Sequence[tuple[Hashable, float]], never: Mapping[Hashable, float]
+) -> list[int | None]:
+    """Return the least k with P(the match is over within k racks) >= q, for each (state, q).
 
     Parameters
     ----------
-    match
-        a race or an n-ahead match, of racks or of sets, with plain numbers as chances.
-    ends
-        P(the match ends at all).
-    levels
-        the chances, rising.
+    moves
+        for each state that goes on, the next states with their probabilities; states that are
+        not listed are final.
+    asked
+        states, each with a probability q.
+    never
+        P(the match never ends), by state; 0 for states that are not listed.
 
     Returns
     -------
     list of int or None
-        None where the match never ends with that chance, or only after more than
-        100,000 racks of a match with more than 1,000 states.
+        None if the match never ends with that probability, or if it takes more than 100,000
+        racks and has more than 1,000 states.
 
-    >>> from evenbreak.games import Ahead, Rack
-    >>> length_quantiles(Ahead(2, 2, Rack(0.5)), 1.0, (0.5, 0.9))
-    [2, 8]
+    >>> moves = {"on": [("on", 0.9), ("over", 0.1)]}
+    >>> racks_within(moves, [("on", 0.1), ("on", 0.5), ("over", 0.9)], {})
+    [1, 7, 0]
     """
-    wanted = [q for q in levels if q <= ends * (1.0 + _ROUNDING)]
-    play = _Play(match)
-    while wanted and play.ended < wanted[-1] * (1.0 + _ROUNDING) and play.mass:
-        play.one_rack()
-        if play.steps > _PATIENCE:
-            found = _by_way_of_numpy(match, play.moves, wanted)
-            return found + [None] * (len(levels) - len(found))
-    beyond = max(0.0, 1.0 - play.ended)
-    return [quantile_of(play.chances, q, beyond=beyond) if q in wanted else None for q in levels]
+    place = {state: k for k, state in enumerate(moves)}
+    arcs = [
+        [(place[target], chance) for target, chance in row if target in place]
+        for row in moves.values()
+    ]
+    found: list[int | None] = [None if state in place else 0 for state, _ in asked]
+    allowed = [(1.0 - q) * (1.0 + TIE) for _, q in asked]
+    wanted = {
+        i: place[state]
+        for i, (state, _) in enumerate(asked)
+        if state in place and never.get(state, 0.0) <= allowed[i]
+    }
+    if not wanted:
+        return found
+    for racks, left in enumerate(_still_going_on(arcs), 1):
+        for i in [i for i, k in wanted.items() if left[k] <= allowed[i]]:
+            found[i] = racks
+            del wanted[i]
+        if not wanted:
+            return found
+    if len(arcs) <= _MOST_STATES:
+        levels = [(k, asked[i][1]) for i, k in wanted.items()]
+        for i, many in zip(wanted, _by_doubling(arcs, moves, levels), strict=True):
+            found[i] = many
+    return found
 
 
-def _by_way_of_numpy(match: Match, moves: _Moves, levels: list[float]) -> list[int | None]:
-    from evenbreak.matches.length import match_length
-    from evenbreak.matches.slow_ends import MOST_STATES, quantiles_by_doubling
+def _still_going_on(arcs: _Arcs) -> Iterator[Any]:
+    """Yield P(the match is still going on after k racks) for each state now, for k = 1, 2, ..."""
+    left: Any = [1.0] * len(arcs)
+    for _ in range(_PATIENCE // len(arcs)):
+        left = [sum(chance * left[k] for k, chance in row) for row in arcs]
+        yield left
+    from scipy.sparse import csr_array
 
-    if len(moves) <= MOST_STATES:
-        return list(quantiles_by_doubling(moves, match.start, levels))
-    length = match_length(match, tail=0.5 * (1.0 - levels[-1]))
-    reached = 1.0 - length.p_never_ends - length.tail_mass
-    return [length.quantile(q) if q <= reached else None for q in levels]
-
-
-class _Play:
-    """The mass in each state that is not over, and the chance of each length so far."""
-
-    def __init__(self, match: Match) -> None:
-        self.moves: _Moves = _all_moves(match)
-        self.mass: dict[Any, float] = {}
-        self.chances: list[float] = []
-        self.ended = 0.0
-        self.steps = 0
-        self._settle({match.start: 1.0})
-
-    def one_rack(self) -> None:
-        """Move the mass on by one rack; what is over is taken off."""
-        after: dict[Any, float] = {}
-        for state, held in self.mass.items():
-            for target, chance in self.moves[state]:
-                after[target] = after.get(target, 0.0) + held * chance
-        self.steps += len(self.mass)
-        self._settle(after)
-
-    def _settle(self, mass: dict[Any, float]) -> None:
-        self.mass = {state: held for state, held in mass.items() if self.moves[state]}
-        over = math.fsum(held for state, held in mass.items() if not self.moves[state])
-        self.chances.append(over)
-        self.ended += over
+    rows, columns, chances = (
+        zip(*flat, strict=True)
+        if (flat := [(j, k, chance) for j, row in enumerate(arcs) for k, chance in row])
+        else ((), (), ())
+    )
+    matrix = csr_array((chances, (rows, columns)), shape=(len(arcs), len(arcs)))
+    for _ in range(_LONGEST // (10 if len(arcs) <= _MOST_STATES else 1)):
+        left = matrix @ left
+        yield left
 
 
-def _all_moves(match: Match) -> _Moves:
-    moves: _Moves = {}
-    queue = [match.start]
-    for state in queue:
-        if state not in moves:
-            moves[state] = list(match.moves(state).items())
-            queue.extend(target for target, _ in moves[state])
-    return moves
+def _by_doubling(
+    arcs: _Arcs, moves: Moves, levels: Sequence[tuple[int, float]]
+) -> list[int | None]:
+    """Return the smallest number of racks for each (place of a state, probability)."""
+    import numpy as np
+
+    stay = np.zeros((len(arcs), len(arcs)))
+    for j, row in enumerate(arcs):
+        for k, chance in row:
+            stay[j, k] += chance
+    end = np.array([sum(p for target, p in row if target not in moves) for row in moves.values()])
+    powers = [(stay, end)]
+    while any(end[k] < q * (1.0 - TIE) for k, q in levels) and len(powers) < _MOST_DOUBLINGS:
+        end = end + stay @ end
+        stay = stay @ stay
+        total = stay.sum(axis=1) + end
+        stay, end = stay / total[:, np.newaxis], end / total
+        powers.append((stay, end))
+    unit = np.eye(len(arcs))
+    return [
+        _least_racks(powers, unit[k], q) if end[k] >= q * (1.0 - TIE) else None for k, q in levels
+    ]
+
+
+def _least_racks(powers: list[Any], density: Any, q: float) -> int:
+    """Return the smallest number of racks within which the match has ended with probability q."""
+    racks, ended = 0, 0.0
+    for j in range(len(powers) - 1, -1, -1):
+        stay, end = powers[j]
+        then = ended + float(density @ end)
+        if then < q * (1.0 - TIE):
+            racks, ended, density = racks + 2**j, then, density @ stay
+    return racks + 1

@@ -1,49 +1,59 @@
-"""With what score a match ends."""
+"""The final score of a match."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.checks import number_probability
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
-from evenbreak.games.rack import Rack
+from evenbreak.games.rack import ChanceT, Rack
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of, unit_outcomes
-from evenbreak.matches.parameters import at_score, broadcast, first_breaker, plain
+from evenbreak.matches.parameters import at_score, broadcast, first_breaker, in_shape
 
 _MOST_SETS = 10_000
 
 
 @dataclass(frozen=True, eq=False)
-class FinalScores:
+class FinalScores(Generic[ChanceT]):
     """The distribution of the final score of a match.
 
     Parameters
     ----------
     probability
         P(the match ends a:b) by (a, b): racks, or sets for a match of sets. The wins of
-        player 1 come first, then those of player 2, the shortest matches first.
+        player 1 come first, then those of player 2, each with the shortest matches first.
     p_never_ends
         P(the match goes on for ever).
     tail_mass
-        P(the match ends with a score that is not listed); 0 where it has a longest
-        length.
+        P(the match ends with a score that is not listed); 0 if there is a longest length.
     span
-        the racks (or sets) up to which final scores are listed, from the start score on.
+        final scores are listed up to this many racks (or sets) after the start score.
     """
 
-    probability: dict[Score, Any]
-    p_never_ends: Any
-    tail_mass: Any
+    probability: dict[Score, ChanceT]
+    p_never_ends: ChanceT
+    tail_mass: ChanceT
     span: int
 
 
-def final_scores(match: Match, score: Score | None = None, *, tail: float = 1e-12) -> FinalScores:
+@overload
+def final_scores(
+    match: Match[float], score: Score | None = None, *, tail: float = 1e-12
+) -> FinalScores[float]: ...
+@overload
+def final_scores(
+    match: Match[Any], score: Score | None = None, *, tail: float = 1e-12
+) -> FinalScores[NDArray[np.float64]]: ...
+def final_scores(
+    match: Match, score: Score | None = None, *, tail: float = 1e-12
+) -> FinalScores[Any]:
     """Return the distribution of the final score of `match`.
 
     Parameters
@@ -54,7 +64,7 @@ def final_scores(match: Match, score: Score | None = None, *, tail: float = 1e-1
     score
         the score now (see `win_probability`); None: the match's own start score.
     tail
-        how much mass of a match without a longest length may be left out.
+        how much probability may be left out if there is no longest length.
 
     Raises
     ------
@@ -63,7 +73,7 @@ def final_scores(match: Match, score: Score | None = None, *, tail: float = 1e-1
 
     Notes
     -----
-    Source: problem P5.5, where W is the sum of the chances of the final scores.
+    Source: problem P5.5, where W is the sum of the probabilities of the final scores.
 
     >>> from evenbreak.games import Race, Rack
     >>> final_scores(Race(2, 1, Rack(0.5))).probability
@@ -86,19 +96,25 @@ def final_scores(match: Match, score: Score | None = None, *, tail: float = 1e-1
         ends, span = _by_sets(match, never, None if bounded else tail)
     left = 0.0 if bounded else np.maximum(1.0 - never - sum(ends.values(), 0.0), 0.0)
     return FinalScores(
-        probability={at: plain(chance, shape) for at, chance in ends.items()},
-        p_never_ends=plain(never, shape),
-        tail_mass=plain(left, shape),
+        probability={at: in_shape(chance, shape) for at, chance in ends.items()},
+        p_never_ends=in_shape(never, shape),
+        tail_mass=in_shape(left, shape),
         span=span,
     )
 
 
+@overload
+def hill_hill_probability(match: Match[float], score: Score | None = None) -> float | None: ...
+@overload
+def hill_hill_probability(
+    match: Match[Any], score: Score | None = None
+) -> NDArray[np.float64] | None: ...
 def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     """Return P(the last possible rack decides): the race m:n comes to m - 1 : n - 1.
 
-    None for n-ahead matches and races won by 2 or more, where no rack is the last
-    possible one. In a match of sets the last possible set is meant. Parameters and
-    errors are those of `final_scores`; 0 where the match is over at the start.
+    None for n-ahead matches and races won by 2 or more, which have no last possible rack. In
+    a match of sets it is about the last possible set. Parameters and errors are those of
+    `final_scores`; 0 if the match is over at the start.
 
     >>> from evenbreak.games import Race, Rack
     >>> hill_hill_probability(Race(2, 2, Rack(0.5)))
@@ -108,10 +124,12 @@ def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
         return None
     match, shape = broadcast(at_score(match, score))
     if match.decided(*match.score) is not None:
-        return plain(0.0, shape)
+        return in_shape(0.0, shape)
     ends = final_scores(match).probability
     decider = match.m + match.n - 1
-    return plain(sum((chance for (a, b), chance in ends.items() if a + b == decider), 0.0), shape)
+    return in_shape(
+        sum((chance for (a, b), chance in ends.items() if a + b == decider), 0.0), shape
+    )
 
 
 def _final(match: Match, player: int, k: int) -> Score:
@@ -130,9 +148,9 @@ def _final(match: Match, player: int, k: int) -> Score:
 
 
 def _by_sets(match: Match, never: Any, tail: float | None) -> tuple[dict[Score, Any], int]:
-    """Return the final scores of a match of sets, and the sets up to which they are listed.
+    """Return the final scores of a match of sets, and up to how many sets they are listed.
 
-    With `tail` None the match is followed until its longest possible length.
+    If `tail` is None, the match is followed up to its longest possible length.
     """
     units = unit_outcomes(match, lengths=False)
     mass: dict[tuple[int, int, int], Any] = {(*match.score, first_breaker(match)): 1.0}

@@ -1,21 +1,33 @@
-"""The chance of a shutout: one player wins every rack (or set) that is still played."""
+"""The chance of a shutout: one player wins every rack (or set) still played."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
 from evenbreak.checks import one_of
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.matches.outcomes import unit_outcomes
-from evenbreak.matches.parameters import at_score, broadcast, first_breaker, plain
+from evenbreak.matches.parameters import at_score, broadcast, first_breaker, in_shape
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
+@overload
+def shutout_probability(
+    match: Match[float], score: Score | None = None, *, player: int = 1
+) -> float | None: ...
+@overload
+def shutout_probability(
+    match: Match[Any], score: Score | None = None, *, player: int = 1
+) -> NDArray[np.float64] | None: ...
 def shutout_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
-    """Return P(`player` wins and the other scores nothing from the start score on).
+    """Return P(`player` wins and the other player scores nothing from the start score on).
 
-    A product of chances, right also where it is tiny. None for n-ahead matches, which
-    are about the lead and not about the score. In a match of sets, sets are meant.
+    It is a product of probabilities, accurate even if it is tiny. None for n-ahead matches,
+    which are about the lead and not the score. In a match of sets it is about sets.
 
     Parameters
     ----------
@@ -45,7 +57,7 @@ def shutout_probability(match: Match, score: Score | None = None, *, player: int
         return None
     match, shape = broadcast(at_score(match, score))
     a, b = match.score
-    # P(the run has come so far and this player is about to break), by breaker.
+    # P(the run has come this far and this player breaks next), by breaker.
     run: dict[int, Any] = {first_breaker(match): 1.0}
     if match.decided(a, b) is None:
         units = unit_outcomes(match, lengths=False)
@@ -57,4 +69,4 @@ def shutout_probability(match: Match, score: Score | None = None, *, player: int
                 if winner == player:
                     after[then] = after.get(then, 0.0) + held * outcome.chance
         run = after
-    return plain(sum(run.values(), 0.0) if match.decided(a, b) == player else 0.0, shape)
+    return in_shape(sum(run.values(), 0.0) if match.decided(a, b) == player else 0.0, shape)

@@ -1,8 +1,8 @@
-"""14.1 straight pool: each player shoots until he misses, and the first to reach his points wins.
+"""14.1 straight pool: both shoot until they miss, and the first to reach their points wins.
 
-A player who needs N points gets them in inning T of his own, whatever the other does. With
-alpha p the chance of the first shot of an inning and p that of the others, the chances of
-T = 1, 2, ... are the coefficients of
+A player who needs N points gets there in their own inning T, whatever the other does. If they
+make the first shot of an inning with chance alpha p and each of the others with p, the chances
+of T = 1, 2, ... are the coefficients of
 
     alpha p^N (1 - a z)^(N - 1) / (1 - b z)^N,    a = 1 - alpha, b = 1 - alpha p,
 
@@ -17,11 +17,10 @@ more, so every chance keeps nearly all its digits, without safety play (a = 0) a
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Iterator
 from dataclasses import KW_ONLY, dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,22 +30,19 @@ from evenbreak.errors import InputError
 from evenbreak.matches.quantiles import quantile_of
 from evenbreak.stats.exact import exact
 
-_LONGEST = 10_000
+LONGEST = 10_000
 """The most innings, on average, that a player may need here."""
 
-_EVEN = (0.4, 0.6)
-"""A match in which a player wins with a chance from .4 to .6 is called even."""
-
 _TAIL = 60.0
-"""Innings are left out from where exp(-60) of the largest chance is still to come."""
+"""Innings are cut off once less than exp(-60) of the largest probability is still to come."""
 
 
 @dataclass(frozen=True)
 class StraightPool:
-    """A match of 14.1 straight pool; who needs fewer points has a handicap, or is ahead.
+    """A match of 14.1 straight pool; the player who needs fewer points has a spot, or is ahead.
 
-    The players shoot by turns, and a turn, an inning, ends with the first miss. Fouls, and
-    the points they cost, are left out; a safety that is played counts as a miss.
+    The players take turns, and each turn, an inning, ends with the first miss. Fouls and the
+    points they cost are left out; a safety counts as a miss.
 
     Parameters
     ----------
@@ -57,7 +53,7 @@ class StraightPool:
         float means the decimal that it prints as.
     safety_1, safety_2
         P(player 1, 2 makes the first shot of an inning) is safety_1 p1, safety_2 p2: below 1
-        where the opponent leaves a hard shot.
+        if the opponent leaves a hard shot.
     first
         who has the first inning, 1 or 2.
 
@@ -96,12 +92,13 @@ class StraightPoolOdds:
     p_win_1, p_win_2
         P(player 1, 2 wins the match).
     p_never_ends
-        P(nobody ever wins): 1 where neither player can make the first shot, else 0.
+        P(nobody ever wins): 1 if neither player can make the first shot, else 0.
     mean_innings, sd_innings
         mean and standard deviation of the innings that the winner has had at the end; None
-        where the match never ends.
+        if the match never ends.
     innings_p50, innings_p90
-        the smallest number of innings within which it ends with chance .5, .9; None likewise.
+        the smallest number of innings within which it ends with probability .5, .9; None if
+        it never ends.
     """
 
     p_win_1: float
@@ -111,31 +108,6 @@ class StraightPoolOdds:
     sd_innings: float | None
     innings_p50: int | None
     innings_p90: int | None
-
-
-class EvenPoints(NamedTuple):
-    """The points of player 2 that make a match nearest to even.
-
-    `p_win_1` is P(player 1 wins the match) with them; `p_win_1_less` and `p_win_1_more` with
-    a point less and a point more for player 2, None beyond the points that were allowed.
-    """
-
-    points_2: int
-    p_win_1: float
-    p_win_1_less: float | None
-    p_win_1_more: float | None
-
-    @property
-    def is_even(self) -> bool:
-        """Whether each player wins with 0.4 or more; no points do that if these do not.
-
-        Where the points are few, or one player is far better, no number of points may come
-        anywhere near an even match.
-
-        >>> even_points(100, 0.9, 0.85).is_even, even_points(1, 0.9, 0.8).is_even
-        (True, False)
-        """
-        return _EVEN[0] <= self.p_win_1 <= _EVEN[1]
 
 
 def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
@@ -149,19 +121,19 @@ def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
     Raises
     ------
     InputError
-        if a player would take more than 10,000 innings on average, but not for ever.
+        if a player would take more than 10,000 innings on average, but would get there.
 
     Notes
     -----
     P(player 1 wins) is the sum over i of P(player 1 gets there in inning i) times P(player 2
-    has not got there before). Runs as in problems P5.11 and P5.15.
+    has not got there before). Runs are those of problems P5.11 and P5.15.
 
     >>> odds = straight_pool_odds(StraightPool(100, 100, 0.9, 0.85))
     >>> round(odds.p_win_1, 4), round(odds.p_win_2, 4), round(odds.mean_innings, 2)
     (0.8916, 0.1084, 11.76)
     """
     (reach_1, left_1), (reach_2, left_2) = _aligned(match)
-    # The second player has his i-th inning only if the first has missed in his own.
+    # The second player has their i-th inning only if the first has missed in theirs.
     if match.first == 1:
         win_1, win_2 = reach_1 * left_2[:-1], reach_2 * left_1[1:]
     else:
@@ -179,66 +151,9 @@ def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
         p_never_ends=0.0,
         mean_innings=mean,
         sd_innings=math.sqrt(float(((innings - mean) ** 2 * ends).sum())),
-        innings_p50=None if half is None else half + 1,
-        innings_p90=None if most is None else most + 1,
+        innings_p50=half + 1,
+        innings_p90=most + 1,
     )
-
-
-def even_points(
-    points_1: int,
-    p1: Any,
-    p2: Any,
-    *,
-    safety_1: Any = 1,
-    safety_2: Any = 1,
-    first: int = 1,
-    most: int = 10_000,
-) -> EvenPoints:
-    """Return how many points player 2 should need, where player 1 needs `points_1`.
-
-    Parameters
-    ----------
-    points_1, p1, p2, safety_1, safety_2, first
-        as in `StraightPool`.
-    most
-        the most points that player 2 may need.
-
-    Returns
-    -------
-    EvenPoints
-        the nearest to even from 1 to `most`, or to the most that can be counted with where
-        that is fewer; of those that are equally near the fewest points.
-
-    Raises
-    ------
-    InputError
-        as `straight_pool_odds` does.
-
-    >>> even = even_points(100, 0.9, 0.85)
-    >>> even.points_2, round(even.p_win_1, 3)
-    (60, 0.497)
-    """
-    most = min(
-        whole(most, "most", at_least=1), _most_points(exact(p2, "p2"), exact(safety_2, "safety_2"))
-    )
-
-    def win(points_2: int) -> float:
-        match = StraightPool(
-            points_1, points_2, p1, p2, safety_1=safety_1, safety_2=safety_2, first=first
-        )
-        return straight_pool_odds(match).p_win_1
-
-    low, high = 0, 1
-    while high < most and win(high) < 0.5:
-        low, high = high, min(2 * high, most)
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if win(middle) < 0.5 else (low, middle)
-    # 1 is among them for a player 1 who never wins, whatever player 2 needs.
-    nearest = min({1, low or 1, high}, key=lambda points_2: (abs(win(points_2) - 0.5), points_2))
-    less = win(nearest - 1) if nearest > 1 else None
-    more = win(nearest + 1) if nearest < most else None
-    return EvenPoints(nearest, win(nearest), less, more)
 
 
 def _aligned(match: StraightPool) -> list[tuple[NDArray[Any], NDArray[Any]]]:
@@ -277,7 +192,7 @@ def _innings_to(points: int, p: Fraction, safety: Fraction, *, at_least: int) ->
             to_come = log_chance - math.log1p(-ratio)
             if to_come < peak - _TAIL:
                 break
-    # From the largest chance outward, so that none is the product of very many roundings.
+    # From the largest probability outwards, so that none collects very many roundings.
     turn = sum(ratio > 1.0 for ratio in ratios)
     before = np.cumprod(1.0 / np.array(ratios[:turn][::-1]))[::-1]
     chances = np.concatenate([before, [1.0], np.cumprod(ratios[turn:])])
@@ -294,19 +209,12 @@ def _ratios(points: int, p: Fraction, safety: Fraction) -> Iterator[float]:
         ratio = ((a + b) * j + start - a * b * j / ratio) / (j + 1)
 
 
-def _most_points(p: Fraction, safety: Fraction) -> int:
-    """Return the most points that take no more than the most innings, on average."""
-    if p == 1 or p * safety == 0:
-        return sys.maxsize
-    return max(1, math.floor((_LONGEST * safety * p - p) / (1 - p)))
-
-
 def _refuse_endless(number: int, points: int, p: Fraction, safety: Fraction) -> None:
     if p * safety == 0:
         return
     innings = (points * (1 - p) + p) / (safety * p)
-    if innings > _LONGEST:
+    if innings > LONGEST:
         raise InputError(
             f"p{number} is {float(p):g}: {points} points take {float(innings):.3g} innings on "
-            f"average and {_LONGEST:,} are the most here; give a larger chance or fewer points"
+            f"average and {LONGEST:,} are the most here; give a larger chance or fewer points"
         )

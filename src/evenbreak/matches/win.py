@@ -1,38 +1,45 @@
-"""Who wins: the chance of winning a match, for one pair of chances or arrays of them."""
+"""The chance of winning a match, for one pair of probabilities or for arrays of them."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import betainc
 
-from evenbreak.checks import one_of, probability
+from evenbreak.checks import one_of, plain, probability, together, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, broadcast, plain
+from evenbreak.matches.parameters import at_score, broadcast, in_shape
 
 
+@overload
+def win_probability(
+    match: Match[float], score: Score | None = None, *, player: int = 1
+) -> float: ...
+@overload
+def win_probability(
+    match: Match[Any], score: Score | None = None, *, player: int = 1
+) -> NDArray[np.float64]: ...
 def win_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins the match).
 
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks or of sets. The chances of its innermost
+        a race or an n-ahead match, of racks or of sets. The probabilities of its innermost
         rack may be arrays; p1 and p2 are broadcast together.
     score
         the score now, in racks (in sets for a match of sets); the match's first breaker
         breaks the next rack. None: the match's own start score.
     player
-        1 or 2. Each player's chance is worked out by itself, never as 1 minus the
-        other's, so both are right when tiny. They add up to 1 minus the chance that
-        the match never ends.
+        1 or 2. Each player's chance is worked out by itself, never as 1 minus the other's, so
+        both are accurate even if tiny. They add up to 1 minus P(the match never ends).
 
     Returns
     -------
@@ -57,7 +64,7 @@ def win_probability(match: Match, score: Score | None = None, *, player: int = 1
     """
     one_of(player, "player", (1, 2))
     match, shape = broadcast(at_score(match, score))
-    return plain(_win(match, player), shape)
+    return in_shape(_win(match, player), shape)
 
 
 def _win(match: Match, player: int) -> Any:
@@ -74,10 +81,14 @@ def _win(match: Match, player: int) -> Any:
         return betainc(mine, theirs, one)
     if isinstance(rack, Rack):
         endings = race_endings(*need, rack, match.breaks, match.first_breaker)[player - 1]
-        return np.minimum(endings.sum(axis=0), 1.0)  # rounding may bring a sum above 1
+        return np.minimum(endings.sum(axis=0), 1.0)  # rounding may take a sum above 1
     return outcomes_of(match, lengths=False).p_win(player)
 
 
+@overload
+def race_win_probability(p: float, m: int, n: int) -> float: ...
+@overload
+def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> NDArray[np.float64]: ...
 def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     """Return W(p; m, n): P(player 1 wins m games before player 2 wins n), elementwise.
 
@@ -87,13 +98,13 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
         P(player 1 wins a game), whoever breaks.
     m, n
         the games that player 1 and player 2 need: whole numbers, 0 for a player who has
-        won already; not both 0. The three are broadcast together.
+        already won; not both 0. The three are broadcast together.
 
     Returns
     -------
     float or numpy.ndarray
         the regularised incomplete beta function I_p(m, n). Player 2's chance is
-        W(1 - p; n, m), right also when it is tiny.
+        W(1 - p; n, m), which is accurate even if it is tiny.
 
     Raises
     ------
@@ -108,33 +119,16 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     >>> race_win_probability(0.5, [1, 2, 3], 2)
     array([0.75  , 0.5   , 0.3125])
     """
-    needs_1, needs_2 = _needs(m, "m"), _needs(n, "n")
+    needs_1, needs_2 = whole_numbers(m, "m", at_least=0), whole_numbers(n, "n", at_least=0)
     chances = probability(p, "p")
-    try:
-        chance = betainc(needs_1, needs_2, chances)
-    except ValueError:
-        shapes = " and ".join(str(np.shape(part)) for part in (chances, needs_1, needs_2))
-        raise InputError(
-            f"p, m and n have shapes {shapes}; give shapes that broadcast together"
-        ) from None
+    together(p=chances, m=needs_1, n=needs_2)
+    chance = betainc(needs_1, needs_2, chances)
     if not (needs_1.all() and needs_2.all()):
         won_1, won_2 = needs_1 == 0, needs_2 == 0
         if (won_1 & won_2).any():
             raise InputError(
-                "m and n are both 0 somewhere; one player has won, the other still needs 1 or more"
+                "m and n are both 0 somewhere, but only one player can have won; give 1 or more "
+                "for the other"
             )
         chance = np.where(won_1, 1.0, np.where(won_2, 0.0, chance))
-    return plain(chance, np.shape(chance))
-
-
-def _needs(games: ArrayLike, name: str) -> Any:
-    needed = np.asarray(games)
-    if needed.dtype.kind not in "iuf" or not needed.size:
-        right = not needed.size
-    else:
-        right = bool(needed.min() >= 0) and bool(
-            needed.dtype.kind != "f" or (np.isfinite(needed) & (needed == np.floor(needed))).all()
-        )
-    if not right:
-        raise InputError(f"{name} is {games!r}; give whole numbers, 0 or more")
-    return needed
+    return plain(np.asarray(chance))

@@ -1,9 +1,10 @@
-"""Who wins, as polynomials with whole coefficients in p and q = 1 - p, where no break matters.
+"""The chance of winning as polynomials in p and q = 1 - p, if the break does not matter.
 
-A form of degree N is the list of coefficients c[k] of p^k q^(N-k). Every match has two of
-them, without a negative coefficient, and W(p) = F1 / (F1 + F2): a race is a sum over its
-scores, an n-ahead match the ruin of a gambler, and a match of sets puts the forms of the set
-in the place of p and q. Questions about W become questions about signs of whole numbers.
+A form of degree N is the list of coefficients c[k] of p^k q^(N-k), whole numbers. Every match
+has two forms without negative coefficients, F1 and F2, and W(p) = F1 / (F1 + F2). For a race
+they are sums over its scores, for an n-ahead match those of the gambler's ruin, and a match of
+sets has the forms of the set in place of p and q. Questions about W become questions about the
+signs of whole numbers.
 """
 
 from __future__ import annotations
@@ -79,7 +80,7 @@ def value_at(form: Sequence[int], p: int, q: int) -> int:
     15
     """
     value, power = 0, 1
-    for coefficient in form:  # Horner's rule in q, the powers of p gathered on the way
+    for coefficient in form:  # Horner's rule in q, with the powers of p collected on the way
         value, power = value * q + coefficient * power, power * p
     return value
 
@@ -89,7 +90,7 @@ def _ahead(m: int, n: int) -> WinForms:
 
 
 def _win_by(m: int, n: int, by: int) -> WinForms:
-    """Return the forms of a race win-by-K: ways to reach a score, times what follows there."""
+    """Return the forms of a race win-by-K: ways to reach a score, times what follows it."""
     race = Race(m, n, Rack(0.5), win_by=by)
     over = [1] * (2 * by)
     ways = {(0, 0): 1}
@@ -119,7 +120,7 @@ def _win_by(m: int, n: int, by: int) -> WinForms:
 
 
 def _composed(outer: Form, inside: WinForms) -> Form:
-    """Return a form of the score of a match with the forms of its sets in place of p and q."""
+    """Return a form with the forms of a set in place of p and q."""
     won, lost = inside
     result, power = [0], [1]
     for place, coefficient in enumerate(reversed(outer)):

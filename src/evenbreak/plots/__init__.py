@@ -1,4 +1,4 @@
-"""Figures: each takes and returns matplotlib figures."""
+"""Figures, as matplotlib figures and axes."""
 
 import lazy_loader
 

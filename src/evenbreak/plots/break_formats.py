@@ -1,4 +1,4 @@
-"""The contour plots of what a break format is worth, and two players on them."""
+"""Contour plots of what a break format is worth, with two players as a dot."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ _DIFFERENCES = (-0.3, -0.2, -0.1, -0.05, 0, 0.05, 0.1, 0.2, 0.3)
 def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Figure, list[Axes]]:
     """Draw player 1's long-run share of racks over (p1, p2) in four panels without titles.
 
-    Winner, loser and alternate breaks, and winner less loser breaks.
+    The panels are winner, loser and alternate breaks, and winner minus loser breaks.
 
     Parameters
     ----------
     x, y
-        what p1 and p2 are the probability of.
+        what p1 and p2 are the probabilities of.
     first_breaker
         who breaks the first rack, as in `evenbreak.practice.long_run_share`.
 
@@ -61,7 +61,7 @@ def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Figure, lis
 
 
 def _shares(first_breaker: int) -> list[Callable[[Any, Any], Any]]:
-    """Return player 1's share in winner, loser and alternate breaks, and winner less loser."""
+    """Return player 1's share in winner, loser and alternate breaks, and winner minus loser."""
     winner, loser, alternate = (
         partial(long_run_share, breaks=BREAK_FORMATS[name], first_breaker=first_breaker)
         for name in ("winner", "loser", "alternate")
@@ -72,8 +72,8 @@ def _shares(first_breaker: int) -> list[Callable[[Any, Any], Any]]:
 def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Figure:
     """Draw player 1's long-run share of racks over (p1, p2), with the two players as a dot.
 
-    Four panels: winner, loser and alternate breaks, and winner less loser breaks; player 1 is
-    called A and player 2 B.
+    Four panels: winner, loser and alternate breaks, and winner minus loser breaks. Player 1 is
+    called A, player 2 B.
 
     Parameters
     ----------
@@ -98,13 +98,13 @@ def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Figure:
     p1, p2 = rack.p1, rack.chance(2, breaker=2)
     figure, panels = share_panels(x=_X, y=_Y, first_breaker=first_breaker)
     *shares, difference = (share(p1, p2) for share in _shares(first_breaker))
-    told = f"{difference:+.3f}".replace("-", "\N{MINUS SIGN}")
+    text = f"{difference:+.3f}".replace("-", "\N{MINUS SIGN}")
     titles = [
         f"{name} breaks: A wins {share:.3f}"
         for name, share in zip(("winner", "loser", "alternate"), shares, strict=True)
     ]
-    for axes, title in zip(panels, [*titles, f"winner less loser breaks: {told}"], strict=True):
+    for axes, title in zip(panels, [*titles, f"winner minus loser breaks: {text}"], strict=True):
         axes.set_title(title)
         mark_points(axes, [(p1, p2, "")])
-    figure.suptitle(f"the dot: A wins {p1:g} of A's breaks, B wins {p2:g} of B's breaks")
+    figure.suptitle(f"the dot: A wins {p1:g} of the racks A breaks, B {p2:g} of the racks B breaks")
     return figure

@@ -1,4 +1,4 @@
-"""Contour lines over the unit square: what a pair of probabilities (p1, p2) is worth."""
+"""Contour lines over the unit square: the value of a pair of probabilities (p1, p2)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.contour import QuadContourSet
     from numpy.typing import NDArray
 
-Surface: TypeAlias = "Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]"
+Surface: TypeAlias = Callable[[Any, Any], Any]
 
 TENTHS = tuple(tenth / 10 for tenth in range(1, 10))
 """The levels 0.1, 0.2, ..., 0.9 of a probability."""
@@ -20,11 +20,11 @@ TENTHS = tuple(tenth / 10 for tenth in range(1, 10))
 _POINTS = 201
 """Of the grid along each side."""
 _INSIDE = 1e-6
-"""How far the grid keeps from the edges: at a corner a limit may depend on the way to it."""
+"""The distance of the grid from the edges: at a corner a limit may depend on the direction."""
 _CLEAR = 0.06
-"""How far a label stands from the edge and from other lines; half of it would still do."""
+"""The distance of a label from the edge and from other lines; half of it is still enough."""
 _NOISE = 12
-"""Digits kept, so that a line on which two formulas agree is straight."""
+"""Digits kept, so that a line along which two formulas agree is straight."""
 
 
 def contour_axes(
@@ -38,22 +38,22 @@ def contour_axes(
 ) -> QuadContourSet:
     """Draw the contour lines of a function of two probabilities, each labelled with its level.
 
-    Negative levels are dashed, the `main` one is thick; all lines are black, so that
-    the figure reads the same in black and white.
+    Negative levels are dashed, the `main` one is thick. All lines are black, so the figure reads
+    the same in black and white.
 
     Parameters
     ----------
     axes
-        drawn on; made a square of side 1.
+        the axes to draw on; they become a square of side 1.
     function
-        of two arrays p1 and p2 of one shape, in (0, 1), to an array of that shape. It is
-        never asked for p1 or p2 of exactly 0 or 1.
+        takes two arrays p1 and p2 of the same shape, in (0, 1), and returns an array of that
+        shape. p1 and p2 are never exactly 0 or 1.
     x, y
-        what p1 and p2 are the probability of.
+        what p1 and p2 are the probabilities of.
     levels
-        of the lines, increasing.
+        the levels of the lines, increasing.
     main
-        the level of the thick line, as a rule the even chance.
+        the level of the thick line, usually the even chance.
 
     Returns
     -------
@@ -62,7 +62,7 @@ def contour_axes(
 
     Notes
     -----
-    Source: the manner of Figs. 5.3 and 5.6.
+    Source: the style of Figs. 5.3 and 5.6.
 
     >>> from evenbreak.plots.style import new_axes
     >>> figure, axes = new_axes("", "")
@@ -91,7 +91,7 @@ def contour_axes(
 
 
 def _label_places(lines: QuadContourSet) -> list[tuple[float, float]]:
-    """Return a point of every line: off the edge, clear of other lines, near the centre."""
+    """Return a point on every line: off the edge, clear of other lines, near the centre."""
     pieces = [piece for level in lines.allsegs for piece in level if len(piece) > 1]
     places = []
     for here, piece in enumerate(pieces):
@@ -102,7 +102,7 @@ def _label_places(lines: QuadContourSet) -> list[tuple[float, float]]:
         others = [other for there, other in enumerate(pieces) if there != here]
         tightness = -np.minimum(_distance(inner, others), _CLEAR)
         off_centre = np.hypot(*(inner - 0.5).T)
-        # Rounded, so that of two places as good as each other the first one is taken.
+        # Rounded, so that of two equally good places the first one is taken.
         best = np.lexsort((np.round(off_centre, 6), np.round(tightness, 6)))[0]
         places.append((float(inner[best, 0]), float(inner[best, 1])))
     return places
@@ -118,5 +118,5 @@ def _distance(points: NDArray[np.float64], lines: list[NDArray[np.float64]]) -> 
 
 
 def _level(level: Any) -> str:
-    """Return a level in as few digits as it has, with a true minus sign."""
+    """Return a level with as few digits as possible and a true minus sign."""
     return f"{level:.4g}".replace("-", "\N{MINUS SIGN}")

@@ -1,4 +1,4 @@
-"""Game diagrams: circles for states, arrows for what can come next, as in Figs. 5.2 to 5.10."""
+"""Game diagrams: circles for states and arrows for moves, as in Figs. 5.2 to 5.10."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _MOST_STATES = 150
 _INCHES = 1.25
-"""Length of a unit on paper, with labels of up to eight characters."""
+"""The length of a unit, with labels of up to eight characters."""
 _MARGIN = 0.12
 
 
@@ -26,23 +26,22 @@ def draw(
 ) -> Figure:
     """Draw a game's diagram: states as circles, each arc with its probability.
 
-    The start has an arrow from outside; a terminal node is a double circle, light where
-    player 1 has won and dark where player 2 has. An arc is labelled with its `label`
-    if it carries one (`"$p_1$"` is set as mathematics), else with its `probability` of
-    the target, given the source, to three significant digits; a node with its `label`,
-    else with its name, scores as a:b. In a graph of one's own the start is the node
-    whose `kind` is "start", the first one if no node has a `kind`; a node of the kind
-    "words" is written without a circle: dots, or a heading.
+    An arrow from outside marks the start. A terminal node is a double circle, light if player 1
+    has won and dark if player 2 has. The text of an arc is its `label` if it has one (`"$p_1$"`
+    is set as mathematics), else its `probability` to three significant digits; the text of a
+    node is its `label`, else its name, with scores as a:b. In your own graph the start is the
+    node whose `kind` is "start", or the first node if no node has a `kind`; a node of the kind
+    "words" is text without a circle, such as dots or a heading.
 
     Parameters
     ----------
     game
-        a game, or a directed graph whose arcs carry a `probability` or a `label`. A node
-        whose only arc leads to itself is drawn as terminal.
+        a game, or a directed graph whose arcs have a `probability` or a `label`. A node whose
+        only arc leads to itself is drawn as terminal.
     layout
-        a place (x, y) for every state, neighbours about 1 apart; None finds one.
+        a place (x, y) for every state, neighbours about 1 apart; None: find one.
     title
-        written above the diagram.
+        text above the diagram.
 
     Returns
     -------
@@ -52,7 +51,7 @@ def draw(
     Raises
     ------
     InputError
-        if there is no state or more than 150, or `layout` leaves a state out.
+        if there are no states or more than 150, or `layout` leaves out a state.
 
     Notes
     -----
@@ -69,8 +68,8 @@ def draw(
     graph = game if isinstance(game, nx.DiGraph) else graph_of(game)
     if not 0 < len(graph) <= _MOST_STATES:
         raise InputError(
-            f"game has {len(graph)} states; a diagram can be read with 1 to {_MOST_STATES}, "
-            "so draw a shorter match"
+            f"game has {len(graph)} states; a diagram can be read with 1 to {_MOST_STATES}, so "
+            "draw a shorter match"
         )
     start = _start_of(graph)
     places = (
@@ -104,7 +103,7 @@ def draw(
 
 
 def image_bytes(figure: Figure, kind: Literal["png", "svg"] = "svg") -> bytes:
-    """Return a figure as the bytes of a PNG or SVG file, the same ones every time.
+    """Return a figure as the bytes of a PNG or SVG file, always the same bytes.
 
     >>> from evenbreak.games import OneBall
     >>> image_bytes(draw(OneBall(0.4, 0.8)), "png")[1:4]
@@ -115,7 +114,7 @@ def image_bytes(figure: Figure, kind: Literal["png", "svg"] = "svg") -> bytes:
     import matplotlib as mpl
 
     out = io.BytesIO()
-    # A salt in place of random ids, and neither a date nor a version of the program.
+    # A salt instead of random ids, and no date or program version.
     metadata: dict[str, Any] = {"Date": None, "Creator": None} if kind == "svg" else {}
     with our_look(), mpl.rc_context({"svg.hashsalt": "evenbreak"}):
         figure.savefig(out, format=kind, dpi=150, metadata=metadata or {"Software": None})
@@ -123,7 +122,7 @@ def image_bytes(figure: Figure, kind: Literal["png", "svg"] = "svg") -> bytes:
 
 
 def _start_of(graph: nx.DiGraph[Any]) -> Any:
-    """Return the start, None if the kinds of the nodes name none."""
+    """Return the start, or None if the kinds of the nodes do not say."""
     kinds = [graph.nodes[state].get("kind") for state in graph]
     if not any(kinds):
         return next(iter(graph))
@@ -135,7 +134,7 @@ def _state_label(graph: nx.DiGraph[Any], state: Any) -> str:
     if given is not None:
         return str(given)
     if isinstance(state, tuple):
-        # Who would break after the last rack is no part of a result.
+        # Who would break after the last rack is not part of a result.
         return _score_label(state[:2] if is_terminal(graph, state) else state)
     subscripted = re.fullmatch(r"([A-Za-z])(\d+)", str(state))
     return f"${subscripted[1]}_{{{subscripted[2]}}}$" if subscripted else str(state)

@@ -1,4 +1,4 @@
-"""The picture of match formats side by side: W against p, and where they are even and cross."""
+"""Match formats in one picture: the chance of winning against p, and where the curves cross."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ def plot_formats(
     *,
     p1: float,
 ) -> Figure:
-    """Return a figure of P(A wins the match) against A's chance in a game, a curve a format.
+    """Return a figure of P(A wins the match) against A's chance in a game, a curve per format.
 
     Parameters
     ----------
     formats
-        the matches, seven at the most.
+        the matches, seven at most.
     line
-        what stays as p1 varies, as options of `evenbreak.matches.crossings`.
+        what stays fixed as p1 varies, as options of `evenbreak.matches.crossings`.
     pairs
         the crossings, each marked by a dot.
     p1
-        the players at hand, an upright line.
+        A's chance for the two players in question, a vertical line.
 
     >>> from evenbreak.matches import crossings, match_format
     >>> two = [match_format("2:1"), match_format("4:2")]

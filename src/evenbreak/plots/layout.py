@@ -1,4 +1,4 @@
-"""Where the nodes of a game diagram go: on a line, on the lattice of scores, or in layers."""
+"""Where the nodes of a game diagram go: on a line, on a grid of scores, or in layers."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
 Positions: TypeAlias = Mapping[Any, tuple[float, float]]
-"""State to (x, y), in units of the distance between neighbours."""
+"""The place (x, y) of each state, in units of the distance between neighbours."""
 
 _SWEEPS = 8
 
@@ -17,18 +17,18 @@ _SWEEPS = 8
 def positions_of(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, float]]:
     """Return a place for every node, in units of the distance between neighbours.
 
-    A graph that is a path once self-loops and directions are forgotten (one-ball,
-    n-ahead, drills) lies on a line, the states where player 1 wins to the right. One
-    whose states are scores (a, b) lies on their lattice: racks played to the right,
-    player 1's lead upwards. Every other graph is layered by its distance from `start`,
-    terminal nodes on outer rows: player 1's wins above, the others below.
+    A graph that is a path, ignoring self-loops and directions (one-ball, n-ahead, drills), lies
+    on a line, with player 1's wins to the right. A graph whose states are scores (a, b) lies on
+    a grid: racks played to the right, player 1's lead upwards. Any other graph is layered by
+    the distance from `start`, with terminal nodes on the outer rows: player 1's wins above, the
+    others below.
 
     Parameters
     ----------
     graph
-        the diagram; nodes may carry `winner`, terminal ones have no arc to another node.
+        the diagram; nodes may have a `winner`, and terminal nodes have no arc to another node.
     start
-        the node that the layers are counted from.
+        the node from which the layers are counted.
 
     >>> from evenbreak.game import graph_of
     >>> from evenbreak.games import OneBall
@@ -70,7 +70,7 @@ def _on_the_lattice(graph: nx.DiGraph[Any]) -> dict[Any, tuple[float, float]]:
 
     if not all(is_score(state) for state in graph):
         return {}
-    # 0.75 rather than 0.5: arcs of slope 3/4 leave room for their labels.
+    # 0.75 instead of 0.5: arcs of slope 3/4 leave room for their labels.
     return {(a, b): (float(a + b), 0.75 * (a - b)) for a, b in graph}
 
 

@@ -1,4 +1,4 @@
-"""The picture of a match as it went: who was how likely to win, rack after rack."""
+"""A match so far as a picture: how likely each player was to win, rack after rack."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ if TYPE_CHECKING:
     from evenbreak.matches.live import LiveOdds
 
 _MOST_SCORES = 24
-"""Scores that fit below the picture; beyond, every so many are written."""
+"""The most scores that fit below the picture; of more, only every second, third, ... is written."""
 
 _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
-"""Of the picture's width and height: room for a label, and what is free between it and the line."""
+"""Shares of the picture: the width and height of a label, and its distance from the line."""
 
 
 def plot_course(odds: LiveOdds) -> Figure:
-    """Return a figure of a match as it went; player 1 is A and player 2 is B.
+    """Return a figure of a match so far; player 1 is A and player 2 is B.
 
-    Above, P(A wins the match) after each rack: a filled dot is a rack that A won, an open one
-    a rack that B won; the rack that moved the match most is marked. Below, the leverage of
-    each rack before it was played: how much hung on it.
+    The upper panel is P(A wins the match) after each rack: a filled dot is a rack that A won, an
+    open dot a rack that B won, and the rack that changed most is marked. The lower panel is the
+    leverage of each rack: how much depended on it before it was played.
 
     Parameters
     ----------
     odds
-        the match, with one rack at least.
+        the match, with at least one rack.
 
     >>> from evenbreak.games import Race, Rack
     >>> from evenbreak.matches import live_odds
@@ -55,10 +55,10 @@ def plot_course(odds: LiveOdds) -> Figure:
             above.plot(at, chances, "o", color=line.color, mfc=face, ms=7, label=name, zorder=3)
     most = max(range(len(odds.swings)), key=lambda i: abs(odds.swings[i]))
     swing = odds.swings[most]
-    told = f"{swing:+.2f}".replace("-", "\N{MINUS SIGN}")
+    change = f"{swing:+.2f}".replace("-", "\N{MINUS SIGN}")
     above.plot(racks[most : most + 2], wins[most : most + 2], color=line.color, linewidth=3.0)
     place, va = _clear_of(wins, most + 0.5)
-    label = above.text(most + 0.5, place, told, fontsize=9, ha="center", va=va)
+    label = above.text(most + 0.5, place, change, fontsize=9, ha="center", va=va)
     label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.0})  # over the line of 1/2
     above.set(ylim=(-0.03, 1.03), ylabel="P(A wins the match)")
     above.legend(frameon=False, loc="best")
@@ -69,14 +69,14 @@ def plot_course(odds: LiveOdds) -> Figure:
     shown = list(racks)[::step]
     below.set_xticks(shown, [_score(odds.course[i].scores) for i in shown])
     if any(len(moment.scores) > 1 for moment in odds.course):
-        below.set_xlabel("score, below it that of the set")
+        below.set_xlabel("score, and below it the score of the set")
     for axes in (above, below):
         axes.tick_params(direction="in", top=True, right=True)
     return figure
 
 
 def _clear_of(wins: Sequence[float], x: float) -> tuple[float, Literal["bottom", "top"]]:
-    """Return where a label centred at x keeps clear of the line, and which end of it is there.
+    """Return where a label centred at x is clear of the line, and which end of it that is.
 
     >>> _clear_of([0.25, 0.25, 0.25], 1.5)
     (0.3, 'bottom')

@@ -1,4 +1,4 @@
-"""Dots with a name beside them, on a plot of pairs of chances."""
+"""Dots with names beside them, on a plot of pairs of probabilities."""
 
 from __future__ import annotations
 
@@ -12,10 +12,9 @@ if TYPE_CHECKING:
 
 
 def mark_points(axes: Axes, points: Iterable[tuple[float, float, str]]) -> None:
-    """Mark points of the unit square by dots, each with its name on the side where there is room.
+    """Mark points of the unit square by dots, each with its name on the side that has room.
 
-    Points in one place share a dot; their names stand together. A point without a name, "", is a
-    bare dot.
+    Points in the same place share a dot and a label. A point whose name is "" has no label.
 
     >>> from evenbreak.plots.style import new_axes
     >>> _, axes = new_axes("p1", "p2")
@@ -29,11 +28,11 @@ def mark_points(axes: Axes, points: Iterable[tuple[float, float, str]]) -> None:
     for (x, y), together in names.items():
         right, above = x <= 0.5, y <= 0.5
         axes.plot([x], [y], "o", color=LINES[2].color, mec="white", ms=9, clip_on=False, zorder=5)
-        told = ", ".join(filter(None, together))
-        if not told:
+        label = ", ".join(filter(None, together))
+        if not label:
             continue
         axes.annotate(
-            told,
+            label,
             (x, y),
             xytext=(7 if right else -7, 7 if above else -7),
             textcoords="offset points",

@@ -1,4 +1,4 @@
-"""Pictures of a score, with its mean, median and mode, and of a spot in straight pool."""
+"""Pictures of a score, with its mean, median and mode, and of the spot in straight pool."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from evenbreak.stats.runs import RunLength
 
 _SHOWN = (0.001, 0.995)
-"""The quantiles from which and up to which scores are drawn."""
+"""The quantiles between which scores are drawn."""
 
 _COLORS = ("#CC79A7", "#009E73", "#E69F00")
 _HATCHES = ("////", "\\\\\\\\", "....")
-"""How the spans of scores that were asked for are shaded."""
+"""The shading of the spans of scores that were asked for."""
 
 _POINTS = 150
-"""How many numbers of points a curve is drawn through, at the most."""
+"""The most points that a curve is drawn through."""
 
 
 def plot_score(
@@ -37,11 +37,11 @@ def plot_score(
     Parameters
     ----------
     law
-        the law of the score.
+        the distribution of the score.
     innings
-        in how many innings it is made, for the words beside the axes.
+        the number of innings, for the label of the axis.
     asked
-        spans of scores to shade, each with its name: the fewest balls and the most, or None.
+        spans of scores to shade, each with its name: the fewest balls, and the most or None.
 
     >>> from evenbreak.stats import RunLength
     >>> figure = plot_score(RunLength(0.9))
@@ -80,36 +80,36 @@ def plot_score(
     return figure
 
 
-def plot_spot(match: StraightPool, *, weaker: int, even: int | None, title: str = "") -> Figure:
-    """Return a figure of A's chance in straight pool against the points that the weaker needs.
+def plot_spot(match: StraightPool) -> Figure:
+    """Return a figure of A's chance in straight pool against the weaker player's points.
+
+    The match as it stands is a dot on the curve. If any number of points makes it even (see
+    `even_spot`), a dashed line marks the one nearest to even.
 
     Parameters
     ----------
     match
-        the match as it is, a dot on the curve; player 1 is A.
-    weaker
-        the player whose points vary, 1 or 2.
-    even
-        the points of that player that are nearest to even, a dashed line; None draws none.
-    title
-        who plays.
+        the match; player 1 is A.
 
     >>> from evenbreak.matches import StraightPool
-    >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8), weaker=2, even=21)
+    >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8))
     >>> figure.axes[0].get_xlabel()
     'points that B needs'
     """
     import numpy as np
 
     from evenbreak.matches.straight_pool import straight_pool_odds
+    from evenbreak.matches.straight_pool_spot import even_spot
 
+    weaker, even, _ = even_spot(match)
     name = f"points_{weaker}"
     now = getattr(match, name)
     most = max(now, min(2 * (even or now), match.points_1 + match.points_2 - now))
     points = np.unique(np.linspace(1, most, _POINTS).round().astype(int)).tolist()
     wins = [straight_pool_odds(replace(match, **{name: n})).p_win_1 for n in points]
+    shots = f"A makes a shot with {float(match.p1):.4g}, B with {float(match.p2):.4g}"
     figure, axes = new_axes(
-        f"points that {'AB'[weaker - 1]} needs", "P(A wins the match)", title=title
+        f"points that {' AB'[weaker]} needs", "P(A wins the match)", title=shots
     )
     curve, half = LINES[:2]
     axes.plot(points, wins, color=curve.color, linestyle=curve.linestyle)
@@ -122,8 +122,8 @@ def plot_spot(match: StraightPool, *, weaker: int, even: int | None, title: str 
     )
     axes.axhline(0.5, color="0.7", linewidth=0.8)
     if even is not None:
-        told = f"nearest to even: {even}"
-        axes.axvline(even, color=half.color, linestyle=half.linestyle, label=told)
+        name = f"nearest to even: {even}"
+        axes.axvline(even, color=half.color, linestyle=half.linestyle, label=name)
     axes.set_ylim(-0.02, 1.02)
     axes.margins(x=0.02)
     axes.legend(frameon=False)

@@ -1,4 +1,4 @@
-"""Shots of the one-ball game on the contour plot of what they win."""
+"""Shots of the one-ball game on a contour plot of the chance of winning."""
 
 from __future__ import annotations
 
@@ -10,41 +10,41 @@ from evenbreak.checks import one_of
 from evenbreak.plots.contours import contour_axes
 from evenbreak.plots.point_labels import mark_points
 from evenbreak.plots.style import new_axes
-from evenbreak.practice.shots import LOOK_AHEADS, Shot, one_ball_win
+from evenbreak.practice.shots import LOOK_AHEADS, ShotChoice, one_ball_win
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _TITLES = {
-    "infinite": "P(you win), the shots repeated",
+    "infinite": "P(you win), the two shots repeated",
     "two shots": "P(you win), even after two misses",
 }
 
 
-def shots_figure(shots: Sequence[Shot], *, look_ahead: str = "infinite") -> Figure:
-    """Draw P(player 1 wins the one-ball game) over (p1, p2), each shot a dot with its name.
+def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -> Figure:
+    """Draw P(player 1 wins the one-ball game) over (p1, p2), with each shot as a dot.
 
-    The thick line is the critical one: below it player 1, called you, is the favourite.
+    Below the thick line player 1, called "you", is the favourite.
 
     Parameters
     ----------
     shots
-        what player 1 may choose from.
+        the shots that player 1 may choose from.
     look_ahead
         as in `evenbreak.practice.one_ball_win`.
 
     Raises
     ------
     InputError
-        if the look-ahead is another.
+        if there is no such look-ahead.
 
     Notes
     -----
     Source: Fig. 5.3.
 
-    >>> figure = shots_figure([Shot("bank", 0.4, 0.8)])
+    >>> figure = shots_figure([ShotChoice("bank", 0.4, 0.8)])
     >>> figure.axes[0].get_title()
-    'P(you win), the shots repeated'
+    'P(you win), the two shots repeated'
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
     figure, axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6))

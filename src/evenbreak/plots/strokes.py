@@ -1,4 +1,4 @@
-"""The strokes of a game diagram: circles, arcs, loops, and labels that keep out of their way."""
+"""The circles, arcs and loops of a game diagram, and labels that stay clear of them."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ FONT = 11.0
 _HEAD = "-|>,head_length=5,head_width=2.5"
 _BENDS = (0.0, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6)
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7)
-"""Where along an arc its label may go, the best place first."""
+"""Where along an arc its label may go, best place first."""
 _FILL = {1: ("0.85", "black"), 2: ("0.35", "white"), None: ("white", "black")}
-"""Fill and text of a terminal node by who has won there; they differ in black and white too."""
+"""Fill and text colour of a terminal node by winner; they differ in black and white too."""
 
 
 def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
@@ -34,7 +34,7 @@ def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
 
 
 def is_words(graph: nx.DiGraph[Any], state: Any) -> bool:
-    """Return whether a node is no state but something written: dots, or a heading."""
+    """Return whether a node is not a state but text, such as dots or a heading."""
     return bool(graph.nodes[state].get("kind") == "words")
 
 
@@ -45,12 +45,12 @@ def _arc_label(arc: Mapping[str, Any]) -> str:
 
 
 def longest_line(text: str) -> int:
-    """Return how many characters the longest line shows; mathematical marks take no room."""
+    """Return how many characters the longest line shows; mathematical markup takes no room."""
     return max(len(re.sub(r"\\[a-z]+|[${}_^\\]", "", line)) for line in text.split("\n"))
 
 
 def _bent(a: Point, b: Point, bend: float, t: float) -> Point:
-    """Return the point at t of the arc from a to b: a quadratic Bezier curve."""
+    """Return the point at t of the arc from a to b, a quadratic Bezier curve."""
     control = (
         (a[0] + b[0]) / 2 + bend * (b[1] - a[1]),
         (a[1] + b[1]) / 2 - bend * (b[0] - a[0]),
@@ -64,7 +64,7 @@ def _bent(a: Point, b: Point, bend: float, t: float) -> Point:
 
 
 class Pen:
-    """Draws one diagram: first arcs, so that the circles cover their ends."""
+    """Draws one diagram: arcs first, so that the circles cover their ends."""
 
     def __init__(
         self, axes: Axes, graph: nx.DiGraph[Any], places: Positions, inches: float
@@ -81,7 +81,7 @@ class Pen:
         ]
 
     def draw(self, start: Any, labels: Mapping[Any, str]) -> None:
-        """Draw it all; `labels` names the states, `start` may be None."""
+        """Draw everything; `labels` are the texts of the states, `start` may be None."""
         arcs = [(source, target) for source, target in self.graph.edges if source != target]
         bends = {arc: self.bend(*arc) for arc in arcs}
         for arc, bend in bends.items():
@@ -100,7 +100,7 @@ class Pen:
                 self.circle(state, label)
 
     def bend(self, source: Any, target: Any) -> float:
-        """Return a curvature that passes no other circle and leaves the opposite arc alone."""
+        """Return a curvature that keeps clear of other circles and of the opposite arc."""
         a, b = self.places[source], self.places[target]
         opposite = self.graph.has_edge(target, source)
         others = [self.places[s] for s in self.graph if s not in (source, target)]
@@ -111,7 +111,7 @@ class Pen:
                 (hypot(x - u, y - v) for x, y in path for u, v in others), default=2 * _RADIUS
             )
 
-        # Positive: both of two opposite arcs bend to their own left, so they part.
+        # Positive: two opposite arcs each bend to their own left, so they separate.
         choices = [bend for bend in _BENDS if not opposite or bend > 0]
         return next((bend for bend in choices if clearance(bend) > 1.3 * _RADIUS), choices[0])
 
@@ -176,7 +176,7 @@ class Pen:
     def beside(
         self, points: Sequence[Point], side: Point, label: str, own: tuple[Any, Any]
     ) -> None:
-        """Write a label next to the first point of its own arc where it covers nothing else."""
+        """Write a label next to the first point of its own arc at which it covers nothing else."""
         font = FONT - 1
         wide = 0.3 * font * longest_line(label) / self.points_per_unit
         high = 0.6 * font / self.points_per_unit
@@ -200,7 +200,7 @@ class Pen:
         )
 
     def is_crossed(self, spot: Point, wide: float, high: float, own: tuple[Any, Any]) -> int:
-        """Return 0 if nothing is under a label at `spot`, 1 if an arc is, 2 if a label or node."""
+        """Return what a label at `spot` would cover: 0 nothing, 1 an arc, 2 a label or a node."""
 
         def under(x: float, y: float, extra_wide: float, extra_high: float) -> bool:
             return abs(spot[0] - x) < wide + extra_wide and abs(spot[1] - y) < high + extra_high
@@ -211,7 +211,7 @@ class Pen:
         return int(any(under(x, y, 0.02, 0.02) for track in tracks for x, y in track))
 
     def free_angle(self, state: Any, choices: tuple[float, ...], spare: float) -> float:
-        """Return the first direction with room to spare, else the one farthest from every arc."""
+        """Return the first direction with enough room, else the one farthest from every arc."""
 
         def gap(angle: float) -> float:
             turns = [abs((angle - used + pi) % (2 * pi) - pi) for used in self.used[state]]
@@ -220,7 +220,7 @@ class Pen:
         return next((angle for angle in choices if gap(angle) > spare), max(choices, key=gap))
 
     def arrow_into(self, start: Any) -> None:
-        """Mark the start: an arrow from nowhere."""
+        """Mark the start by an arrow from outside."""
         x, y = self.places[start]
         angle = self.free_angle(
             start, (pi, pi / 2, -pi / 2, 3 * pi / 4, -3 * pi / 4, 0.0), spare=0.7
@@ -236,7 +236,7 @@ class Pen:
         )
 
     def circle(self, state: Any, label: str) -> None:
-        """Draw a state; a terminal one as a double circle, filled by who has won."""
+        """Draw a state; a terminal one is a double circle, filled by winner."""
         from matplotlib.patches import Circle
 
         centre = self.places[state]
@@ -255,7 +255,7 @@ class Pen:
         self.axes.text(*centre, label, fontsize=font, color=ink, ha="center", va="center", zorder=4)
 
     def words(self, state: Any, label: str) -> None:
-        """Write a node that is no state."""
+        """Write a node that is not a state."""
         x, y = self.places[state]
         font = FONT + 2
         wide = 0.3 * font * longest_line(label) / self.points_per_unit

@@ -1,4 +1,4 @@
-"""One look for all plots: readable in black and white, and by the colour-blind."""
+"""One style for all plots: readable in black and white and for the colour-blind."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class LineStyle(NamedTuple):
-    """A line that is told from the others by its colour and by its dashes."""
+    """A line that differs from the others in colour and in dashes."""
 
     color: str
     linestyle: str | tuple[int, tuple[float, ...]]
@@ -30,10 +30,10 @@ LINES = (
     LineStyle("#882255", (0, (13, 3))),
     LineStyle("#555555", (0, (1, 3))),
 )
-"""The lines of a plot in their order; the first seven colours are those of Okabe and Ito (2008)."""
+"""The lines of a plot, in order; the first seven colours are those of Okabe and Ito (2008)."""
 
 _LABEL = 10
-"""Size of a curve's name."""
+"""The font size of a curve's name."""
 _BESIDE = {
     "left": ((-6, 0), "right", "center"),
     "right": ((6, -1), "left", "center"),
@@ -43,7 +43,7 @@ _BESIDE = {
 
 @contextmanager
 def our_look() -> Iterator[None]:
-    """Let a reader's own matplotlib settings wait outside, so that all draw the same picture.
+    """Set the reader's own matplotlib settings aside, so that everybody gets the same picture.
 
     >>> import matplotlib as mpl
     >>> with mpl.rc_context({"font.size": 30}), our_look():
@@ -65,9 +65,9 @@ def new_axes(
     Parameters
     ----------
     x, y
-        what the axes measure, with the unit.
+        the labels of the axes, with units.
     title
-        written above.
+        text above the axes.
     size
         width and height in inches.
 
@@ -87,7 +87,7 @@ def new_axes(
 
 
 def unit_axis(axes: Axes, *which: str) -> None:
-    """Let the axes named, "x" or "y", run from 0 to 1, with a tick at every tenth.
+    """Let the axes given, "x" or "y", run from 0 to 1, with a tick at every tenth.
 
     >>> figure, axes = new_axes("p", "W")
     >>> unit_axis(axes, "x", "y")

@@ -13,7 +13,7 @@ from .log_tests import PlayedAgainTest as PlayedAgainTest
 from .progressive_fit import ProgressiveFit as ProgressiveFit
 from .progressive_fit import fit_progressive as fit_progressive
 from .shots import RankedShot as RankedShot
-from .shots import Shot as Shot
+from .shots import ShotChoice as ShotChoice
 from .shots import break_even_p2 as break_even_p2
 from .shots import compare_shots as compare_shots
 from .shots import critical_p2 as critical_p2

@@ -1,4 +1,4 @@
-"""Who breaks, rack after rack without end: two states, and what is won in each of them."""
+"""Who breaks, rack after rack without end: two states, and who wins in each of them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from evenbreak.games.rack import Rack
 
 
 class Breakers(NamedTuple):
-    """The two states of endless play, who breaks the rack, for arrays of chances.
+    """The two states of endless play (who breaks the rack), for arrays of probabilities.
 
     >>> from evenbreak.games import winner_breaks
     >>> breakers = Breakers.of(0.75, 0.5, winner_breaks)
@@ -31,12 +31,12 @@ class Breakers(NamedTuple):
 
     @classmethod
     def of(cls, p1: Any, p2: Any, breaks: BreakFormat) -> Breakers:
-        """Return the states for chances and a break format, which it checks."""
+        """Return the states for two probabilities and a break format; all are checked."""
         rack = Rack(p1, p2)
         checked_format(breaks)
         if p2 is None:
             raise InputError("p2 is missing; give P(player 2 wins a rack that player 2 breaks)")
-        one, two = np.broadcast_arrays(rack.p1, rack.p2)
+        one, two = np.broadcast_arrays(rack.chance(1, 1), rack.chance(2, 2))
         lose_1, win_2 = 1.0 - one, 1.0 - two
         return cls(
             one,
@@ -67,7 +67,7 @@ class Breakers(NamedTuple):
         return first * self.win_1 + second * self.win_2
 
     def lost(self, first_breaker: int) -> Any:
-        """Return the fraction that player 1 loses, right also when it is tiny."""
+        """Return the fraction that player 1 loses, accurate even if it is tiny."""
         first, second = self.broken(first_breaker)
         return first * self.lose_1 + second * self.lose_2
 
@@ -78,7 +78,7 @@ class Breakers(NamedTuple):
 
     @property
     def first_break(self) -> Any:
-        """(r_1 - r_2) / (a + b): infinite where the break never passes on."""
+        """(r_1 - r_2) / (a + b): infinite if the break never passes on."""
         edge, changes = self.win_1 - self.win_2, self.pass_1 + self.pass_2
         stays = changes == 0.0
         endless = np.where(edge == 0.0, 0.0, np.copysign(math.inf, edge))

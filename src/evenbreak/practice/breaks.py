@@ -1,31 +1,40 @@
-"""What a break format is worth in the long run: racks won, stakes, and how much it swings.
+"""What a break format is worth in the long run: racks won, stakes, and swings.
 
-Two states, who breaks. Let r_i be P(player 1 wins | i breaks), so r_1 = p1 and r_2 = 1 - p2,
-and let a and b be the chances that the break passes from 1 to 2 and back. Then
+There are two states: who breaks. Let r_i be P(player 1 wins | i breaks), so r_1 = p1 and
+r_2 = 1 - p2, and let a and b be the probabilities that the break passes from 1 to 2 and back.
+Then
 
     player 1 breaks the fraction  b / (a + b)  of the racks,
     wins the fraction             W = (b r_1 + a r_2) / (a + b),
     and the start is forgotten as the powers of the second eigenvalue, 1 - a - b.
 
 In winner breaks a = 1 - p1 and b = 1 - p2; in loser breaks a = p1 and b = p2; in alternate
-breaks a = b = 1 (P5.24). Sums and products of positive numbers only: no digits are lost.
+breaks a = b = 1 (P5.24). Only positive numbers are added and multiplied, so no digits are lost.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.checks import one_of
+from evenbreak.checks import number, one_of, plain
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import plain
 from evenbreak.practice.breakers import Breakers
 
 
+@overload
+def long_run_share(
+    p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int = 1
+) -> float: ...
+@overload
+def long_run_share(
+    p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
+) -> NDArray[np.float64]: ...
 def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
     """Return the fraction of racks that player 1 wins in the long run; elementwise.
 
@@ -34,12 +43,12 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     p1
         P(player 1 wins the rack | player 1 breaks it).
     p2
-        P(player 2 wins the rack | player 2 breaks it). The two are broadcast together.
+        P(player 2 wins the rack | player 2 breaks it). p1 and p2 are broadcast together.
     breaks
         who breaks next: any break format (see `evenbreak.games.breaks`).
     first_breaker
-        who breaks the first rack, 1 or 2. It matters only where the break never passes on:
-        with p1 = p2 = 1 and winner breaks, for example, the first breaker wins every rack.
+        who breaks the first rack, 1 or 2. It matters only if the break never passes on: with
+        p1 = p2 = 1 and winner breaks, for example, the first breaker wins every rack.
 
     Returns
     -------
@@ -49,13 +58,13 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     Raises
     ------
     InputError
-        if p1 or p2 is not a probability, their shapes do not broadcast, `breaks` is no break
-        format, or `first_breaker` is not 1 or 2.
+        if p1 or p2 is not a probability, their shapes do not broadcast, `breaks` is not a
+        break format, or `first_breaker` is not 1 or 2.
 
     Notes
     -----
-    Source: P5.24, Table 5.4, Fig. 5.6. Where the breaks alternate, or the chances are 0 or 1,
-    the chain may be periodic: the fraction is an average over the period.
+    Source: P5.24, Table 5.4, Fig. 5.6. With alternate breaks, or with probabilities of 0 or 1,
+    the chain may be periodic; the fraction is then an average over the period.
 
     >>> from evenbreak.games import alternate_breaks, loser_breaks, winner_breaks
     >>> round(long_run_share(0.9, 0.5, winner_breaks), 4)
@@ -65,16 +74,22 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     """
     one_of(first_breaker, "first_breaker", (1, 2))
     racks = Breakers.of(p1, p2, breaks)
-    return plain(racks.won(first_breaker), racks.shape)
+    return plain(racks.won(first_breaker))
 
 
+@overload
+def long_run_sd(p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int = 1) -> float: ...
+@overload
+def long_run_sd(
+    p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
+) -> NDArray[np.float64]: ...
 def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
-    """Return the standard deviation of the racks that player 1 wins, per root of racks.
+    """Return the standard deviation of the racks that player 1 wins, per square root of racks.
 
-    Over a large number N of racks he wins N W of them on average (see `long_run_share`), with
-    a standard deviation of sqrt(N) times this. Between equal players who profit from the break
-    winner breaks make it larger than alternate breaks do, for wins come in strings, and loser
-    breaks make it smaller.
+    Over a large number N of racks player 1 wins N W of them on average (see `long_run_share`),
+    with a standard deviation of sqrt(N) times this. If equal players gain from the break, it is
+    larger for winner breaks than for alternate breaks, because wins come in streaks, and smaller
+    for loser breaks.
 
     Parameters
     ----------
@@ -88,9 +103,9 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
 
     Notes
     -----
-    The central limit theorem of Markov chains: with h the relative values of the two states,
-    h_1 - h_2 = (r_1 - r_2) / (a + b), the variance per rack is that of the martingale of
-    (win - W + change of h). Kemeny & Snell, Finite Markov Chains, section 4.6.
+    By the central limit theorem of Markov chains: if h are the relative values of the two
+    states, h_1 - h_2 = (r_1 - r_2) / (a + b), the variance per rack is that of the martingale
+    of (win - W + change of h). Kemeny & Snell, Finite Markov Chains, section 4.6.
 
     >>> from evenbreak.games import loser_breaks, winner_breaks
     >>> long_run_sd(0.75, 0.75, winner_breaks), long_run_sd(0.5, 0.5, winner_breaks)
@@ -111,15 +126,18 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
             strict=True,
         )
     )
-    return plain(np.sqrt(variance), racks.shape)
+    return plain(np.sqrt(variance))
 
 
+@overload
+def first_break_worth(p1: float, p2: float, breaks: BreakFormat) -> float: ...
+@overload
+def first_break_worth(p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat) -> NDArray[np.float64]: ...
 def first_break_worth(p1: Any, p2: Any, breaks: BreakFormat) -> Any:
-    """Return how many racks more player 1 wins in all if he, not player 2, breaks first.
+    """Return how many more racks player 1 wins in all by breaking first instead of second.
 
-    A long session keeps this head start, it does not grow: unless the break never passes on,
-    then it is infinite. In alternate breaks it is the mean of the racks after an even and an
-    odd number.
+    This head start stays the same however long the session is; it is infinite if the break
+    never passes on. In alternate breaks it is the mean over even and odd numbers of racks.
 
     Parameters
     ----------
@@ -140,7 +158,7 @@ def first_break_worth(p1: Any, p2: Any, breaks: BreakFormat) -> Any:
     1.0
     """
     racks = Breakers.of(p1, p2, breaks)
-    return plain(racks.first_break, racks.shape)
+    return plain(racks.first_break)
 
 
 class BreakFormatValue(NamedTuple):
@@ -151,46 +169,46 @@ class BreakFormatValue(NamedTuple):
     share: float
     """The fraction of racks that player 1 wins."""
     points: float
-    """The points that he wins per rack on average."""
+    """The points that player 1 wins per rack on average."""
     sd_points: float
-    """The standard deviation of his points over N racks, divided by sqrt(N), N large."""
+    """The standard deviation of player 1's points over N racks, divided by sqrt(N), for large N."""
     fair_ratio: float
     """The points for a rack won, per point for a rack lost, that make it even: (1 - W) / W."""
     memory: float
-    """The second eigenvalue: what is left of the first break's effect after each rack."""
+    """The second eigenvalue: the share of the first break's effect left after each rack."""
     first_break: float
-    """How many racks more he wins in all if he breaks first, see `first_break_worth`."""
+    """How many more racks player 1 wins in all by breaking first, see `first_break_worth`."""
 
 
 def compare_break_formats(
     rack: Rack, *, win: float = 1, lose: float = 1, first_breaker: int = 1
 ) -> tuple[BreakFormatValue, ...]:
-    """Return what each usual break format is worth, the best for player 1 first.
+    """Return what each break format is worth, the best for player 1 first.
 
     Parameters
     ----------
     rack
         the chances with the break, as plain numbers.
     win, lose
-        the points that player 1 wins with each rack he wins, and loses with each he loses.
+        the points that player 1 gains for each rack won, and loses for each rack lost.
     first_breaker
-        who breaks the first rack; where one player always breaks, that player does.
+        who breaks the first rack; in formats where one player always breaks, that player does.
 
     Returns
     -------
     tuple of BreakFormatValue
-        one for each of `BREAK_FORMATS`; formats that are worth the same (to 1e-12) keep the
-        order they have there.
+        one for each of `BREAK_FORMATS`; formats that are worth the same (within 1e-12) keep
+        their order.
 
     Raises
     ------
     InputError
-        if the rack holds arrays or is none, or a stake is not a number from 0 on.
+        if `rack` is not a rack or holds arrays, or a stake is not a number, 0 or more.
 
     Notes
     -----
-    Source: P5.25, R = W Z_w - (1 - W) Z_l. The text multiplies rounded chances and prints
-    0.49 and -0.08 for winner and loser breaks here; exactly they are 1/2 and -1/14.
+    Source: P5.25, R = W Z_w - (1 - W) Z_l. The text multiplies rounded numbers and prints 0.49
+    and -0.08 for winner and loser breaks here; the exact values are 1/2 and -1/14.
 
     >>> for value in compare_break_formats(Rack(0.9, 0.5), win=1, lose=2):
     ...     print(f"{value.name:10} {value.share:.4f} {value.points:7.4f}")
@@ -204,7 +222,9 @@ def compare_break_formats(
         raise InputError(f"rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)")
     rack.of_numbers()
     one_of(first_breaker, "first_breaker", (1, 2))
-    prize, price = _stake(win, "win"), _stake(lose, "lose")
+    wanted = "the points of a rack, 0 or more"
+    prize = number(win, "win", low=0.0, wanted=wanted)
+    price = number(lose, "lose", low=0.0, wanted=wanted)
     values = [
         _value(name, rack, prize, price, {"player 1": 1, "player 2": 2}.get(name, first_breaker))
         for name in BREAK_FORMATS
@@ -226,13 +246,3 @@ def _value(name: str, rack: Rack, win: float, lose: float, first: int) -> BreakF
         memory=float(1.0 - (racks.pass_1 + racks.pass_2)),
         first_break=float(racks.first_break),
     )
-
-
-def _stake(points: Any, name: str) -> float:
-    try:
-        number = float(points)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not 0.0 <= number < math.inf:
-        raise InputError(f"{name} is {points!r}; give the points of a rack, 0 or more")
-    return number

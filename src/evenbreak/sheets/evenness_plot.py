@@ -1,13 +1,15 @@
-"""The small plot on the sheet for a screen: how even the races are, along the rating difference."""
+"""The small plot on the sheet's page: how even the races are, by rating difference."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from evenbreak.answers.sheet_parts import Band, SurePair, Tick
+from evenbreak.answers.chart_bands import Band
+from evenbreak.answers.sure_pairs import SurePair
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale
+from evenbreak.sheets.rating_bars import Tick
 
 WIDTH, HEIGHT = 360, 230
 _LEFT, _RIGHT, _TOP, _BOTTOM = 40, 350, 12, 188

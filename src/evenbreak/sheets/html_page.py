@@ -1,4 +1,4 @@
-"""What the pages for a screen share: one frame, one style, and a policy that allows no more."""
+"""What all HTML pages share: one frame, one style, and a policy that allows nothing else."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from evenbreak import __version__
 def html_page(template: str, **values: Any) -> bytes:
     """Return a page that has no script and asks no other host for anything.
 
-    Its Content-Security-Policy allows nothing but its own style.
+    Its Content-Security-Policy allows its own style and nothing else.
 
     Parameters
     ----------

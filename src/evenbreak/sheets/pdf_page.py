@@ -1,4 +1,4 @@
-"""A page of A4 to write and rule on, in inches from its top left corner."""
+"""A landscape A4 page for text and lines, in inches from its top left corner."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from matplotlib.font_manager import FontProperties
 
 WIDTH, HEIGHT = 11.69, 8.27
-"""A4, the long way."""
+"""A4, landscape."""
 
 MARGIN = 0.5
-"""What printers leave white, and a pin's room."""
+"""What printers leave white, with room for a pin."""
 
 POINTS = 72.0
 """In an inch."""
@@ -30,7 +30,7 @@ UNKNOWN = "\N{WHITE SQUARE}"
 class Paper:
     """One page: text, lines and bands, all in inches to the right and down.
 
-    Text is set as it stands, no letter of it is mathematics.
+    Text is set as it is: dollar signs and backslashes mean nothing.
 
     >>> page = Paper()
     >>> page.text(0.5, 0.5, "Ann $ Bo", size=11)
@@ -57,9 +57,13 @@ class Paper:
         )
 
     def centred(self, x: float, y: float, text: str, *, size: float, **style: Any) -> None:
-        """Write figures with their middle at (x, y)."""
-        # Half the height of a figure: matplotlib's own centring moves with the letters.
+        """Write text whose digits have their middle at (x, y)."""
+        # Half the height of a digit: matplotlib's own centring moves with the letters.
         self.text(x, y + 0.365 * size / POINTS, text, size=size, **{"ha": "center", **style})
+
+    def slanted(self, x: float, y: float, text: str, *, size: float, angle: float) -> None:
+        """Write text that begins at (x, y) and rises by an angle in degrees."""
+        self.text(x, y, text, size=size, rotation=angle, rotation_mode="anchor")
 
     def line(self, x: Sequence[float], y: Sequence[float], **style: Any) -> None:
         """Draw a line through points; `style` is that of matplotlib's lines."""
@@ -82,7 +86,7 @@ def pdf_bytes(pages: Sequence[Figure], title: str) -> bytes:
     from matplotlib.backends.backend_pdf import PdfPages
 
     out = io.BytesIO()
-    # Neither a date nor a version of the program, and no wish of a matplotlibrc.
+    # No date, no version of matplotlib, and nothing from a matplotlibrc.
     metadata: Any = {"Title": title, "Creator": None, "Producer": None, "CreationDate": None}
     rules: Any = {"pdf.fonttype": 3, "pdf.compression": 6, "savefig.bbox": None}
     with mpl.rc_context(rules), PdfPages(out, metadata=metadata) as document:
@@ -92,7 +96,7 @@ def pdf_bytes(pages: Sequence[Figure], title: str) -> bytes:
 
 
 def drawable(text: str) -> str:
-    """Return text with a white square for every letter that the font of the page lacks.
+    """Return text with a white square for every letter that the page's font lacks.
 
     >>> drawable("Zoë 選手")
     'Zoë □□'
@@ -139,7 +143,7 @@ def shortened(text: str, size: float, width: float) -> str:
 def _file(bold: bool) -> Path:
     import matplotlib as mpl
 
-    # The font that comes with matplotlib: another one of that name would draw otherwise.
+    # The font that comes with matplotlib: another of the same name could look different.
     return Path(mpl.get_data_path(), "fonts", "ttf", f"DejaVuSans{'-Bold' if bold else ''}.ttf")
 
 

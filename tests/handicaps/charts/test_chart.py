@@ -54,7 +54,7 @@ def test_the_greater_the_difference_the_harder_the_race(name):
     assert wins[250] == Fraction(1, 2)
 
 
-@given(st.sampled_from(CHARTS), st.integers(-10_000, 10_000))
+@given(st.sampled_from(list(CHARTS)), st.integers(-10_000, 10_000))
 def test_turning_the_players_round_turns_the_race_round(name, difference):
     assert chart(name).race(-difference) == chart(name).race(difference)[::-1]
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from evenbreak.errors import InputError
 from evenbreak.games import Rack, alternate_breaks, loser_breaks, winner_breaks
 from evenbreak.handicaps import FairRace, fair_races
-from evenbreak.matches.odds import race_law
+from evenbreak.matches.odds import race_odds
 
 chances = st.floats(0.01, 0.99)
 
@@ -59,7 +59,7 @@ def test_mirrored_ties_of_one_length_come_in_the_order_of_the_first_race():
 
 def test_length_and_ninety_percent_are_those_of_the_race():
     (race,) = fair_races(0.6, games=(9, 9), top=1)
-    law = race_law(race.race_1, race.race_2, 0.6)
+    law = race_odds(race.race_1, race.race_2, 0.6)
     assert race == FairRace(race.race_1, race.race_2, law.p_win_1, law.mean, law.quantile(0.9))
     assert race.mean_games <= race.games_p90 <= 9
 
@@ -96,7 +96,7 @@ def test_break_formats_are_played_out(breaks, first_breaker):
     )
     assert len(found) == 28
     laws = {
-        (m, n): race_law(m, n, 0.65, 0.5, breaks, first_breaker).p_win_1
+        (m, n): race_odds(m, n, 0.65, 0.5, breaks, first_breaker).p_win_1
         for m in range(1, 8)
         for n in range(1, 9 - m)
     }

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from evenbreak.errors import InputError
 from evenbreak.games import Race, Rack, alternate_breaks, winner_breaks
 from evenbreak.handicaps import Play
-from evenbreak.matches import match_length, race_law, win_probability
+from evenbreak.matches import match_length, race_odds, win_probability
 
 POINTS = np.array([-40, 0, 7, 100])
 M, N = [5, 1, 4, 6], [3, 1, 4, 1]
@@ -16,7 +16,7 @@ M, N = [5, 1, 4, 6], [3, 1, 4, 1]
 def test_plain_races_are_those_of_the_rack_by_rack_law(place):
     play = Play("npl")
     for column, points in enumerate(POINTS):
-        law = race_law(M[place], N[place], 1 / (1 + 2 ** (-points / 30)))
+        law = race_odds(M[place], N[place], 1 / (1 + 2 ** (-points / 30)))
         assert play.win(M, N, POINTS)[place, column] == pytest.approx(law.p_win_1, rel=1e-12)
         assert play.mean_games(M, N, POINTS)[place, column] == pytest.approx(law.mean, rel=1e-12)
         assert play.games_quantile(M[place], N[place], POINTS, 0.9)[column] == law.quantile(0.9)
@@ -30,7 +30,7 @@ def test_plain_races_are_those_of_the_rack_by_rack_law(place):
 def test_with_a_break_that_counts_either_breaks_first_with_an_even_chance(breaks):
     play = Play("fargo", breaks=breaks, break_points=30)
     p1, p2 = (1 / (1 + 2 ** (-(d + 30) / 100)) for d in (50, -50))
-    laws = [race_law(5, 4, p1, p2, breaks, first) for first in (1, 2)]
+    laws = [race_odds(5, 4, p1, p2, breaks, first) for first in (1, 2)]
     assert play.win([5], [4], [50])[0, 0] == pytest.approx(np.mean([law.p_win_1 for law in laws]))
     assert play.mean_games([5], [4], [50])[0, 0] == pytest.approx(
         np.mean([law.mean for law in laws])

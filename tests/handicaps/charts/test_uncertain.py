@@ -14,7 +14,7 @@ from evenbreak.handicaps.charts.uncertain import (
     length_given_ratings,
     win_given_ratings,
 )
-from evenbreak.matches.races import race_law
+from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import SCALES
 
 
@@ -38,7 +38,7 @@ def test_win_is_the_integral(race, error):
 
 def test_without_error_it_is_the_plug_in_value():
     p = SCALES["fargo"].win_probability(91.0)
-    plug_in = race_law(7, 4, p).p_win_1
+    plug_in = race_odds(7, 4, p).p_win_1
     assert win_given_ratings(91.0, 0.0, 7, 4, scale="fargo") == pytest.approx(plug_in, rel=1e-13)
 
 
@@ -69,14 +69,14 @@ def test_length_is_the_integral():
     length = length_given_ratings(35.0, 42.0, 7, 3)
     for games, chance in zip(length.games.tolist(), length.probability, strict=True):
         place = games - 3
-        exact = averaged(lambda p, k=place: race_law(7, 3, p).probability[k], 35.0, 42.0)
+        exact = averaged(lambda p, k=place: race_odds(7, 3, p).probability[k], 35.0, 42.0)
         assert chance == pytest.approx(exact, abs=1e-9)
-    mean = averaged(lambda p: race_law(7, 3, p).mean, 35.0, 42.0)
+    mean = averaged(lambda p: race_odds(7, 3, p).mean, 35.0, 42.0)
     assert length.mean == pytest.approx(mean, abs=1e-8)
 
 
-def test_length_without_error_is_the_race_law():
-    law = race_law(6, 4, SCALES["npl"].win_probability(25.0))
+def test_length_without_error_is_that_of_the_race():
+    law = race_odds(6, 4, SCALES["npl"].win_probability(25.0))
     length = length_given_ratings(25.0, 0.0, 6, 4)
     assert length.probability == pytest.approx(law.probability, rel=1e-12)
     assert (length.mean, length.sd) == pytest.approx((law.mean, law.sd), rel=1e-12)

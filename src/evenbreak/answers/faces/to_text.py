@@ -37,11 +37,23 @@ def to_text(answer: Answer, *, width: int = WIDTH, verbose: bool = False) -> str
 
 
 def paragraph(text: str, width: int = WIDTH) -> str:
-    """Return text with each of its lines broken between words where the terminal ends."""
+    r"""Return text with each of its lines broken between words where the terminal ends.
+
+    >>> print(paragraph("Left out:\n- 11 forfeited matches: no games were played.", 32))
+    Left out:
+    - 11 forfeited matches: no games
+      were played.
+    """
     import textwrap
 
     lines = (
-        textwrap.fill(printable(line), width, break_long_words=False, break_on_hyphens=False)
+        textwrap.fill(
+            printable(line),
+            width,
+            subsequent_indent="  " if line.startswith("- ") else "",
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
         for line in text.split("\n")
     )
     return "\n".join(lines)
@@ -99,18 +111,21 @@ def _folded(rows: list[list[str]], flush: Sequence[int], width: int) -> list[lis
     return folded
 
 
-def _blocks(cells: Sequence[Sequence[str]], names: int, width: int) -> Iterator[list[int]]:
-    """Yield the columns of each part of a table, the first `names` of them in all parts."""
+def _blocks(cells: Sequence[Sequence[str]], names: int, width: int) -> list[list[int]]:
+    """Return the columns of each part of a table, the first `names` of them in all parts."""
     wide = [_GAP + max(map(text_width, column)) for column in zip(*cells, strict=True)]
-    first = list(range(names))
-    block, used = first.copy(), sum(wide[:names])
-    for k in range(names, len(wide)):
-        if used + wide[k] > width and len(block) > names:
-            yield block
-            block, used = first.copy(), sum(wide[:names])
-        block.append(k)
-        used += wide[k]
-    yield block
+    room = width - sum(wide[:names])
+    first, rest = list(range(names)), range(names, len(wide))
+    blocks: list[list[int]] = [[]]
+    for k in rest:
+        if blocks[-1] and sum(wide[j] for j in blocks[-1]) + wide[k] > room:
+            blocks.append([])
+        blocks[-1].append(k)
+    size = -(-len(rest) // len(blocks))  # parts of one size, if those fit too
+    even = [list(rest[start : start + size]) for start in range(0, len(rest), size or 1)]
+    if all(sum(wide[k] for k in block) <= room for block in even):
+        blocks = even or blocks
+    return [first + block for block in blocks]
 
 
 def _heading_lines(headings: Sequence[str]) -> list[list[str]]:

@@ -9,14 +9,6 @@ import click
 from evenbreak.cli.kit.callbacks import wants_json
 from evenbreak.cli.kit.output import SCHEMA_VERSION, print_json, print_table
 
-WHAT = {
-    "fargo_r6_hot": "Fargo R6 Hot",
-    "npl_8": "National Pool League chart 8",
-    "npl_10": "National Pool League chart 10",
-    "npl_12": "National Pool League chart 12",
-    "npl_20": "National Pool League chart 20",
-    "apa_8ball": "APA 8-ball",
-}
 HEADINGS = {
     "chart": "name",
     "what": "what it is",
@@ -33,7 +25,10 @@ def command(as_json: bool) -> None:
 
     How many different races each has, and how many games the longest match can last.
     """
-    rows = [_row(name) for name in WHAT]
+    from evenbreak.handicaps.charts.chart import CHARTS
+    from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS
+
+    rows = [_row(name, title) for name, title in {**CHARTS, **LEVEL_CHARTS}.items()]
     if as_json:
         listed = [dict(zip(HEADINGS, row, strict=True)) for row in rows]
         print_json({"charts": listed, "schema_version": SCHEMA_VERSION})
@@ -48,7 +43,7 @@ def command(as_json: bool) -> None:
     )
 
 
-def _row(name: str) -> tuple[Any, ...]:
+def _row(name: str, title: str) -> tuple[Any, ...]:
     from evenbreak.handicaps.charts.chart import CHARTS, chart
     from evenbreak.handicaps.charts.level_chart import level_chart
 
@@ -58,4 +53,4 @@ def _row(name: str) -> tuple[Any, ...]:
         table = level_chart(name)
         pairs = [(i, j) for i in table.levels for j in table.levels if i >= j]
         by, races = "skill level", {table.race(*pair) for pair in pairs}
-    return name, WHAT[name], by, len(races), max(m + n - 1 for m, n in races)
+    return name, title, by, len(races), max(m + n - 1 for m, n in races)

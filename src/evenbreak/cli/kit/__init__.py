@@ -1,1 +1,1 @@
-"""What commands share: options, output, progress, errors."""
+"""What commands share: options and their values, output, progress, errors."""

@@ -17,24 +17,31 @@ if TYPE_CHECKING:
 Function = Callable[..., "Answer"]
 
 
-def faces(*, page: bool = True, always_text: bool = False) -> Callable[[Function], Function]:
+def faces(
+    *, page: bool = True, always_text: bool = False, ask_face: bool = False
+) -> Callable[[Function], Function]:
     """Return a decorator that prints the `Answer` of a command, as its options ask.
 
     Parameters
     ----------
     page
-        whether `--html FILE` writes the answer as a page; False where a command has an
+        whether `--html FILE` writes the answer as a page; False if the command has an
         option `--html` of its own.
     always_text
-        whether a pipe gets text too, as the answer's tables are written to files.
+        whether a pipe gets text too, because the tables are written to files.
+    ask_face
+        whether the command gets the face (text, csv or json) as `face`, because some faces hold
+        less than others.
     """
 
     def decorate(function: Function) -> Function:
         def run(
             *, face: str | None, verbose: bool, page_file: str | None = None, **options: Any
         ) -> None:
-            answer = function(**options)
             chosen = face or ("text" if always_text or to_terminal() else "csv")
+            if ask_face:
+                options["face"] = chosen
+            answer = function(**options)
             print_answer(answer, chosen, verbose=verbose)
             if page_file is not None:
                 _write_page(answer, page_file)
@@ -51,9 +58,9 @@ def _options(*, page: bool, csv: bool) -> list[Callable[[Any], Any]]:
     def face(name: str, text: str) -> Callable[[Any], Any]:
         return click.option(f"--{name}", "face", flag_value=name, help=text)
 
-    options = [face("text", "Print text, into a pipe too.")]
+    options = [face("text", "Print text, even into a pipe.")]
     if csv:
-        options.append(face("csv", "Print CSV, on a terminal too."))
+        options.append(face("csv", "Print CSV, even on a terminal."))
     options.append(face("json", "Print JSON, with floats in full precision."))
     if page:
         options.append(
@@ -65,21 +72,21 @@ def _options(*, page: bool, csv: bool) -> list[Callable[[Any], Any]]:
                 help="Also write the answer to FILE as a page.",
             )
         )
-    more = click.option("-v", "--verbose", is_flag=True, help="Add the details: statistics.")
+    more = click.option("-v", "--verbose", is_flag=True, help="Add the statistical details.")
     return [*options, more]
 
 
 def page_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    """Return the name of a page to be written, if it ends as one."""
+    """Return the name of the page, or refuse a name that does not end in .html."""
     if value is not None and PurePath(value).suffix.lower() not in (".html", ".htm"):
         raise click.BadParameter(f"{value!r}; name a file that ends in .html", ctx=ctx, param=param)
     return value
 
 
 def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
-    """Print an answer in one of its faces: text, csv or json; its warnings go to stderr.
+    """Print an answer as text, csv or json; its warnings go to stderr.
 
-    With CSV on stdout, what the answer says in words goes to stderr too.
+    With CSV on stdout, the sentences of the answer go to stderr too.
     """
     if face == "json":
         from evenbreak.answers.faces.to_json import to_json
@@ -88,8 +95,8 @@ def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
     elif face == "csv":
         from evenbreak.answers.faces.to_csv import to_csv
 
-        for sentence in (answer.heading, *answer.sentences):
-            say(sentence)
+        for line in "\n".join([answer.heading, *answer.sentences]).split("\n"):
+            say(line)
         for line in to_csv(answer):
             click.echo(line.encode(), nl=False)
     else:

@@ -1,6 +1,6 @@
-"""What an error looks like from outside: lines on stderr and an exit code.
+"""How an error is reported: one line on stderr for each problem, and an exit code.
 
-Exit codes: 0 done, 1 failed, 2 usage, 3 bad data, 130 interrupted.
+Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad data, 130 interrupted.
 """
 
 from __future__ import annotations
@@ -20,20 +20,20 @@ FAILED, USAGE, BAD_DATA, INTERRUPTED = 1, 2, 3, 130
 
 
 def report_error(error: BaseException) -> int:
-    """Say on stderr what went wrong, a line for each problem, and return the exit code.
+    """Print what went wrong on stderr, one line for each problem, and return the exit code.
 
-    What is a fault of this program is raised again.
+    An error that is a bug in this program is raised again.
     """
     match error:
         case click.ClickException():
             error.show()
             return error.exit_code
         case _ if any(isinstance(one, click.Abort | KeyboardInterrupt) for one in _chain(error)):
-            # An interrupt inside an import comes out as whatever the import makes of it.
+            # An import turns an interrupt into an error of its own, which has it as its cause.
             click.echo("Interrupted.", err=True)
             return INTERRUPTED
         case OSError(errno=errno.EPIPE):
-            # The reader has gone. What is still buffered must not fail again at exit.
+            # The reader of the pipe is gone; what is still buffered must not fail at exit.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return FAILED
         case EvenbreakError() | OSError() | MemoryError() | OverflowError():
@@ -51,7 +51,7 @@ def report_error(error: BaseException) -> int:
 
 
 def _chain(error: BaseException | None) -> Iterator[BaseException]:
-    """Yield an error, what it arose from, what that arose from, ..."""
+    """Yield an error, its cause, the cause of that, and so on."""
     seen: set[int] = set()
     while error is not None and id(error) not in seen:
         seen.add(id(error))
@@ -67,15 +67,15 @@ def _lines(error: BaseException) -> Iterator[str]:
             if hidden > 0:
                 yield f"and {hidden:,} more problem{'s' if hidden > 1 else ''}"
         case OSError(filename=None, errno=code) if code in NO_ROOM:
-            # Every file that is written is named in its error.
+            # An error about a file names it; this one is about stdout.
             yield f"standard output: {error.strerror}"
         case OSError(filename=None):
             yield str(error.strerror or error)
         case OSError():
             yield f"{error.filename}: {error.strerror}"
         case MemoryError():
-            yield "not enough memory for this question; ask a smaller one"
+            yield "there is not enough memory to answer this; ask for less"
         case OverflowError():
-            yield "the answer is beyond the largest number that a computer holds"
+            yield "the answer is larger than the largest number a computer can hold"
         case _:
             yield " ".join(str(error).split())

@@ -1,8 +1,9 @@
-"""Groups of commands that import a command only to run it."""
+"""Groups of commands, each of which is imported only when it runs."""
 
 from __future__ import annotations
 
 import importlib
+import itertools
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -17,20 +18,23 @@ class Entry(NamedTuple):
     module
         the module of `evenbreak.cli` whose `command` it is.
     help
-        the line.
+        the line: what the command gives its user.
+    section
+        the heading under which it is listed.
     """
 
     module: str
     help: str
+    section: str = "Commands"
 
 
 class LazyGroup(click.Group):
-    """A click group that knows its commands by name and line of help, and imports them late.
+    """A click group that lists its commands without importing them.
 
     Parameters
     ----------
     table
-        each command, in the order of the help text.
+        each command by name, in the order of the help text; sections are listed as they come.
     """
 
     def __init__(self, *args: Any, table: Mapping[str, Entry], **options: Any) -> None:
@@ -42,7 +46,7 @@ class LazyGroup(click.Group):
         return list(self._table)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
-        """Import and return a command, or None if there is none of that name."""
+        """Import and return the command of this name, or None if there is none."""
         if cmd_name not in self._table:
             return None
         module = importlib.import_module(f"evenbreak.cli.{self._table[cmd_name].module}")
@@ -52,7 +56,7 @@ class LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command that the first word names, or say which it is nearest to."""
+        """Return the command that the first word names, or suggest the most similar one."""
         name = args[0]
         if name not in self._table and not name.startswith("-"):
             from difflib import get_close_matches
@@ -62,6 +66,10 @@ class LazyGroup(click.Group):
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
-        """Write the list of commands from the table, without importing any."""
-        with formatter.section("Commands"):
-            formatter.write_dl([(name, entry.help) for name, entry in self._table.items()])
+        """Write the list of commands, section by section, without importing any."""
+        widest = max(len(name) for name in self._table)
+        for section, entries in itertools.groupby(
+            self._table.items(), lambda item: item[1].section
+        ):
+            with formatter.section(section):
+                formatter.write_dl([(name.ljust(widest), entry.help) for name, entry in entries])

@@ -1,4 +1,4 @@
-"""Options that several commands have, each declared once, and commands that take ratings."""
+"""Options shared by several commands, each declared once, and commands that take ratings."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from evenbreak.cli.kit.values import LONGEST, NUMBER, SPAN, Whole, meant, refuse
+from evenbreak.cli.kit.values import CHANCE, LONGEST, NUMBER, SPAN, Whole, meant, refuse
 
 if TYPE_CHECKING:
     from evenbreak.ratings.scale import Scale
@@ -23,7 +23,7 @@ class PlainCommand(click.Command):
     """A command that reads -20 as a number, where click alone sees an unknown option."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read the arguments; what only looked like a number is refused here."""
+        """Read the arguments, and refuse words that only begin like a number."""
         ctx.ignore_unknown_options = any(
             word.startswith("-") and NUMBER.fullmatch(word) for word in args
         )
@@ -41,7 +41,7 @@ class PlainCommand(click.Command):
 
 
 class ScaleName(click.ParamType):  # type: ignore[type-arg]
-    """A scale by its name, or by the points that double the odds."""
+    """A scale, by its name or by the points that double the odds."""
 
     name = "scale"
 
@@ -65,9 +65,10 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
     Parameters
     ----------
     without
-        what holds where it is not given, in words.
+        what applies if the option is not given, in words.
     fixed
-        whether that is the name of a scale, which the command then gets; else it gets None.
+        whether those words name a scale, which the command then gets; otherwise it gets
+        None.
     """
     return click.option(
         "--scale",
@@ -104,6 +105,17 @@ aliases_option = click.option(
     help="Which names mean the same player: a file with the columns name and means.",
 )
 """The option --aliases of every command that reads results."""
+
+
+safety_option = click.option(
+    "--safety",
+    metavar="ALPHA",
+    type=CHANCE,
+    default="1",
+    show_default=True,
+    help="The first shot of an inning goes in ALPHA times as often as the others.",
+)
+"""The option --safety of the commands about straight pool."""
 
 
 def which_races(command: Command) -> Command:

@@ -1,4 +1,4 @@
-"""Who plays: ratings, a game probability, or one for each breaker with a break format."""
+"""Who plays: two ratings, one game probability, or one for each breaker with a break format."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from evenbreak.cli.kit.values import CHANCE, refuse
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale, scale_of
 
-MEND = "give two ratings A B, or --p, or --p1 and --p2 with --breaks"
+REMEDY = "give two ratings A B, or --p, or --p1 and --p2 with --breaks"
 
 
 def players_of(
@@ -24,13 +24,13 @@ def players_of(
     breaks: str | None,
     first_break: str | None,
 ) -> TwoPlayers:
-    """Return the players that the options describe, or refuse what contradicts itself."""
+    """Return the players that the options describe, or refuse options that contradict."""
     by_break = p1 is not None or p2 is not None
     ways = bool(ratings) + (p is not None) + by_break
     if ways != 1:
-        refuse(("who plays is given twice; " if ways else "who plays is missing; ") + MEND)
+        refuse(("the players are given twice; " if ways else "the players are missing; ") + REMEDY)
     if scale is not None and not ratings:
-        refuse("--scale says what ratings mean, and there are none; leave it out")
+        refuse("--scale says what ratings mean, but none are given; leave it out")
     if by_break:
         if p1 is None or p2 is None or breaks is None:
             refuse("--p1, --p2 and --breaks go together; give all three")
@@ -41,15 +41,16 @@ def players_of(
     if p is not None:
         return TwoPlayers(Rack(p))
     if len(ratings) != 2:
-        refuse(f"{len(ratings)} rating(s) given, {', '.join(ratings)}; {MEND}")
+        given = "only one rating is" if len(ratings) == 1 else f"{len(ratings)} ratings are"
+        refuse(f"{given} given, {' '.join(ratings)}; {REMEDY}")
     a, b = (float(rating) for rating in ratings)
     if not math.isfinite(a - b):
-        refuse("the ratings are too far apart to calculate with; give two usual numbers")
+        refuse("the ratings are too far apart to calculate with; give smaller numbers")
     return TwoPlayers.rated(a, b, scale or scale_of("npl"))
 
 
 def player_options(command: Command) -> Command:
-    """Add the arguments and options that say who plays."""
+    """Add the arguments and options that describe the players."""
     for add in (
         click.option(
             "--first-break",

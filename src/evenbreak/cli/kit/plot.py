@@ -37,17 +37,17 @@ def _picture(ctx: click.Context, param: click.Parameter, value: str | None) -> s
 
 
 def plot_option_for(only: str = "") -> Callable[[Command], Command]:
-    """Return the option --plot; `only` says of what there is a picture, where not of all."""
+    """Return the option --plot; `only` says which answers have a picture, if not all have."""
     text = f"Write a picture to FILE, .png or .svg{only and '; ' + only}."
     return click.option("--plot", metavar="FILE", callback=_picture, help=text)
 
 
 plot_option = plot_option_for()
-"""The option --plot of the commands that draw whatever they answer."""
+"""The option --plot of commands whose every answer has a picture."""
 
 
 def write_plot(figure: Figure, path: str) -> None:
-    """Write a figure to the file that --plot named, and say so on stderr."""
+    """Write a figure to the file named by --plot, and say so on stderr."""
     from evenbreak.files.folder import write_files
     from evenbreak.plots.diagram import image_bytes
 

@@ -1,4 +1,4 @@
-"""A line on stderr that tells how far a long answer is."""
+"""A line on stderr that shows the progress of a long computation."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from typing import Self
 import click
 
 PATIENCE = 1.0
-"""Seconds without a word that nobody minds."""
+"""Seconds before the line first appears."""
 
 _PAUSE = 0.1
-"""Between two lines, in seconds."""
+"""Seconds between two updates."""
 
 
 class Progress:
-    """A line that counts, on a terminal only and only of what takes long.
+    """A line that counts, shown only on a terminal and only if the work takes long.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class Progress:
         self._next = self._begun + PATIENCE
 
     def __call__(self, count: int, total: int | None = None) -> None:
-        """Tell how many there are so far and, of a known total, how long the rest takes."""
+        """Show how many are done and, if the total is known, how long the rest will take."""
         now = time.monotonic()
         if now < self._next or not sys.stderr.isatty():
             return
@@ -49,23 +49,23 @@ class Progress:
         self._shown = len(line)
 
     def __enter__(self) -> Self:
-        """Begin to wait."""
+        """Start the clock."""
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Wipe the line out."""
+        """Erase the line."""
         if self._shown:
             click.echo("\r" + " " * self._shown + "\r", nl=False, err=True)
 
 
 def _left(seconds: float, count: int, total: int) -> str:
-    """Say how long the rest takes, if it goes on as it went.
+    """Say how long the rest takes at the pace so far.
 
     >>> _left(20.0, 250, 1000), _left(1200.0, 2, 16), _left(3.0, 0, 9)
-    ('about 60 s left', 'about 2 h 20 min left', 'time left not known yet')
+    ('about 60 s left', 'about 2 h 20 min left', 'time left not yet known')
     """
     if not count:
-        return "time left not known yet"
+        return "time left not yet known"
     left = math.ceil(seconds / count * (total - count))
     if left < 100:
         return f"about {left} s left"

@@ -1,30 +1,31 @@
-"""What people type: numbers, chances, pairs such as 7:5, spans such as 7..13.
+"""The values of options: numbers, probabilities, pairs such as 7:5, spans such as 7..13.
 
-Each is a click type: it returns the value that a text stands for, or says how to write it.
+Each is a click type: it returns the value of a text, or says how to write it.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn
 
 import click
 
 LONGEST = 1000
 """The most games that a race, a lead or a score can have here."""
 
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
-"""What reads as a finite number."""
+MOST_BALLS = 100_000
+"""The most balls that an option can name."""
 
-Value = TypeVar("Value")
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
+"""A finite number, as text."""
 
 
 class Whole(click.IntRange):
     """A whole number from `min` to `max`."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
-        """Return the number that was typed."""
+        """Return the number."""
         try:
             return super().convert(value, param, ctx)
         except click.BadParameter:
@@ -33,7 +34,7 @@ class Whole(click.IntRange):
 
 
 class Number(click.ParamType):  # type: ignore[type-arg]
-    """A number from `low` to `high`; `wanted` ends the sentence that refuses another."""
+    """A number from `low` to `high`; `wanted` completes the message that refuses a value."""
 
     name = "number"
 
@@ -43,7 +44,7 @@ class Number(click.ParamType):  # type: ignore[type-arg]
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> float:
-        """Return the number that was typed."""
+        """Return the number."""
         if isinstance(value, float):  # a default
             return value
         found = float(value) if NUMBER.fullmatch(str(value).strip()) else math.nan
@@ -57,7 +58,7 @@ CHANCE = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1")
 
 
 class _TwoWhole(click.ParamType):  # type: ignore[type-arg]
-    """Two whole numbers with a sign between them."""
+    """Two whole numbers with a sign between them, such as 7:5."""
 
     name = "pair"
 
@@ -68,7 +69,7 @@ class _TwoWhole(click.ParamType):  # type: ignore[type-arg]
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> tuple[int, int]:
-        """Return the two numbers that were typed."""
+        """Return the two numbers."""
         match = self.pattern.fullmatch(value)
         m, n = (int(match[1]), int(match[2] or match[1])) if match else (-1, -1)
         if match is None or not (self.one or match[2]) or not self.fits(m, n):
@@ -76,7 +77,7 @@ class _TwoWhole(click.ParamType):  # type: ignore[type-arg]
         return m, n
 
     def fits(self, m: int, n: int) -> bool:
-        """Return whether both are in bounds."""
+        """Return whether both numbers are within the limits."""
         return self.low <= min(m, n) and max(m, n) <= LONGEST
 
 
@@ -92,7 +93,7 @@ PAIR = _TwoWhole(
     "or one for each player with a colon between them, such as 7:5",
     one=True,
 )
-"""What each player needs, such as 7:5; 7 alone is 7:7."""
+"""The games that each player needs, such as 7:5; 7 alone means 7:7."""
 
 SCORE = _TwoWhole(
     ":",
@@ -107,11 +108,11 @@ SPAN = _Rising(
     f"give the least and the most games, from 1 to {LONGEST}, "
     "with two dots between them, such as 7..13",
 )
-"""Numbers of games from one to another, such as 7..13."""
+"""A range of numbers of games, such as 7..13."""
 
 
 def meant(value: str, low: float, high: float) -> str:
-    """Return what to write where a decimal comma or percent was meant, else nothing.
+    """Return how to write a number typed with a decimal comma or as a percentage, or nothing.
 
     >>> meant("80%", 0, 1), meant("95", 0, 1), meant("24,5", 0, 100), meant("half", 0, 1)
     (' (80 % is 0.8)', ' (95 % is 0.95)', ' (with a decimal point: 24.5)', '')
@@ -129,5 +130,5 @@ def meant(value: str, low: float, high: float) -> str:
 
 
 def refuse(message: str) -> NoReturn:
-    """End the command as wrongly used; the message says how to mend it."""
+    """End the command with exit code 2; the message says how to correct it."""
     raise click.UsageError(message, ctx=click.get_current_context(silent=True))

@@ -192,7 +192,7 @@ def _read(path: str, aliases: str | None) -> ResultsFile:
 
 def _anchor(file: ResultsFile, texts: Sequence[str]) -> float | dict[str, float] | None:
     """Return the mean, or the ratings of named players, that --anchor gives."""
-    from evenbreak.answers.fair_pairs import find_players
+    from evenbreak.answers.chosen_players import find_players
 
     means, named = [], {}
     for text in texts:
@@ -210,7 +210,7 @@ def _anchor(file: ResultsFile, texts: Sequence[str]) -> float | dict[str, float]
 
 
 def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
-    from evenbreak.answers.fair_pairs import find_players
+    from evenbreak.answers.chosen_players import find_players
 
     found = find_players(ratings, names, said="--pair")
     if len(found) < 2:

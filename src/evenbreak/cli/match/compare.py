@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from evenbreak.matches.formats import MatchFormat
 
 MOST_FORMATS = 7
-"""Formats side by side: as many as a picture has lines for."""
+"""As many formats as a picture has lines for."""
 
 MOST_SCORES = {"race": 10_000, "break": 900, "": 2_500}
-"""Scores that a match may have: a race where the break matters, another match where it does,
-and another match where it does not. Each answer then takes seconds."""
+"""The most scores of a race where the break matters, of another match where it does, and of
+another match where it does not, so that every answer takes seconds."""
 
 EXAMPLES = """\b
 Examples:
@@ -38,7 +38,7 @@ class CompareCommand(PlainCommand):
     """A command whose words are ratings, which are numbers, and formats, which are not."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read the arguments, and part the words."""
+        """Read the arguments, and separate ratings from formats."""
         ctx.ignore_unknown_options = any(
             word.startswith("-") and NUMBER.fullmatch(word) for word in args
         )
@@ -52,7 +52,7 @@ class CompareCommand(PlainCommand):
         return rest
 
     def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
-        """Name the two kinds of words apart."""
+        """Name ratings and formats separately."""
         return [*super().collect_usage_pieces(ctx), "FORMAT..."]
 
 
@@ -61,16 +61,16 @@ class CompareCommand(PlainCommand):
 @click.option(
     "--hold",
     type=click.Choice(["p2", "break"]),
-    help="What stays the same as P1 varies: P2, or the advantage of the break.  [default: p2]",
+    help="What stays fixed as P1 varies: P2, or the advantage of the break.  [default: p2]",
 )
 @plot_option
 @faces()
 def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) -> Answer:
-    """Compare match formats for two players: which suits whom, and where that turns.
+    """Compare match formats for two players: which is better for whom, and at what strength.
 
     A FORMAT is 9:5 (A needs 9 games, B needs 5), "7:7 win by 2", "ahead 5:3" or
-    "3:1 of 3:3" (sets), and may end in who breaks, such as "winner breaks". Who plays:
-    two ratings A B; or --p; or --p1, --p2 and --breaks.
+    "3:1 of 3:3" (sets), and may end in a break format, such as "winner breaks". The
+    players: two ratings A B; or --p; or --p1, --p2 and --breaks.
     """
     from evenbreak.answers.compare import Compared, compare_answer
     from evenbreak.matches.crossings import crossings, even_probability
@@ -112,7 +112,7 @@ def _read(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
     from evenbreak.matches.formats import match_format
 
     if not texts:
-        refuse('what is compared is missing; give formats such as 9:5 "3:1 of 3:3" "ahead 5:3"')
+        refuse('the formats are missing; give some, such as 9:5 "3:1 of 3:3" "ahead 5:3"')
     if len(texts) > MOST_FORMATS:
         refuse(f"{len(texts)} formats are given; compare {MOST_FORMATS} at the most")
     read = [match_format(text) for text in texts]
@@ -140,16 +140,15 @@ def _read(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
 
 
 def _line(players: TwoPlayers, hold: str | None) -> dict[str, Any]:
-    """Return along which players the formats are compared, as options of `crossings`."""
-    rack = players.rack
-    if not rack.break_matters:
+    """Return the pairs of players that the formats are compared for, as options of `crossings`."""
+    p1, p2 = players.rack.p1, players.rack.p2
+    if p2 is None:
         if hold is not None:
-            refuse("--hold says what stays of --p1 and --p2, which are not given; leave it out")
+            refuse("--hold goes with --p1 and --p2, which are not given; leave it out")
         return {}
     line: dict[str, Any] = {"breaks": players.break_format, "first_breaker": players.first_breaker}
     if hold != "break":
-        return line | {"p2": rack.p2}
-    if not (0.0 < rack.p1 < 1.0 and 0.0 < rack.p2 < 1.0):
-        refuse("--hold break needs --p1 and --p2 between 0 and 1; take --hold p2")
-    odds: float = rack.p1 / (1.0 - rack.p1) * rack.p2 / (1.0 - rack.p2)
-    return line | {"break_odds": odds}
+        return line | {"p2": p2}
+    if not (0.0 < p1 < 1.0 and 0.0 < p2 < 1.0):
+        refuse("--hold break needs --p1 and --p2 above 0 and below 1; use --hold p2")
+    return line | {"break_odds": p1 / (1.0 - p1) * p2 / (1.0 - p2)}

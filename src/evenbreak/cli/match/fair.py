@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
 
 MOST = 300
-"""The most races that are listed, so that no answer takes more than some seconds."""
+"""The most races that are listed, so that every answer takes seconds."""
 
 EXAMPLES = """\b
 Examples:
@@ -42,7 +42,7 @@ Examples:
     metavar="K",
     default=5,
     show_default=True,
-    help="How many.",
+    help="How many races to list.",
 )
 @faces()
 def command(
@@ -52,9 +52,9 @@ def command(
     top: int,
     **who: Any,
 ) -> Answer:
-    """Find the races nearest to an even chance, the nearest first.
+    """Find the fairest races for two players, the fairest first.
 
-    Who plays: two ratings A B; or --p; or --p1, --p2 and --breaks. How long: --games
+    The players: two ratings A B; or --p; or --p1, --p2 and --breaks. The length: --games
     or --race-to.
     """
     from evenbreak.answers.fair import fair_answer
@@ -63,7 +63,7 @@ def command(
     refuse_both(games, race_to)
     players = players_of(**who)
     if games is None and race_to is None:
-        refuse("how long is missing; give --games LO..HI or --race-to N")
+        refuse("the length of the race is missing; give --games LO..HI or --race-to N")
     races = fair_races(
         players.rack,
         games=games,

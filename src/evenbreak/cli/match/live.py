@@ -11,11 +11,10 @@ from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.players import player_options, players_of
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import SCORE, refuse
-from evenbreak.cli.match.what_is_played import MOST_SCORES, match_of, match_options
+from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
-    from evenbreak.games.match import Match
 
 EXAMPLES = """\b
 Examples:
@@ -27,11 +26,13 @@ Examples:
 
 
 def _racks(ctx: click.Context, param: click.Parameter, value: str | None) -> list[int]:
-    """Return who won each rack, 1 or 2."""
+    """Return the winner of each rack, 1 or 2."""
     letters = "".join((value or "").lower().replace(",", " ").split())
     for letter in letters:
         if letter not in "ab":
-            message = f"{letter!r} is nobody; write a letter a rack, a or b, such as abbab"
+            message = (
+                f"{letter!r} is neither a nor b; write one of them for each rack, such as abbab"
+            )
             raise click.BadParameter(message, ctx=ctx, param=param)
     return ["ab".index(letter) + 1 for letter in letters]
 
@@ -43,12 +44,14 @@ def _racks(ctx: click.Context, param: click.Parameter, value: str | None) -> lis
     "--set-score",
     metavar="I:J",
     type=SCORE,
-    help="The score of the set under way before the games of --racks.",
+    help="The score of the set under way, before the games of --racks.",
 )
 @click.option(
     "--racks", metavar="abbab...", callback=_racks, help="Who won each game since --score."
 )
-@click.option("--table", is_flag=True, help="Add the comeback table: every score to come.")
+@click.option(
+    "--table", is_flag=True, help="Add the comeback table: the odds at each score to come."
+)
 @plot_option
 @faces()
 def command(
@@ -63,10 +66,10 @@ def command(
     plot: str | None,
     **who: Any,
 ) -> Answer:
-    """Give the odds of a match under way, what the next game is worth, and how it went.
+    """Follow a match under way: the odds now, what the next game is worth, how it went.
 
-    Who plays and what is played: as for odds. Where it stands: --racks, or --score, or
-    both, the racks then being those after that score.
+    The players and the match: as for odds. The score: --racks, or --score, or both, the
+    racks then being those played since that score.
     """
     from evenbreak.answers.live import live_answer
     from evenbreak.matches.live import live_odds
@@ -77,28 +80,10 @@ def command(
         refuse("--set-score is the score of a set, and there is no --set; leave it out")
     if plot is not None and not racks:
         refuse("--plot draws the match as it went; give --racks, such as abbab")
-    _refuse_giants(match)
+    refuse_giants(match)
     odds = live_odds(match, racks, set_score=set_score)
     if plot is not None:
         from evenbreak.plots.live_match import plot_course
 
         write_plot(plot_course(odds), plot)
     return live_answer(players, match, odds, comebacks=table)
-
-
-def _refuse_giants(match: Match) -> None:
-    """Refuse a match that would take minutes."""
-    from evenbreak.answers.odds import match_words
-
-    win_by = getattr(match, "win_by", 0)
-    left = [
-        max(need - has, win_by, 1)
-        for need, has in zip((match.m, match.n), match.score, strict=True)
-    ]
-    scores = left[0] * left[1] if win_by else match.m + match.n
-    scores *= getattr(match.rack, "m", 1) * getattr(match.rack, "n", 1)
-    if scores > MOST_SCORES:
-        refuse(
-            f"{match_words(match)} can still come to about {scores:,} scores; ask for a match "
-            f"with at most {MOST_SCORES:,}, or see evenbreak odds"
-        )

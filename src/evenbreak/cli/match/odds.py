@@ -1,4 +1,4 @@
-"""`evenbreak odds`: the chances of a match, and how long it lasts."""
+"""`evenbreak odds`: the odds of a match, and how long it lasts."""
 
 from __future__ import annotations
 
@@ -9,13 +9,10 @@ import click
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.players import player_options, players_of
-from evenbreak.cli.kit.values import refuse
-from evenbreak.cli.match.what_is_played import MOST_SCORES, match_of, match_options
-from evenbreak.games.rack import Rack
+from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
-    from evenbreak.games.match import Match
 
 EXAMPLES = """\b
 Examples:
@@ -38,31 +35,15 @@ def command(
     win_by: int | None,
     **who: Any,
 ) -> Answer:
-    """Give the chances of a match, and how long it lasts.
+    """Give the odds of a match, and how long it lasts.
 
-    Who plays: two ratings A B; or --p; or --p1, --p2 and --breaks. What is played:
-    --race or --ahead, perhaps in sets.
+    The players: two ratings A B; or --p; or --p1, --p2 and --breaks. The match: --race or
+    --ahead, perhaps in sets.
     """
     from evenbreak.answers.odds import odds_answer
 
     players = players_of(**who)
     match = match_of(players, race=race, ahead=ahead, set_=set_, score=score, win_by=win_by)
-    _refuse_giants(match)
+    if getattr(match, "win_by", 0) != 1 or match.rack is not players.rack:  # no plain race
+        refuse_giants(match)
     return odds_answer(players, match)
-
-
-def _refuse_giants(match: Match) -> None:
-    """Refuse a match that would take minutes."""
-    from evenbreak.answers.odds import match_words
-
-    win_by, inner = getattr(match, "win_by", None), match.rack
-    if win_by == 1 and isinstance(inner, Rack):
-        return
-    scores = match.m + match.n if win_by is None else max(match.m, win_by) * max(match.n, win_by)
-    if not isinstance(inner, Rack):
-        scores *= inner.m * inner.n
-    if scores > MOST_SCORES:
-        refuse(
-            f"{match_words(match)} is too long to work out here, with about {scores:,} scores; "
-            f"ask for a match with at most {MOST_SCORES:,}"
-        )

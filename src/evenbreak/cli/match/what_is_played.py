@@ -1,4 +1,4 @@
-"""What is played: a race, or n-ahead, perhaps in sets, from a score on."""
+"""The match: a race or n-ahead, perhaps in sets, perhaps from a score on."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ if TYPE_CHECKING:
     from evenbreak.games.match import Match
 
 MOST_SCORES = 10_000
-"""Scores that a match other than the plain race may have, so that each answer takes seconds."""
+"""The most scores that a match may still come to, so that every answer takes seconds."""
 
 
 def match_options(command: Command) -> Command:
-    """Add the options that say what is played."""
+    """Add the options that describe the match."""
     for add in (
         click.option(
             "--win-by",
             type=Whole(1, LONGEST),
             metavar="K",
-            help="The race goes on until one leads by K, counted from what each needs.",
+            help="The race goes on until one player leads by K, counted from what each needs.",
         ),
         click.option(
             "--score", metavar="I:J", type=SCORE, help="The score so far: I for A, J for B."
@@ -35,7 +35,7 @@ def match_options(command: Command) -> Command:
             "set_",
             metavar="N|M:N",
             type=PAIR,
-            help="Play sets, each a race M:N; --race then counts sets.",
+            help="Play sets, each of them a race M:N; --race then counts sets.",
         ),
         click.option(
             "--ahead",
@@ -71,7 +71,7 @@ def match_of(
     rack: Any = players.rack
     breaks, first = players.break_format, players.first_breaker
     start = score or (0, 0)
-    if set_ is not None:  # the break format goes on across the sets: only the set has to know it
+    if set_ is not None:  # the break format carries on across sets, so only the set needs it
         rack = Race(set_[0], set_[1], rack, breaks=breaks, first_breaker=first)
         breaks = None
     if ahead is not None:
@@ -79,6 +79,24 @@ def match_of(
 
         return Ahead(ahead[0], ahead[1], rack, breaks=breaks, first_breaker=first, score=start)
     if race is None:
-        refuse("what is played is missing; give --race M:N or --ahead M:N")
+        refuse("the match is missing; give --race M:N or --ahead M:N")
     m, n = race
     return Race(m, n, rack, breaks=breaks, first_breaker=first, score=start, win_by=win_by or 1)
+
+
+def refuse_giants(match: Match) -> None:
+    """Refuse a match that can still come to so many scores that it would take minutes."""
+    from evenbreak.answers.odds import match_words
+
+    win_by = getattr(match, "win_by", 0)
+    left = [
+        max(need - has, win_by, 1)
+        for need, has in zip((match.m, match.n), match.score, strict=True)
+    ]
+    scores = left[0] * left[1] if win_by else match.m + match.n
+    scores *= getattr(match.rack, "m", 1) * getattr(match.rack, "n", 1)
+    if scores > MOST_SCORES:
+        refuse(
+            f"{match_words(match)} can still come to about {scores:,} scores; ask for a match "
+            f"with at most {MOST_SCORES:,}"
+        )

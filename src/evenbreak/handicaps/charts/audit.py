@@ -21,7 +21,7 @@ from scipy.special import betaincinv
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow
-from evenbreak.matches.parameters import plain
+from evenbreak.matches.parameters import in_shape
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale, scale_of
 
@@ -191,7 +191,7 @@ def even_doublings(m: ArrayLike, n: ArrayLike) -> Any:
     """
     mine, theirs = np.asarray(m, dtype=float), np.asarray(n, dtype=float)
     odds = np.asarray(betaincinv(mine, theirs, 0.5)) / betaincinv(theirs, mine, 0.5)
-    return plain(np.log2(odds), odds.shape)
+    return in_shape(np.log2(odds), odds.shape)
 
 
 def _in_order(chart: Chart | ChartDraft) -> list[ChartRow]:

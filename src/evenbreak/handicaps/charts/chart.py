@@ -16,8 +16,14 @@ from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.rows import ChartRow, row_faults
 
-CHARTS = ("fargo_r6_hot", "npl_8", "npl_10", "npl_12", "npl_20")
-"""The charts that come with the package, by name."""
+CHARTS = {
+    "fargo_r6_hot": "Fargo R6 Hot",
+    "npl_8": "National Pool League chart 8",
+    "npl_10": "National Pool League chart 10",
+    "npl_12": "National Pool League chart 12",
+    "npl_20": "National Pool League chart 20",
+}
+"""The charts that come with the package: the title of each, by name."""
 
 
 @dataclass(frozen=True)
@@ -183,7 +189,7 @@ def chart(name: str) -> Chart:
     >>> chart("npl_8").rows[1]
     ChartRow(difference_from=7, difference_to=18, stronger_needs=4, weaker_needs=3)
     """
-    if name not in CHARTS:
+    if name not in list(CHARTS):
         raise InputError(f"chart is {name!r}; give one of {', '.join(CHARTS)}")
     return _read(name)
 

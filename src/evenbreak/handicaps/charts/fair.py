@@ -16,7 +16,7 @@ from evenbreak.checks import one_of, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
-from evenbreak.matches.races import next_breaks, race_law
+from evenbreak.matches.races import next_breaks, race_odds
 
 _TIE = 1e-9
 
@@ -212,5 +212,5 @@ def _shortest_of_ties(candidates: list[_Candidate]) -> list[_Candidate]:
 def _describe(
     rack: Rack, m: int, n: int, breaks: BreakFormat | None, first_breaker: int
 ) -> FairRace:
-    law = race_law(m, n, rack.p1, rack.p2, breaks, first_breaker)
+    law = race_odds(m, n, rack.p1, rack.p2, breaks, first_breaker)
     return FairRace(m, n, law.p_win_1, law.mean, law.quantile(0.9))

@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 
-LEVEL_CHARTS = ("apa_8ball",)
-"""The charts of skill levels that come with the package, by name."""
+LEVEL_CHARTS = {"apa_8ball": "APA 8-ball"}
+"""The charts of skill levels that come with the package: the title of each, by name."""
 
 
 @dataclass(frozen=True)
@@ -178,7 +178,7 @@ def level_chart(name: str) -> LevelChart:
     >>> level_chart("apa_8ball").levels
     (2, 3, 4, 5, 6, 7)
     """
-    if name not in LEVEL_CHARTS:
+    if name not in list(LEVEL_CHARTS):
         raise InputError(f"level chart is {name!r}; give {' or '.join(LEVEL_CHARTS)}")
     return _read(name)
 

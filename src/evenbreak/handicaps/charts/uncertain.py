@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -99,9 +99,17 @@ def win_given_ratings(
     return chance if chance.ndim else float(chance)
 
 
+@overload
+def length_given_ratings(
+    difference: float, standard_error: float, m: int, n: int, *, scale: Any = "npl"
+) -> MatchLength[float, float]: ...
+@overload
 def length_given_ratings(
     difference: ArrayLike, standard_error: ArrayLike, m: int, n: int, *, scale: Any = "npl"
-) -> MatchLength:
+) -> MatchLength[Floats, Floats]: ...
+def length_given_ratings(
+    difference: ArrayLike, standard_error: ArrayLike, m: int, n: int, *, scale: Any = "npl"
+) -> MatchLength[Any, Any]:
     """Return how long the race m:n lasts, given the ratings and how far they may be off.
 
     Parameters are those of `win_given_ratings`, with one race for all differences; the chance

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.chains.birth_death import line_law
+from evenbreak.chains.birth_death import birth_death_law
 from evenbreak.checks import number_probabilities
 from evenbreak.errors import InputError
 from evenbreak.game import ArcArrays
@@ -182,7 +182,7 @@ def _law_of_class(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDAr
         up = kernel[:-1, steps == 1].sum(axis=1)
         down = kernel[1:, steps == -1].sum(axis=1)
         if up.all() and down.all():
-            return line_law(up, down)
+            return birth_death_law(up, down)
     else:
         law = _eliminated(walk_matrix(steps, kernel), int(np.abs(steps).max()))
         if np.isfinite(law).all():

@@ -1,4 +1,4 @@
-"""All systems, and how a person names them."""
+"""All systems, and how they are named."""
 
 from __future__ import annotations
 
@@ -19,38 +19,45 @@ _NUMBER = re.compile(r"[0-9]{1,9}")
 
 
 class _Family(NamedTuple):
-    """Systems that differ by numbers: how they are written, and what makes one of them."""
+    """Systems that differ only in numbers.
+
+    Parameters
+    ----------
+    grammar
+        how their names are written.
+    make
+        the function that makes one of them from its numbers.
+    numbers
+        the fewest and the most numbers that it takes.
+    samples
+        the numbers of those that the contract tests try.
+    """
 
     grammar: str
     make: Callable[..., System]
     numbers: tuple[int, int]
+    samples: tuple[tuple[int, ...], ...] = ((),)
 
 
 FAMILIES: Mapping[str, _Family] = MappingProxyType(
     {
         "npl": _Family("npl", lambda: NPL, (0, 0)),
-        "step": _Family("step UP [DOWN]", step_system, (1, 2)),
+        "step": _Family("step UP [DOWN]", step_system, (1, 2), ((2,), (2, 1))),
         "margin": _Family("margin [MOST]", margin_system, (0, 1)),
         "elo": _Family("elo [K]", elo_system, (0, 1)),
         "fixed": _Family("fixed [GAMES]", fixed_length_system, (0, 1)),
     }
 )
-"""The families of systems, by the word that their names begin with."""
+"""The families of systems, by the word with which their names begin."""
 
 SYSTEMS: Mapping[str, System] = MappingProxyType(
     {
         system.name: system
-        for system in (
-            NPL,
-            step_system(2),
-            step_system(2, 1),
-            margin_system(),
-            elo_system(),
-            fixed_length_system(),
-        )
+        for family in FAMILIES.values()
+        for system in (family.make(*numbers) for numbers in family.samples)
     }
 )
-"""A system of each kind, by name."""
+"""The samples of every family, by name."""
 
 
 def system_of(name: Any) -> System:

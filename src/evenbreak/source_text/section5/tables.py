@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -143,7 +143,7 @@ def _share(name: str) -> Callable[[Any, Any], Any]:
     return lambda p1, p2: long_run_share(p1, p2, BREAK_FORMATS[name])
 
 
-def _curves(columns: Mapping[str, Sequence[float]]) -> pd.DataFrame:
+def _curves(columns: Mapping[str, Any]) -> pd.DataFrame:
     return _frame(
         {"p": number_cell(p), **{name: fixed_cell(values[k]) for name, values in columns.items()}}
         for k, p in enumerate(_HUNDREDTHS)

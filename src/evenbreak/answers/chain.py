@@ -1,0 +1,113 @@
+"""Where a chain ends, or what it does in the long run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.wording import chance, count_of, games, listed
+from evenbreak.chains.limits import stochastic_limit
+from evenbreak.chains.passage_times import steps_to_absorption
+from evenbreak.chains.powers import propagate
+from evenbreak.errors import AccuracyError
+
+if TYPE_CHECKING:
+    from evenbreak.chains.chain import Chain
+    from evenbreak.chains.limits import Limit
+
+NAMED = 5
+"""States that a sentence names, the likeliest ones."""
+
+
+def chain_answer(chain: Chain, *, steps: int | None = None, warnings: Sequence[str] = ()) -> Answer:
+    """Return the stochastic limit of a chain from its start, or its density after some steps.
+
+    Parameters
+    ----------
+    chain
+        the chain; its states are texts.
+    steps
+        files then hold the density after so many steps, in place of the limit.
+    warnings
+        what may be wrong with the chain, a sentence each.
+
+    >>> from evenbreak.chains import chain_of
+    >>> arcs = [("S1", "W", 0.3), ("S1", "S2", 0.7), ("S2", "L", 0.2), ("S2", "S1", 0.8)]
+    >>> print(chain_answer(chain_of(arcs, start="S1")).sentences[0])
+    The chain ends in 'W' (0.6818) or 'L' (0.3182), after 3.86 steps on average.
+    """
+    limit = stochastic_limit(chain)
+    mean_steps, doubts = _mean_steps(chain)
+    if limit.residual is not None:
+        doubts.append(
+            f"the limit was solved with residual {limit.residual:.3g}, without a bound for each "
+            "entry"
+        )
+    states, structure = list(chain.states), chain.structure
+    columns = [Column("state", "state", left=True), Column("kind", "kind", left=True)]
+    values: list[Sequence[Any]] = [states, structure.kinds]
+    sentences = [_in_the_end(limit, structure.kinds, mean_steps)]
+    density = None
+    if steps is not None:
+        after = f"after {count_of(steps, 'step')}"
+        density = dict(zip(states, propagate(chain, steps=steps).tolist(), strict=True))
+        columns.append(Column("density", after, chance))
+        values.append(list(density.values()))
+        sentences.insert(0, f"A{after[1:]} the chain is in {_places(density)}.")
+    columns.append(Column("limit", "in the long run", chance))
+    values.append(limit.probability.tolist())
+    classes = zip(states, structure.label.tolist(), structure.kinds, strict=True)
+    return Answer(
+        f"A chain of {count_of(len(states), 'state')} that starts in {chain.start!r}",
+        ["\n".join(sentences), Table("", columns, list(zip(*values, strict=True)))],
+        [
+            "A transient state is left for good, an absorbing state is never left, and a recurrent "
+            "state is returned to again and again."
+        ],
+        warnings=[*warnings, *doubts],
+        data={
+            "start": chain.start,
+            "limit": limit.to_dict(),
+            "states": {state: {"class": label, "kind": kind} for state, label, kind in classes},
+            "period": limit.period,
+            "mean_steps": mean_steps,
+            "residual": limit.residual,
+            "steps": steps,
+            "density": density,
+        },
+        csv=Table(
+            "probabilities",
+            [Column("state"), Column("probability", exact=True)],
+            list((density or limit.to_dict()).items()),
+        ),
+    )
+
+
+def _mean_steps(chain: Chain) -> tuple[float | None, list[str]]:
+    """Return the mean number of steps to absorption, and why there is none where it is lost."""
+    try:
+        return steps_to_absorption(chain).mean, []
+    except AccuracyError as error:
+        doubt = f"the mean number of steps could not be worked out ({error}); absorption may be "
+        return None, [doubt + "certain all the same"]
+
+
+def _in_the_end(limit: Limit, kinds: Sequence[str], mean_steps: float | None) -> str:
+    """Return where the chain ends, or where it is in the long run."""
+    where = _places(limit.to_dict())
+    if any(p and kind != "absorbing" for p, kind in zip(limit.probability, kinds, strict=True)):
+        text = f"In the long run the chain is in {where}."
+        if limit.is_cesaro:
+            text += f" It never settles (period {limit.period}): these are long-run averages."
+        return text
+    steps = f", after {games(mean_steps)} steps on average" if mean_steps else ""
+    return f"The chain ends in {where}{steps}."
+
+
+def _places(density: Mapping[Any, float]) -> str:
+    """Return the likeliest states, each with its chance."""
+    likeliest = sorted((item for item in density.items() if item[1]), key=lambda item: -item[1])
+    named = [f"{state!r} ({chance(p)})" for state, p in likeliest[:NAMED]]
+    more = len(likeliest) - len(named)
+    return listed([*named, f"{more:,} other states"] if more > 0 else named, "or")

@@ -1,0 +1,67 @@
+"""Choosing the players of a sheet: by name, or those who play most."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.files.known_names import KnownNames
+from evenbreak.files.problems import quoted
+from evenbreak.files.results_columns import clean_name
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.results import Results
+
+
+def most_active(ratings: Ratings, top: int) -> list[int]:
+    """Return the players with the most games (positions in `ratings.players`), the most first.
+
+    Players with equally many games are ordered by their matches known by the winner alone,
+    then by name.
+    """
+    races = ratings.races_won + ratings.races_lost
+    order = sorted(range(len(ratings.players)), key=lambda k: (-ratings.games[k], -races[k], k))
+    return order[:top]
+
+
+def by_strength(ratings: Ratings, players: Iterable[int]) -> list[int]:
+    """Return players (positions in `ratings.players`), the strongest first, equals by name."""
+    # Rounded in log-odds, so that neither the scale nor the last bits decide.
+    strength = np.round(ratings.scale.log_odds(ratings.rating - ratings.anchor), 9)
+    return sorted(players, key=lambda k: (-strength[k], k))
+
+
+def find_players(
+    ratings: Ratings | Results, names: Sequence[str], *, said: str = "players"
+) -> list[int]:
+    """Return the positions of the named players, each once; upper and lower case may differ.
+
+    Parameters
+    ----------
+    ratings
+        the players to search.
+    names
+        as a person typed them.
+    said
+        the parameter or option that named them, for the error.
+
+    Raises
+    ------
+    InputError
+        if names are not in the results; it lists all of them, each with similar names.
+    """
+    known = KnownNames(ratings.players)
+    found: dict[int, None] = {}
+    unknown: dict[str, None] = {}
+    for name in map(clean_name, names):
+        place = known.place(name)
+        if place is None:
+            unknown[quoted(name) + known.hint(name)] = None
+        else:
+            found[place] = None
+    if unknown:
+        raise InputError(
+            f"{said}: not in the results: {', '.join(unknown)}; write names as the results do"
+        )
+    return list(found)

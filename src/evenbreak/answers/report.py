@@ -1,0 +1,114 @@
+"""The fair-race sheet as an answer: the races, the ratings behind them, what was left out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.left_out import left_out
+from evenbreak.answers.report_frames import count_groups
+from evenbreak.answers.scale_words import decimals_of
+from evenbreak.answers.sheet import NO_RACE, Sheet
+from evenbreak.answers.sheet_words import (
+    about_model,
+    about_ratings,
+    how_even,
+    how_rated,
+    how_to_read,
+    played,
+    source_and_dates,
+)
+from evenbreak.files.csv_writer import rows_of
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+MOST_SHOWN = 30
+"""Players whose races are shown; JSON and files hold all."""
+
+
+def report_answer(sheet: Sheet) -> Answer:
+    """Return a fair-race sheet as an answer.
+
+    >>> from evenbreak.answers.offered_races import OfferedRaces
+    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
+    >>> answer = report_answer(Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2]))
+    >>> answer.sentences[1]
+    "Find your row and your opponent's column. 7:6 means that you need 7 games and your opponent 6."
+    """
+    shown = sheet.strongest(MOST_SHOWN)
+    items = list(left_out(sheet, in_table=len(shown.listed)))
+    return Answer(
+        f"Fair races from {source_and_dates(sheet)}\n{played(sheet)}",
+        [
+            " ".join([sheet.offered.in_words, *how_even(shown.paired)]),
+            how_to_read(shown.paired),
+            _race_table(shown),
+            " ".join([*about_ratings(sheet), how_rated(sheet)]),
+            _ratings_table(shown),
+            *(["\n".join(["Left out:", *(f"- {item}" for item in items)])] if items else []),
+        ],
+        details=[about_model(sheet)],
+        csv=Table("matchups", _columns(sheet.paired), rows_of(sheet.paired)),
+        data={
+            "ratings": _records(sheet.rated),
+            "summary": dict(rows_of(sheet.summary)),
+            "left_out": [str(item) for item in items],
+        },
+    )
+
+
+def _race_table(sheet: Sheet) -> Table:
+    """Return the races with a row and a column for each player."""
+    names = sheet.listed["player"].tolist()
+    places = [str(place + 1) for place in sheet.listed.index]
+    wide = max(map(len, places))
+    columns = [Column("player", "", left=True)]
+    columns += [Column(place, place) for place in places]
+    rows = [
+        (
+            f"{place:>{wide}}  {name}",
+            *(
+                None if name == other else sheet.races.get((name, other), NO_RACE)
+                for other in names
+            ),
+        )
+        for place, name in zip(places, names, strict=True)
+    ]
+    return Table("", columns, rows)
+
+
+def _ratings_table(sheet: Sheet) -> Table:
+    decimals = decimals_of(sheet.ratings.scale)
+
+    def points(value: float) -> str:
+        return f"{value:.{decimals}f}"
+
+    counts = ["games", "won", "lost"]
+    listed = sheet.listed
+    if count_groups(sheet.ratings) > 1:
+        counts.append("component")
+    words = {"component": "group"}
+    columns = [
+        Column("place", "#"),
+        Column("player", "player", left=True),
+        Column("rating", "rating", points),
+        Column("standard_error", "give or\ntake", points),
+        *(Column(name, words.get(name, name), "{:,}".format) for name in counts),
+    ]
+    frame = listed[["player", "rating", "standard_error", *counts]]
+    rows = [(place + 1, *row) for place, row in zip(frame.index, rows_of(frame), strict=True)]
+    more = len(sheet.rated) > len(listed)
+    title = f"#: place among all {len(sheet.rated):,} players. " if more else ""
+    return Table("", columns, rows, f"{title}Give or take: one standard error.")
+
+
+def _columns(frame: pd.DataFrame) -> list[Column]:
+    return [Column(str(name)) for name in frame.columns]
+
+
+def _records(frame: pd.DataFrame) -> list[dict[str, Any]]:
+    return Table("", _columns(frame), rows_of(frame)).to_dicts()

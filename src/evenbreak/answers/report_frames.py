@@ -1,0 +1,107 @@
+"""The tables that `evenbreak report` writes: ratings.csv and summary.csv."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak import __version__
+from evenbreak.answers.chosen_players import by_strength
+from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.scale_words import like_scale_words
+from evenbreak.files.results import ResultsFile
+from evenbreak.files.roster import RosterFile
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.results import Results
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def ratings_frame(ratings: Ratings) -> pd.DataFrame:
+    """Return every player's rating, the strongest first.
+
+    Returns
+    -------
+    pandas.DataFrame
+        player; rating, standard_error and quasi_error in points of the scale; games, won
+        and lost in the matches that were used; component: players with the same number are
+        linked by a chain of opponents, and only their ratings can be compared.
+    """
+    import pandas as pd
+
+    order = by_strength(ratings, range(len(ratings.players)))
+    columns = ("rating", "standard_error", "quasi_error", "games", "won", "lost", "component")
+    return pd.DataFrame(
+        {
+            "player": [ratings.players[k] for k in order],
+            **{name: np.asarray(getattr(ratings, name))[order] for name in columns},
+        }
+    )
+
+
+def summary_frame(
+    file: ResultsFile, ratings: Ratings, paired: pd.DataFrame, offered: OfferedRaces
+) -> pd.DataFrame:
+    """Return what a report was made from and how, as rows of key and value.
+
+    `components` counts those of players with games; `anchor` is the mean rating of each
+    component, so the rating of a player without games; the standard deviation of the prior
+    is given in natural log-odds and in points of the scale.
+    """
+    import pandas as pd
+
+    scale = ratings.scale
+    first, last = dates_of(file.results, ratings.as_of)
+    rows: dict[str, object] = {
+        "results_file": file_name(file),
+        "results_sha256": file.sha256,
+        "matches_read": len(file.results),
+        "matches_used": ratings.matches,
+        "forfeits_left_out": ratings.forfeits,
+        "empty_left_out": ratings.empty,
+        "later_left_out": ratings.later,
+        "first_date": first,
+        "last_date": last,
+        "games": int(ratings.won.sum()),
+        "players": len(ratings.players),
+        "players_without_games": int(ratings.idle.sum()),
+        "components": count_groups(ratings),
+        "groups_of_similar_names": len(file.similar_names),
+        "scale": f"{like_scale_words(scale)}; not an official rating",
+        "points_per_doubling": scale.points_per_doubling,
+        "anchor": ratings.anchor,
+        "prior_sd_log_odds": ratings.prior_sd,
+        "prior_sd_points": float(scale.points(ratings.prior_sd)),
+        "half_life_days": ratings.half_life,
+        "as_of": None if ratings.as_of is None else str(ratings.as_of),
+        "race_to": offered.race_to,
+        "games_lo": offered.games[0] if offered.games else None,
+        "games_hi": offered.games[1] if offered.games else None,
+        "pairs": len(paired),
+        "pairs_without_race": int(paired["race_a"].isna().sum()),
+        "evenbreak_version": __version__,
+    }
+    return pd.DataFrame(
+        {"key": list(rows), "value": pd.Series(list(rows.values()), dtype="object")}
+    )
+
+
+def count_groups(ratings: Ratings) -> int:
+    """Return how many groups of players never met; a player without results is no group."""
+    return len(np.unique(ratings.component[~ratings.idle]))
+
+
+def file_name(file: ResultsFile | RosterFile) -> str:
+    """Return the name of a file without its folders."""
+    return file.source.replace("\\", "/").rpartition("/")[2]
+
+
+def dates_of(results: Results, as_of: np.datetime64 | None = None) -> tuple[str, str]:
+    """Return the first and last day, up to `as_of`, on which a match was played; '' if unknown."""
+    counted = results.played().results, results.won_only()
+    stated = [part.date for part in counted if part.date is not None]
+    days = np.concatenate(stated) if stated else np.zeros(0, "datetime64[D]")
+    days = days[~np.isnat(days) if as_of is None else days <= as_of]
+    return (str(days.min()), str(days.max())) if len(days) else ("", "")

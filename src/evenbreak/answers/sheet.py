@@ -1,0 +1,113 @@
+"""The fair-race sheet of a league: what every form of it, printed or written, is made from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.answers.chart_bands import Band, chart_bands
+from evenbreak.answers.fair_pairs import matchups_frame
+from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.report_frames import ratings_frame, summary_frame
+from evenbreak.answers.sure_pairs import SurePair, sure_pairs
+from evenbreak.answers.wording import race
+from evenbreak.files.results import ResultsFile
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.prior import PriorChoice
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+NO_RACE = "-"
+"""Stands for the race of two players who cannot be compared."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """A league's ratings, and the fairest race of each pair of the players chosen.
+
+    Parameters
+    ----------
+    file, ratings
+        the results, and the ratings that come from them.
+    offered
+        the races to choose from.
+    rated, paired
+        the tables of `ratings_frame` and `matchups_frame`.
+    choice
+        how the prior was chosen, if it was.
+
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
+    >>> sheet = Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2])
+    >>> sheet.races["Cy", "Ann"], sheet.strongest(2).races
+    ('4:7', {('Ann', 'Bo'): '7:6', ('Bo', 'Ann'): '6:7'})
+    """
+
+    file: ResultsFile
+    ratings: Ratings
+    offered: OfferedRaces
+    rated: pd.DataFrame
+    paired: pd.DataFrame
+    choice: PriorChoice | None = None
+
+    @classmethod
+    def of(
+        cls,
+        file: ResultsFile,
+        ratings: Ratings,
+        offered: OfferedRaces,
+        players: Sequence[int],
+        choice: PriorChoice | None = None,
+    ) -> Sheet:
+        """Return the sheet that pairs these players (positions in `ratings.players`)."""
+        paired = matchups_frame(ratings, players, offered)
+        return cls(file, ratings, offered, ratings_frame(ratings), paired, choice)
+
+    def strongest(self, most: int) -> Sheet:
+        """Return the sheet with the races of the strongest players only."""
+        names = set(self.listed["player"].head(most))
+        both = self.paired["player_a"].isin(names) & self.paired["player_b"].isin(names)
+        return replace(self, paired=self.paired[both])
+
+    @cached_property
+    def listed(self) -> pd.DataFrame:
+        """The rows of `rated` of the players who are paired; the index is the place, from 0."""
+        names = {*self.paired["player_a"], *self.paired["player_b"]}
+        return self.rated[self.rated["player"].isin(names)]
+
+    @cached_property
+    def races(self) -> dict[tuple[str, str], str]:
+        """The race of each two players, from the side of the first."""
+        return races_by_name(self.paired)
+
+    @cached_property
+    def sure(self) -> list[SurePair]:
+        """How well the difference of each pair is known, the best known first."""
+        return sure_pairs(self.ratings, self.paired)
+
+    @cached_property
+    def bands(self) -> list[Band]:
+        """The chart that the races come to, empty if there is none."""
+        if not self.sure:
+            return []
+        furthest = max(pair.difference for pair in self.sure)
+        return chart_bands(self.offered, self.ratings.scale, furthest)
+
+    @cached_property
+    def summary(self) -> pd.DataFrame:
+        """What the sheet was made from and how: the table of summary.csv."""
+        return summary_frame(self.file, self.ratings, self.paired, self.offered)
+
+
+def races_by_name(paired: pd.DataFrame) -> dict[tuple[str, str], str]:
+    """Return the race of each two players as text, from the side of the first."""
+    races = {}
+    rows: Any = paired.dropna(subset=["race_a"]).itertuples(index=False)
+    for pair in rows:
+        races[pair.player_a, pair.player_b] = race((pair.race_a, pair.race_b))
+        races[pair.player_b, pair.player_a] = race((pair.race_b, pair.race_a))
+    return races

@@ -1,0 +1,99 @@
+"""The stationary law of every closed class: the density on it that M leaves unchanged.
+
+Cut one state c out of the class. With T the arcs among the others, which are all left in the
+end, and b the arcs out of c,
+
+    (I - T) x = b,   law = (1, x) / (1 + sum x):
+
+x is the expected number of visits to the others between two visits to c. The solve is free of
+subtraction (see `transient`).
+
+References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from evenbreak.chains.birth_death import birth_death_law
+from evenbreak.chains.decimal_elimination import decimal_law
+from evenbreak.chains.line_elimination import line_order
+from evenbreak.chains.transient import TransientPart
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Arcs
+    from evenbreak.chains.chain import Chain
+
+
+def stationary_laws(chain: Chain) -> NDArray[np.float64]:
+    """Return the stationary law of every closed class in one vector; shape (n,).
+
+    Each entry is conditional on being in the closed class of its state, so the entries of
+    a class sum to 1. Transient states have 0.
+
+    Parameters
+    ----------
+    chain
+        the chain.
+
+    Raises
+    ------
+    AccuracyError
+        if a law cannot be guaranteed: it spans more decades than floats do and its class is
+        too large for decimal numbers, or its class is too large and mixes too slowly.
+
+    >>> from evenbreak.chains import chain_of
+    >>> stationary_laws(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 1.0), (0, 1, 1.0)]))
+    array([0.66666667, 0.33333333, 0.        ])
+    """
+    return laws_of(chain, chain.structure.closed)[0]
+
+
+def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float64], float | None]:
+    """Return the laws of those of `classes` that are closed, and the residual if there is one.
+
+    One state of each class is cut out; the visits to the others between two visits to it
+    are proportional to the law.
+    """
+    structure = chain.structure
+    wanted = classes & structure.closed
+    law = np.zeros(len(chain))
+    cut = structure.order[structure.offsets[:-1][wanted]]
+    law[cut] = 1.0
+    inside = wanted[structure.label]
+    rest = inside.copy()
+    rest[cut] = False
+    residual = None
+    if rest.any():
+        states = np.flatnonzero(rest)
+        part = TransientPart(chain.arcs, states)
+        x, doubtful = part.attempt((chain.arcs.matrix() @ law)[states, None])
+        law[states] = x[:, 0]
+        residual = part.residual
+        for label in np.unique(structure.label[states[doubtful[:, 0]]]):
+            members = structure.members(label)
+            law[members] = _law_of(chain.arcs.among(members)[0])
+    # Scaled to a largest entry of 1 first, so that the sum cannot overflow.
+    top = np.zeros(structure.count)
+    np.maximum.at(top, structure.label[inside], law[inside])
+    law[inside] /= top[structure.label[inside]]
+    total = np.bincount(structure.label[inside], law[inside], structure.count)
+    law[inside] /= total[structure.label[inside]]
+    return law, residual
+
+
+def _law_of(arcs: Arcs) -> NDArray[np.float64]:
+    """Return the law of one closed class, also if it spans more decades than floats do."""
+    T = arcs.matrix()
+    order = line_order(T)
+    if order is None:
+        return decimal_law(arcs)
+    line = csc_array(T[:, order])[order]
+    law = np.empty(arcs.size)
+    law[order] = birth_death_law(line.diagonal(-1), line.diagonal(1))
+    return law

@@ -1,0 +1,47 @@
+import pytest
+
+from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
+from evenbreak.answers.faces.to_text import paragraph, to_text
+
+
+def wide_table(columns):
+    names = [Column("player", "", left=True), *(Column(f"c{k}", f"{k:03}") for k in range(columns))]
+    return Table("", names, [(name, *range(columns)) for name in ("Ann", "Bo")])
+
+
+def blocks_of(text):
+    """Return the column headings of each part of the table below the heading."""
+    return [part.splitlines()[0].split() for part in text.split("\n\n")[1:]]
+
+
+@pytest.mark.parametrize(
+    ("columns", "sizes"), [(5, [5]), (14, [14]), (16, [8, 8]), (31, [11, 11, 9])]
+)
+def test_a_wide_table_is_cut_into_parts_of_nearly_one_size(columns, sizes):
+    text = to_text(Answer("Heading", [wide_table(columns)]))
+    blocks = blocks_of(text)
+    assert [len(block) for block in blocks] == sizes
+    assert [head for block in blocks for head in block] == [f"{k:03}" for k in range(columns)]
+    assert max(map(len, text.splitlines())) <= 80
+    assert text.count("  Ann") == len(sizes)
+
+
+def test_parts_differ_in_size_where_equal_ones_do_not_fit():
+    heads = ["x" * 30, "y" * 30, *(f"{k}" for k in range(4))]
+    table = Table("", [Column(head, head) for head in heads], [range(6)])
+    text = to_text(Answer("Heading", [table]))
+    assert max(map(len, text.splitlines())) <= 80
+    assert [head for block in blocks_of(text) for head in block] == heads
+
+
+def test_items_of_a_list_are_indented_where_they_go_on():
+    assert paragraph("- one two three\nfour five six", 9) == "- one two\n  three\nfour five\nsix"
+
+
+def test_details_are_for_those_who_ask():
+    numbers = Quantities([Quantity("a", 1, "plain"), Quantity("b", 2, "statistics", detail=True)])
+    answer = Answer("Heading", [numbers], details=["The model."])
+    assert "statistics" not in to_text(answer)
+    assert "model" not in to_text(answer)
+    assert "statistics" in to_text(answer, verbose=True)
+    assert "model" in to_text(answer, verbose=True)

@@ -1,0 +1,58 @@
+"""The vectors of eigenvalue 1 and of the other roots of 1, by hand and by their equations."""
+
+import numpy as np
+import pytest
+
+from evenbreak.chains import chain_of
+from evenbreak.chains.eigenpairs import SHIFT, UnitPairs, leading_pairs, roots_of_one
+from evenbreak.errors import AccuracyError
+
+# From S play goes to the absorbing state W, or to a ring of three with a uniform law.
+RING = [("a", "b", 1.0), ("b", "c", 1.0), ("c", "a", 1.0)]
+CHAIN = chain_of([("S", "W", 0.25), ("S", "S", 0.5), ("S", "b", 0.25), *RING])
+
+
+def test_the_vectors_of_eigenvalue_1_are_laws_and_chances() -> None:
+    units = UnitPairs(CHAIN)
+    by_state = dict(zip(CHAIN.states, zip(units.right, units.left.T, strict=True), strict=True))
+    won = int(np.argmax(by_state["W"][0]))
+    assert by_state["W"][0][won] == 1.0
+    assert [by_state[s][0][1 - won] for s in "abc"] == pytest.approx([1 / 3] * 3, rel=1e-15)
+    assert by_state["S"][1] == pytest.approx([0.5, 0.5], rel=1e-15)
+    assert units.error < 1e-14
+
+
+def test_the_resolvent_inverts_all_but_eigenvalue_1() -> None:
+    units = UnitPairs(CHAIN)
+    M = CHAIN.matrix.toarray()
+    x = np.random.default_rng(1).random(len(CHAIN))
+    x -= units.right @ (units.left @ x)
+    A = SHIFT * np.eye(len(CHAIN)) - M
+    assert A @ units.resolvent(x) == pytest.approx(x, abs=1e-12)
+    y = np.random.default_rng(2).random(len(CHAIN))
+    y -= units.left.T @ (units.right.T @ y)
+    assert A.T @ units.resolvent_transposed(y) == pytest.approx(y, abs=1e-12)
+
+
+def test_the_other_roots_of_1_solve_their_equations() -> None:
+    values, left, right = roots_of_one(CHAIN, UnitPairs(CHAIN))
+    M = CHAIN.matrix.toarray()
+    assert values**3 == pytest.approx(np.ones(2), abs=1e-14)
+    assert values[0] == pytest.approx(values[1].conj(), abs=1e-14)
+    assert left @ M == pytest.approx(values[:, None] * left, abs=1e-14)
+    assert M @ right == pytest.approx(right * values, abs=1e-14)
+    assert left @ right == pytest.approx(np.eye(2), abs=1e-14)
+
+
+def test_leading_pairs_begin_with_eigenvalue_1() -> None:
+    values, left, right = leading_pairs(CHAIN, UnitPairs(CHAIN), 5)
+    assert values[:2].tolist() == [1.0, 1.0]
+    assert np.abs(values[2:4]) == pytest.approx([1.0, 1.0])
+    assert values[4] == pytest.approx(0.5)
+    assert left @ right == pytest.approx(np.eye(5), abs=1e-12)
+
+
+def test_a_defective_matrix_has_too_few_vectors() -> None:
+    path = chain_of([(0, 1, 1.0), (1, 2, 1.0), (2, 3, 1.0)])
+    with pytest.raises(AccuracyError, match="defective"):
+        leading_pairs(path, UnitPairs(path), 3)
