@@ -32,6 +32,7 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
         "handicaps.ladders",
         "handicaps",
         "league",
+        "tournaments teams",
         "files",
         "answers",
         "plots",

@@ -8,7 +8,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import alternate_breaks, winner_breaks
 from evenbreak.handicaps import chart, fair_races
-from evenbreak.matches.races import race_law
+from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import scale_of
 from evenbreak.tournaments import Fairest, Races, chances_given, double_elimination, match_laws
 
@@ -20,7 +20,7 @@ def test_even_races_by_side() -> None:
     laws = match_laws(BRACKET, RATINGS, Races(7, losers=5, final=9, by_match={"W2.1": 3}))
     p = scale_of("fargo").win_probability(640.0 - 415.0)
     for name, race in (("W1.1", 7), ("L1.1", 5), ("F", 9), ("F2", 9), ("W2.1", 3)):
-        law = race_law(race, race, p)
+        law = race_odds(race, race, p)
         assert laws[name].win[0, 3] == pytest.approx(law.p_win_1)
         assert laws[name].mean_games[0, 3] == pytest.approx(law.mean)
         assert laws[name].ends[0, 3][law.games] == pytest.approx(law.win_1)
@@ -34,7 +34,7 @@ def test_a_chart() -> None:
     for i, j in ((0, 1), (0, 3), (2, 1)):
         m, n = table.race(RATINGS[i] - RATINGS[j])
         p = scale_of("fargo").win_probability(RATINGS[i] - RATINGS[j])
-        assert laws["F"].win[i, j] == pytest.approx(race_law(m, n, p).p_win_1)
+        assert laws["F"].win[i, j] == pytest.approx(race_odds(m, n, p).p_win_1)
 
 
 def test_the_fairest_race_of_a_length() -> None:
@@ -50,7 +50,7 @@ def test_breaks(breaks) -> None:
     scale = scale_of("npl")
     laws = match_laws(BRACKET, RATINGS, 5, scale="npl", break_advantage=12, breaks=breaks)
     p1, p2 = scale.win_probability(70.0 + 12), scale.win_probability(12 - 70.0)
-    both = [race_law(5, 5, p1, p2, breaks, first).p_win_1 for first in (1, 2)]
+    both = [race_odds(5, 5, p1, p2, breaks, first).p_win_1 for first in (1, 2)]
     assert laws["F"].win[0, 1] == pytest.approx(np.mean(both))
 
 

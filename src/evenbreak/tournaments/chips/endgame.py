@@ -16,8 +16,8 @@ from typing import TypeAlias, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from evenbreak.chains.absorption import expected_visits
 from evenbreak.chains.explore import chain_of
-from evenbreak.chains.limits import expected_visits
 from evenbreak.checks import number_probability, whole
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability

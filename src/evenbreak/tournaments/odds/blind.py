@@ -27,7 +27,7 @@ from evenbreak.tournaments.brackets.standing import standing
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
 from evenbreak.tournaments.odds.forward import flow
 from evenbreak.tournaments.odds.meetings import group_meetings, meetings_of_flow, place_law
-from evenbreak.tournaments.odds.plan import exact_plan
+from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.title import PlaceOdds, odds_now
 
 _MOST_PLAYERS = 16

@@ -26,7 +26,7 @@ from evenbreak.tournaments.odds.meetings import (
     meetings_of_flow,
     place_law,
 )
-from evenbreak.tournaments.odds.plan import plan_of
+from evenbreak.tournaments.odds.planning import plan_of
 from evenbreak.tournaments.odds.play import PlayedOut
 
 _STATES = 1e6

@@ -24,7 +24,8 @@ from evenbreak.tournaments.odds.controls import controls_of
 from evenbreak.tournaments.odds.cut import Cut, cut_before
 from evenbreak.tournaments.odds.forward import Flow, flow
 from evenbreak.tournaments.odds.meetings import GoesOn, Meeting, add_places, goes_on
-from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players, plan_of
+from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players
+from evenbreak.tournaments.odds.planning import plan_of
 from evenbreak.tournaments.odds.play import PlayedOut, play_out
 
 _STATES_A_DRAW = 1e5

@@ -27,7 +27,8 @@ from evenbreak.tournaments.odds.meetings import (
     place_law,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan, exact_plan
+from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
+from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.title import prizes
 
 MOST_STATES = 2e7

@@ -17,7 +17,8 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, standing
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
 from evenbreak.tournaments.odds.forward import gathered, group_law, joined, split
-from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan, exact_plan
+from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
+from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.play import play_out
 
 MOST_STATES = 1.5e6

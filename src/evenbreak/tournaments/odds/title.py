@@ -29,7 +29,7 @@ from evenbreak.tournaments.odds.meetings import (
     place_law,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.plan import MOST_STATES, exact_plan
+from evenbreak.tournaments.odds.planning import MOST_STATES, exact_plan
 
 DRAWS = 10_000
 """How often the first rounds are drawn where they are."""

@@ -28,7 +28,8 @@ from evenbreak.tournaments.odds.meetings import (
     place_law,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.plan import Plan, exact_plan
+from evenbreak.tournaments.odds.plan import Plan
+from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.title import TitleOdds, odds_now
 
 _CELLS = 4_000_000
