@@ -113,7 +113,7 @@ def _places(bracket, sent, met):
     return places
 
 
-def place_law(bracket: Bracket, chance: Chance) -> list[list[Fraction]]:
+def place_odds(bracket: Bracket, chance: Chance) -> list[list[Fraction]]:
     """Return P(each player has each place)."""
     law = [[Fraction(0)] * len(bracket.places) for _ in bracket.players]
     for weight, places, _ in courses(bracket, chance):

@@ -1,4 +1,4 @@
-"""Odds of a blind draw: the mean over all draws."""
+"""Odds of a blind draw: the mean over all samples."""
 
 from __future__ import annotations
 
@@ -39,14 +39,14 @@ def mean_of_draws(bracket, win) -> np.ndarray:
 def test_all_draws(bracket) -> None:
     win = by_seed(len(bracket.players))
     odds = blind_draw_odds(bracket, win)
-    assert odds.draws == 0
+    assert odds.samples == 0
     assert odds.p_place == pytest.approx(mean_of_draws(bracket, win), rel=1e-11)
 
 
 def test_sixteen_players_by_a_sample_of_draws() -> None:
     bracket, win = single_elimination(16), by_seed(16)
     odds = blind_draw_odds(bracket, win)
-    assert odds.draws == 0
+    assert odds.samples == 0
     assert odds.p_place.sum(axis=0) == pytest.approx([1, 1, 2, 4, 8])
     rng = np.random.default_rng(1)
     orders = [rng.permutation(16) for _ in range(400)]
@@ -68,9 +68,9 @@ def test_races_by_round() -> None:
 
 
 def test_many_draws_are_sampled() -> None:
-    odds = blind_draw_odds(groups_then_knockout(6, 2), by_seed(6), draws=500)
+    odds = blind_draw_odds(groups_then_knockout(6, 2), by_seed(6), samples=500)
     want = mean_of_draws(groups_then_knockout(6, 2), by_seed(6))
-    assert odds.draws == 500
+    assert odds.samples == 500
     assert (np.abs(odds.p_place - want) <= 5 * odds.error).all()
 
 

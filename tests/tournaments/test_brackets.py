@@ -113,14 +113,14 @@ def test_qualifiers_meet_by_half_shift() -> None:
 
 
 def test_qualifiers_redrawn() -> None:
-    draws = [
+    samples = [
         layout(
             double_elimination(16, qualifiers=8, placement="redraw", rng=np.random.default_rng(k))
         )
         for k in range(20)
     ]
-    assert len({tuple(draw[f"K1.{i}"][1] for i in (1, 2, 3, 4)) for draw in draws}) > 10
-    assert all(draw["K1.1"][0] == "wW2.1" for draw in draws)
+    assert len({tuple(draw[f"K1.{i}"][1] for i in (1, 2, 3, 4)) for draw in samples}) > 10
+    assert all(draw["K1.1"][0] == "wW2.1" for draw in samples)
     with pytest.raises(InputError, match="rng"):
         double_elimination(16, qualifiers=8, placement="redraw")
 

@@ -20,7 +20,7 @@ from evenbreak.tournaments import (
     finish,
     groups_then_knockout,
     learned_pace,
-    match_laws,
+    pair_odds,
     minutes_later,
     round_robin,
     single_elimination,
@@ -33,7 +33,7 @@ AT_ONCE = Turnover(0.0, 0.0)
 
 
 def laws_of(bracket, race=3):
-    return match_laws(bracket, [500.0] * len(bracket.players), race)
+    return pair_odds(bracket, [500.0] * len(bracket.players), race)
 
 
 # Paces.

@@ -68,7 +68,7 @@ def test_a_redraw_is_the_mean_of_all_placements() -> None:
         ).title
         for seed in range(12)
     ]
-    assert odds.draws == 0
+    assert odds.samples == 0
     distinct = np.unique(np.round(drawn, 12), axis=0)
     assert len(distinct) == 2
     assert odds.title == pytest.approx(distinct.mean(axis=0))
@@ -78,7 +78,7 @@ def test_a_redraw_is_the_mean_of_all_placements() -> None:
 
 def test_many_redraws_are_sampled() -> None:
     bracket, win = double_elimination(16, qualifiers=16), by_seed(16)
-    odds = redraw_odds(bracket, win, draws=10)
-    assert odds.draws == 10
+    odds = redraw_odds(bracket, win, samples=10)
+    assert odds.samples == 10
     assert odds.error.max() > 0.0
     assert odds.p_place.sum(axis=1) == pytest.approx(np.ones(16))

@@ -10,14 +10,14 @@ from evenbreak.games.breaks import alternate_breaks, winner_breaks
 from evenbreak.handicaps import chart, fair_races
 from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import scale_of
-from evenbreak.tournaments import Fairest, Races, chances_given, double_elimination, match_laws
+from evenbreak.tournaments import Fairest, Races, chances_given, double_elimination, pair_odds
 
 RATINGS = np.array([640.0, 570.0, 500.0, 415.0])
 BRACKET = double_elimination(4)
 
 
 def test_even_races_by_side() -> None:
-    laws = match_laws(BRACKET, RATINGS, Races(7, losers=5, final=9, by_match={"W2.1": 3}))
+    laws = pair_odds(BRACKET, RATINGS, Races(7, losers=5, final=9, by_match={"W2.1": 3}))
     p = scale_of("fargo").win_probability(640.0 - 415.0)
     for name, race in (("W1.1", 7), ("L1.1", 5), ("F", 9), ("F2", 9), ("W2.1", 3)):
         law = race_odds(race, race, p)
@@ -30,7 +30,7 @@ def test_even_races_by_side() -> None:
 
 def test_a_chart() -> None:
     table = chart("fargo_r6_hot")
-    laws = match_laws(BRACKET, RATINGS, table)
+    laws = pair_odds(BRACKET, RATINGS, table)
     for i, j in ((0, 1), (0, 3), (2, 1)):
         m, n = table.race(RATINGS[i] - RATINGS[j])
         p = scale_of("fargo").win_probability(RATINGS[i] - RATINGS[j])
@@ -38,7 +38,7 @@ def test_a_chart() -> None:
 
 
 def test_the_fairest_race_of_a_length() -> None:
-    laws = match_laws(BRACKET, RATINGS, Fairest(7))
+    laws = pair_odds(BRACKET, RATINGS, Fairest(7))
     for i, j in ((0, 1), (0, 3), (1, 2)):
         p = scale_of("fargo").win_probability(RATINGS[i] - RATINGS[j])
         best = fair_races(p, race_to=7, top=1)[0]
@@ -48,7 +48,7 @@ def test_the_fairest_race_of_a_length() -> None:
 @pytest.mark.parametrize("breaks", [alternate_breaks, winner_breaks])
 def test_breaks(breaks) -> None:
     scale = scale_of("npl")
-    laws = match_laws(BRACKET, RATINGS, 5, scale="npl", break_advantage=12, breaks=breaks)
+    laws = pair_odds(BRACKET, RATINGS, 5, scale="npl", break_advantage=12, breaks=breaks)
     p1, p2 = scale.win_probability(70.0 + 12), scale.win_probability(12 - 70.0)
     both = [race_odds(5, 5, p1, p2, breaks, first).p_win_1 for first in (1, 2)]
     assert laws["F"].win[0, 1] == pytest.approx(np.mean(both))
@@ -57,7 +57,7 @@ def test_breaks(breaks) -> None:
 @pytest.mark.parametrize("race", [6, chart("npl_10"), Fairest(5), Races(7, losers=Fairest(4))])
 @pytest.mark.parametrize("advantage", [0.0, 20.0])
 def test_chances_alone_are_those_of_the_laws(race, advantage: float) -> None:
-    laws = match_laws(BRACKET, RATINGS, race, scale="npl", break_advantage=advantage)
+    laws = pair_odds(BRACKET, RATINGS, race, scale="npl", break_advantage=advantage)
     chances = chances_given(BRACKET, RATINGS, race, scale="npl", break_advantage=advantage)
     for name, table in chances(RATINGS).items():
         assert table == pytest.approx(laws[name].win, rel=1e-11)
@@ -65,10 +65,10 @@ def test_chances_alone_are_those_of_the_laws(race, advantage: float) -> None:
 
 def test_what_cannot_be_played_is_refused() -> None:
     with pytest.raises(InputError, match="X9"):
-        match_laws(BRACKET, RATINGS, Races(7, by_match={"X9": 5}))
+        pair_odds(BRACKET, RATINGS, Races(7, by_match={"X9": 5}))
     with pytest.raises(InputError, match="race"):
-        match_laws(BRACKET, RATINGS, 0)
+        pair_odds(BRACKET, RATINGS, 0)
     with pytest.raises(InputError, match="ratings"):
-        match_laws(BRACKET, [500, 600], 7)
+        pair_odds(BRACKET, [500, 600], 7)
     with pytest.raises(InputError, match="ratings"):
-        match_laws(BRACKET, [500, 600, np.nan, 500], 7)
+        pair_odds(BRACKET, [500, 600, np.nan, 500], 7)

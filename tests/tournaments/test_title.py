@@ -210,7 +210,7 @@ def test_all_courses(bracket) -> None:
     strengths = list(range(len(bracket.players), 0, -1))
     chance = enumerated.by_strength(strengths)
     odds = title_odds(bracket, by_strength(strengths))
-    want = np.array(enumerated.place_law(bracket, chance), dtype=float)
+    want = np.array(enumerated.place_odds(bracket, chance), dtype=float)
     assert odds.exact
     assert odds.p_place == pytest.approx(want, rel=1e-12, abs=1e-15)
     assert odds.matches_mean == pytest.approx(float(enumerated.expected(bracket, chance, len)))
@@ -230,7 +230,7 @@ def test_handicapped_races_by_round(players: int) -> None:
         ]
         for k, match in enumerate(bracket.matches)
     }
-    want = enumerated.place_law(bracket, lambda name, i, j: tables[name][i][j])
+    want = enumerated.place_odds(bracket, lambda name, i, j: tables[name][i][j])
     win = {name: np.array(table, dtype=float) for name, table in tables.items()}
     assert title_odds(bracket, win).p_place == pytest.approx(np.array(want, dtype=float), rel=1e-12)
 

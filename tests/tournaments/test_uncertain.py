@@ -21,7 +21,7 @@ RATINGS = [640, 600, 560, 520, 480, 440, 400, 360]
 
 def test_it_is_the_mean_over_draws() -> None:
     bracket = single_elimination(2)
-    found = over_ratings(bracket, by_fargo, [550, 500], [60, 30], draws=4000)
+    found = over_ratings(bracket, by_fargo, [550, 500], [60, 30], samples=4000)
     nodes, weights = np.polynomial.hermite_e.hermegauss(60)
     gaps = 50 + np.hypot(60, 30) * nodes
     want = (weights / weights.sum()) @ (1 / (1 + 2 ** (-gaps / 100)))
@@ -31,7 +31,7 @@ def test_it_is_the_mean_over_draws() -> None:
 
 @pytest.mark.parametrize("bracket", [double_elimination(8), groups_then_knockout(8, 2)])
 def test_sure_ratings_change_nothing(bracket) -> None:
-    found = over_ratings(bracket, by_fargo, RATINGS, [0.0] * 8, draws=4)
+    found = over_ratings(bracket, by_fargo, RATINGS, [0.0] * 8, samples=4)
     assert found.averaged.p_place == pytest.approx(found.as_if_sure.p_place)
     for name, meeting in found.as_if_sure.meetings.items():
         again = found.averaged.meetings[name]
@@ -50,7 +50,7 @@ def test_doubt_brings_odds_nearer_to_equal() -> None:
 def test_errors_that_all_share_change_nothing() -> None:
     """A covariance that moves all ratings together leaves the differences alone."""
     together = np.full((8, 8), 40.0**2)
-    found = over_ratings(double_elimination(8), by_fargo, RATINGS, together, draws=10)
+    found = over_ratings(double_elimination(8), by_fargo, RATINGS, together, samples=10)
     assert found.averaged.title == pytest.approx(found.as_if_sure.title, abs=1e-9)
 
 
@@ -67,7 +67,7 @@ def test_races_stay_those_of_the_chart() -> None:
 def test_large_brackets_are_drawn_for_each_draw(monkeypatch) -> None:
     monkeypatch.setattr("evenbreak.tournaments.odds.uncertain._MOST_STATES", 0)
     bracket = double_elimination(8)
-    rough = over_ratings(bracket, by_fargo, RATINGS, [0.0] * 8, draws=8).averaged
+    rough = over_ratings(bracket, by_fargo, RATINGS, [0.0] * 8, samples=8).averaged
     assert rough.title == pytest.approx(title_odds(bracket, by_fargo(RATINGS)).title, abs=0.02)
 
 

@@ -61,10 +61,10 @@ from .odds.leverage import Leverage as Leverage
 from .odds.leverage import leverages as leverages
 from .odds.meetings import Meeting as Meeting
 from .odds.races import Fairest as Fairest
-from .odds.races import MatchLaw as MatchLaw
+from .odds.races import PairOdds as PairOdds
 from .odds.races import Races as Races
 from .odds.races import chances_given as chances_given
-from .odds.races import match_laws as match_laws
+from .odds.races import pair_odds as pair_odds
 from .odds.redraws import redraw_odds as redraw_odds
 from .odds.rematches import Rematches as Rematches
 from .odds.rematches import expected_rematches as expected_rematches

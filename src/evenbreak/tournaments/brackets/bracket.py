@@ -1,8 +1,8 @@
-"""A bracket: matches with two slots each, and where winners and losers go from there.
+"""A bracket: matches with two slots each, and where winners and losers go next.
 
-A slot holds a player who is known from the start, or whoever a match or a group sends
-there. A player whom nothing sends on has a place. Byes are worked out when a bracket is
-made: every match in it has two players.
+A slot holds a player from the start, or is filled from an earlier match or group. A player
+with no next match has finished and takes a place. Byes are resolved when a bracket is built,
+so every match in it has two players.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Place(NamedTuple):
-    """A place, or several that are not played out: 5-6 is `Place(5, 6)`.
+    """A finishing place, or several that are not played off: 5-6 is `Place(5, 6)`.
 
     >>> str(Place(1, 1)), str(Place(5, 6)), str(Place(1, 1, "consolation"))
     ('1', '5-6', 'consolation 1')
@@ -39,12 +39,12 @@ class Source(NamedTuple):
     Parameters
     ----------
     match
-        the match or group that sends the player.
+        the earlier match or group.
     outcome
-        'winner' or 'loser' of a match, or the rank in a group, 1 for its winner.
+        'winner' or 'loser' of that match, or the rank in that group, 1 for its winner.
     via
-        1 or 2: the player comes only if they sat in this slot of that match; otherwise
-        nobody comes. None: whichever slot it was.
+        1 or 2: the player comes only if they were in that slot of the earlier match, and the
+        slot stays empty otherwise. None: either slot.
     """
 
     match: str
@@ -53,7 +53,7 @@ class Source(NamedTuple):
 
 
 Slot: TypeAlias = int | Source
-"""A player, by position in the bracket's list from 0 on, or where the player comes from."""
+"""A player, by position in the bracket's list from 0 on, or the source of a later player."""
 
 
 @dataclass(frozen=True)
@@ -63,15 +63,15 @@ class Match:
     Parameters
     ----------
     name
-        what the match is called: 'W1.1' is the first match of round 1 on the winners' side.
+        the match's name: 'W1.1' is the first match of round 1 on the winners' side.
     side
         the part of the bracket: 'winners', 'losers', 'final', 'group A'.
     round
-        its round on that side, from 1 on.
+        the round on that side, from 1 on.
     slots
         the two slots.
     winner_place, loser_place
-        the place of a winner or loser whom no other match or group waits for.
+        the place of a winner or loser with no next match; None if there always is one.
     """
 
     name: str
@@ -84,23 +84,23 @@ class Match:
 
 @dataclass(frozen=True)
 class Group:
-    """Players who all meet each other.
+    """A group in which everybody plays everybody.
 
-    They are ranked by matches won; of those who are level, by the matches won among
-    themselves, and again among those who are still level; then by lot.
+    Players are ranked by matches won. Ties are broken by matches won among the tied players,
+    again among those who are still tied, and finally by lot.
 
     Parameters
     ----------
     name
-        what the group is called.
+        the group's name.
     members
         its players, by position.
     matches
         the names of its matches.
     pairs
-        who meets in each of them, by position.
+        the two players of each match, by position.
     places
-        the place of each rank, best first; None for a rank that goes on.
+        the place of each rank, best first; None for a rank that qualifies.
     """
 
     name: str
@@ -112,20 +112,20 @@ class Group:
 
 @dataclass(frozen=True)
 class Bracket:
-    """A tournament's matches, and where winners and losers go.
+    """A tournament: its matches, and where winners and losers go.
 
     Parameters
     ----------
     format
-        what kind of tournament it is, for people.
+        the kind of tournament, in words.
     players
-        the names, in the order of the seeds.
+        the names, in seed order.
     matches
-        the matches, each after all that feed it.
+        the matches; each comes after the matches that feed it.
     groups
-        the groups, where there are any.
+        the groups, if there are any.
     byes
-        (match, player) for each first match that is not played, for the sheet.
+        (match, player) for each first match that is a bye, for the printed sheet.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> bracket = single_elimination(["Ann", "Bo", "Cy"])
@@ -145,7 +145,7 @@ class Bracket:
 
     @cached_property
     def places(self) -> tuple[Place, ...]:
-        """All places that can be had, best first; a consolation event's come last."""
+        """All finishing places, best first; those of a consolation event come last."""
         found = {match.winner_place for match in self.matches}
         found |= {match.loser_place for match in self.matches}
         found |= {place for group in self.groups for place in group.places}
@@ -157,9 +157,9 @@ class Bracket:
     def graph(self) -> nx.DiGraph[str]:
         """The matches as a frozen directed graph.
 
-        A node is a match (with its `side`, `round` and `slots`) or a group. An arc says which
-        slot the winner or the loser goes to (`winner=2`, `loser=1`), or where the players of
-        which rank go (`ranks={1: 2}`).
+        A node is a match (with `side`, `round` and `slots`) or a group. An arc gives the slot
+        that the winner or the loser goes to (`winner=2`, `loser=1`), or the slot for each rank
+        of a group (`ranks={1: 2}`).
         """
         import networkx as nx
 
@@ -185,11 +185,11 @@ class Bracket:
 
     @cached_property
     def by_name(self) -> dict[str, Match]:
-        """The matches by their names."""
+        """The matches by name."""
         return {match.name: match for match in self.matches}
 
     def match(self, name: str) -> Match:
-        """Return a match by its name.
+        """Return a match by name.
 
         Raises
         ------
@@ -214,7 +214,7 @@ class Bracket:
 
 
 def some_of(names: list[str] | tuple[str, ...]) -> str:
-    """Return names for an error message: all of a few, the first of many.
+    """Return names for an error message, shortened if there are many.
 
     >>> some_of([str(n) for n in range(100)])
     '0, 1, 2, 3, 4, 5, ... 99'

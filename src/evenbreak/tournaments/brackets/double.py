@@ -1,7 +1,8 @@
-"""Double elimination, to the end or down to some qualifiers, and pods of it.
+"""Double elimination: in full, down to a number of qualifiers, or in pods.
 
-The losers' side plays two rounds for each round of the winners' side: first the survivors
-among themselves, then against those who drop. Where those drop decides who meets again.
+The losers' side plays two rounds for each round of the winners' side: first its survivors
+play each other, then they meet the players who drop from the winners' side. The order of
+the drops decides how many rematches there are.
 """
 
 from __future__ import annotations
@@ -40,27 +41,27 @@ def double_elimination(
     rng: np.random.Generator | None = None,
     lines: Sequence[int | None] | None = None,
 ) -> Bracket:
-    """Return a double-elimination bracket: whoever loses twice is out.
+    """Return a double-elimination bracket: two losses and you are out.
 
     Parameters
     ----------
     players
-        the names in the order of the seeds, 2 to 256 of them, or how many there are.
+        2 to 256 names in seed order, or the number of players.
     final
-        'true': the winner of the losers' side must beat that of the winners' side twice;
+        'true': the winner of the losers' side must beat the winner of the winners' side twice;
         'single': once.
     qualifiers
-        stop when this many are left, half on each side, and let them play single
-        elimination; a power of 2. None: play to the end.
+        play double elimination until this many are left, half on each side, then single
+        elimination; a power of 2. None: double elimination to the end.
     drops
-        where losers drop: 'fewest rematches', 'usual', 'straight' (see `drop_orders`), or
-        for each round of drops the match of the winners' side, from 1 on, whose loser goes
-        to each match of the losers' side.
+        where losers drop to: 'fewest rematches', 'usual' or 'straight' (see `drop_orders`), or
+        one list for each round of drops: for each match of the losers' side, the match of the
+        winners' side, from 1 on, whose loser drops into it.
     placement
-        how the losers' qualifiers meet the winners': by 'half shift', so that those from
-        one half meet those from the other, or by 'redraw'.
+        how qualifiers from the losers' side are paired with those from the winners' side:
+        'half shift' crosses the halves of the bracket, 'redraw' pairs them at random.
     rng
-        draws the qualifiers' opponents; for 'redraw' only.
+        the random numbers of a redraw.
     lines
         as in `single_elimination`.
 
@@ -101,17 +102,17 @@ def pods(
     drops: Drops = DROPS[0],
     lines: Sequence[int | None] | None = None,
 ) -> Bracket:
-    """Return modified single elimination: pods of double elimination, then single.
+    """Return modified single elimination: double elimination in pods, then single elimination.
 
     Parameters
     ----------
     players, lines
-        as in `single_elimination`; each pod has the next `size` lines.
+        as in `single_elimination`; each pod takes the next `size` lines.
     size
         the lines of a pod: 4, 8 or 16.
     qualifiers
-        how many go on from each pod. 1: the winners of its two sides play one match
-        (called P1, P2, ...) for it; 2: both go on, and start in different halves.
+        how many qualify from each pod. 1: the winners of its two sides play one deciding
+        match (P1, P2, ...). 2: both qualify, into different halves of the knock-out.
     drops
         as in `double_elimination`, within each pod.
 
@@ -148,7 +149,7 @@ def pods(
 def double_down(
     entrants: list[DraftSlot], last: int, drops: Drops | Sequence[Sequence[int]]
 ) -> tuple[list[Draft], list[DraftSlot], list[DraftSlot], list[Rank]]:
-    """Return both sides until `last` are left: matches, who is left on each, who left before.
+    """Return both sides down to `last` players: matches, survivors of each side, and places.
 
     >>> drafts, winning, losing, ranks = double_down([0, 3, 1, 2], 2, "straight")
     >>> [draft.name for draft in drafts], winning[0].match, losing[0].match

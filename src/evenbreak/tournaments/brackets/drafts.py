@@ -1,7 +1,7 @@
-"""From a drawn plan with byes in it to a bracket without: byes resolved, places counted.
+"""From a full grid with byes to a bracket without them: byes resolved, places counted.
 
-A bye beats nobody: whoever meets it goes on without playing. The loser of such a match
-is a bye again, which drops to the losers' side; where two byes meet, a bye goes on.
+A player drawn against a bye advances without playing. The bye itself drops to the losers'
+side like any loser, and where two byes meet, a bye advances.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Place, Slot, Source
 
 FEWEST, MOST = 2, 256
-"""How many players a bracket has."""
+"""The smallest and the largest number of players in a bracket."""
 
 DraftSlot: TypeAlias = Slot | None
 """A slot that may hold a bye: None."""
 
 
 class Draft(NamedTuple):
-    """A match as it is drawn, before byes are worked out."""
+    """A match of the full grid, before byes are resolved."""
 
     name: str
     side: str
@@ -30,14 +30,17 @@ class Draft(NamedTuple):
 
 
 class Rank(NamedTuple):
-    """Those who leave the tournament at one point, and how many they are; None: as listed."""
+    """The players who leave the tournament at one point, and how many places they share.
+
+    `seats` is None if there is one place for each of those listed.
+    """
 
     leaving: tuple[Source, ...]
     seats: int | None = None
 
 
 def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tuple[str, ...]:
-    """Return the names of the players; a number stands for '1', '2', ...
+    """Return the players' names; a number n stands for '1' to 'n'.
 
     >>> checked_players(3)
     ('1', '2', '3')
@@ -81,20 +84,20 @@ def bracket_of(
     groups: Sequence[Group] = (),
     consolation: Iterable[Rank] = (),
 ) -> Bracket:
-    """Return the bracket of a draft.
+    """Return the bracket that a full grid makes once its byes are resolved.
 
     Parameters
     ----------
     form, players
-        as in `Bracket`.
+        `format` and `players` of the bracket.
     drafts
-        the matches, each after all that feed it.
+        the matches; each comes after the matches that feed it.
     ranks
-        who leaves the tournament where, best first; those of removed matches do not count.
+        who leaves the tournament at which point, best first.
     groups
-        the groups; their places are those given.
+        the groups, with their places.
     consolation
-        who leaves the consolation event where, best first.
+        who leaves the consolation event at which point, best first.
     """
     sent: dict[Source, DraftSlot] = {}
     kept: list[Draft] = []

@@ -1,10 +1,11 @@
 """Where the losers of the winners' side drop to.
 
-Whoever drops into the match of somebody they have just beaten meets them again at once.
-An order sends each round's losers elsewhere. All orders here are flips: match i, counted
-from 0, goes to i XOR mask. The mask 1 swaps neighbours, half the matches is a shift by
-half, all bits reverse the round, 0 is straight. How good an order is shows in the rematches
-to be expected among equal players (`expected_rematches`).
+A player who drops straight down soon meets somebody they have already played. A good order
+sends each round's losers to another part of the losers' side. All orders here are flips: the
+loser of match i, counted from 0, drops to match i XOR mask. Mask 0 is straight, 1 swaps
+neighbours, half the number of matches shifts by half, all ones reverses the round. The
+measure of an order is the expected number of rematches among equal players
+(`expected_rematches`).
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ Drops: TypeAlias = Literal["fewest rematches", "usual", "straight"]
 DROPS: tuple[Drops, ...] = get_args(Drops)
 """The patterns of drops, by name."""
 
-# The masks of the rounds of drops, for each number of lines; later rounds are straight.
+# The masks of each round of drops, by number of lines; later rounds are straight.
 _MASKS: dict[Drops, dict[int, tuple[int, ...]]] = {
-    # All flips of 16 to 64 lines were compared; of more lines, those that a search led to.
+    # The best of all flips up to 64 lines, the best that a search found beyond.
     "fewest rematches": {
         8: (1,),
         16: (3, 0),
@@ -29,7 +30,7 @@ _MASKS: dict[Drops, dict[int, tuple[int, ...]]] = {
         128: (31, 3, 2, 2, 0),
         256: (63, 24, 3, 2, 2, 0),
     },
-    # The default of most programs.
+    # What most bracket programs do by default.
     "usual": {
         8: (1,),
         16: (1, 1),
@@ -45,18 +46,18 @@ _MASKS: dict[Drops, dict[int, tuple[int, ...]]] = {
 def drop_orders(
     size: int, drops: Drops | Sequence[Sequence[int]], *, pod: int | None = None
 ) -> list[list[int]]:
-    """Return for each round of drops which match's loser goes to each match, from 1 on.
+    """Return, for each round of drops, whose loser drops into each match, from 1 on.
 
     Parameters
     ----------
     size
         the lines of the bracket, a power of 2.
     drops
-        'straight': the loser of the i-th match drops to the i-th match. 'usual': what most
-        programs do. 'fewest rematches': the flips with the fewest expected rematches among
-        equal players. Or the orders themselves, the first rounds at least.
+        'straight': the loser of match i drops into match i. 'usual': what most programs do.
+        'fewest rematches': the flips with the fewest expected rematches among equal players.
+        Or the orders themselves, from the first round of drops on.
     pod
-        the lines of a pod that nobody leaves; None: all lines.
+        keep drops within pods of so many lines; None: there are no pods.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""How a group ranks its players: by matches won, then among those who are level."""
+"""The ranking of a group: matches won, then matches won among tied players."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 def ranked(
     members: Sequence[int], pairs: Sequence[tuple[int, int]], winners: Sequence[int]
 ) -> list[int]:
-    """Return how many players are ahead of each member; the same number for players level.
+    """Return how many players are ranked ahead of each member; tied players share a number.
 
     Parameters
     ----------
     members
         the players.
     pairs, winners
-        who met, and who won.
+        the two players and the winner of each match.
 
     >>> ranked([4, 5, 6], [(4, 5), (5, 6), (4, 6)], [4, 5, 4])
     [0, 1, 2]
@@ -34,10 +34,10 @@ def ranked(
 
 
 def players_ahead(beats: NDArray[np.int16]) -> NDArray[np.int16]:
-    """Return how many players are ahead of each.
+    """Return how many players are ranked ahead of each.
 
-    Players are ranked by wins; those who are level by wins among themselves, and again
-    among those who are still level, until nothing changes.
+    Players are ranked by wins. Ties are broken by wins among the tied players, again among
+    those who are still tied, until nothing changes.
 
     Parameters
     ----------

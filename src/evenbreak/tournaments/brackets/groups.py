@@ -1,4 +1,4 @@
-"""Groups in which everybody meets everybody, alone or before a knock-out."""
+"""Round robin, alone or in groups before a knock-out."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from evenbreak.tournaments.brackets.seeding import apart_by_club, seeded_lines
 
 
 def round_robin(players: Sequence[str] | int, *, times: int = 1) -> Bracket:
-    """Return a tournament in which everybody meets everybody.
+    """Return a round robin: everybody plays everybody.
 
     Parameters
     ----------
     players
-        the names, or how many there are.
+        the names, or the number of players.
     times
-        how often each pair meets.
+        how often each pair plays.
 
     >>> [match.name for match in round_robin(4).matches]
     ['R1.1', 'R1.2', 'R2.1', 'R2.2', 'R3.1', 'R3.2']
@@ -44,24 +44,24 @@ def groups_then_knockout(
     times: int = 1,
     third_place: bool = False,
 ) -> Bracket:
-    """Return groups whose first players go on to a knock-out.
+    """Return round-robin groups whose best players go on to a knock-out.
 
-    Seeds are dealt to the groups in a snake: 1 to A, 2 to B, ..., and back. The winner of a
-    group meets a runner-up of another one, and the two from one group are in different
-    halves of the knock-out.
+    Seeds are dealt to the groups in a snake: 1 to A, 2 to B, and so on, then back. A group
+    winner first meets a runner-up of another group, and two qualifiers from one group are in
+    different halves of the knock-out.
 
     Parameters
     ----------
     players
-        the names in the order of the seeds, or how many there are.
+        the names in seed order, or the number of players.
     groups
-        how many groups, each with at least as many players as qualify and at least 2.
+        the number of groups.
     qualifiers
-        how many go on from each group.
+        how many qualify from each group.
     times
-        how often the two players of a pair in a group meet.
+        how often each pair in a group plays.
     third_place
-        whether the losers of the semifinals play for third place.
+        whether the losing semifinalists play for third place.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def groups_then_knockout(
 
 
 def rounds_of_circle(players: int) -> list[list[tuple[int, int]]]:
-    """Return the rounds in which everybody meets everybody once: the circle method.
+    """Return the rounds of a single round robin, by the circle method.
 
     >>> rounds_of_circle(4)
     [[(0, 3), (1, 2)], [(0, 2), (3, 1)], [(0, 1), (2, 3)]]

@@ -1,4 +1,4 @@
-"""Single elimination and its relatives: consolation, king of the hill."""
+"""Single elimination, single elimination with a consolation event, king of the hill."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ def single_elimination(
     third_place: bool = False,
     lines: Sequence[int | None] | None = None,
 ) -> Bracket:
-    """Return a single-elimination bracket: whoever loses is out.
+    """Return a single-elimination bracket: one loss and you are out.
 
     Parameters
     ----------
     players
-        the names in the order of the seeds, 2 to 256 of them, or how many there are.
+        2 to 256 names in seed order, or the number of players.
     third_place
-        whether the losers of the semifinals play for third place.
+        whether the losing semifinalists play for third place.
     lines
-        the player on each line of the first round, by position from 0 on, None for a bye, a
-        power of 2 of them; None: by standard seeding, byes to the top seeds.
+        the player on each first-round line, by position from 0 on, with None for a bye; the
+        number of lines is a power of 2. None: standard seeding, byes to the top seeds.
 
     Raises
     ------
@@ -57,13 +57,13 @@ def consolation(
 ) -> Bracket:
     """Return a single-elimination bracket with a consolation event.
 
-    Whoever loses their first match goes on to the consolation event, a single elimination
-    of its own: those who had a bye too, if they lose the match after it.
+    Players who lose their first match go to the consolation event, a single elimination of
+    its own. After a bye, the first match is the one in the second round.
 
     Parameters
     ----------
     players, lines
-        as in `single_elimination`; at least 4 players.
+        as in `single_elimination`; 4 players or more.
 
     >>> bracket = consolation(8)
     >>> [str(place) for place in bracket.places]
@@ -86,12 +86,12 @@ def consolation(
 
 
 def king_of_the_hill(players: Sequence[str] | int) -> Bracket:
-    """Return a ladder of matches: the first two play, the winner meets the third, and so on.
+    """Return a ladder: the first two play, the winner meets the third, and so on.
 
     Parameters
     ----------
     players
-        the names in the order in which they come to the table.
+        the names in the order in which they come to the table, or the number of players.
 
     >>> [match.slots for match in king_of_the_hill(["Ann", "Bo", "Cy"]).matches]
     [(0, 1), (Source(match='W1.1', outcome='winner', via=None), 2)]
@@ -120,18 +120,18 @@ def knockout(
     last: str = "F",
     third_place: bool = False,
 ) -> tuple[list[Draft], list[Rank]]:
-    """Return the matches of a knock-out, and who leaves it where, best first.
+    """Return the matches of a knock-out, and who leaves it at which point, best first.
 
     Parameters
     ----------
     entrants
-        who is on each line, a power of 2 of them.
+        who is on each line; their number is a power of 2.
     letter, side
-        what its matches are called: 'W' for W1.1, W1.2, ..., and the side they are on.
+        the letter of the match names ('W' for W1.1, W1.2, ...) and the side of the matches.
     last
-        the name of its final.
+        the name of the final.
     third_place
-        whether the losers of the semifinals play for third place.
+        whether the losing semifinalists play for third place.
     """
     drafts: list[Draft] = []
     rounds: list[list[str]] = []
@@ -157,7 +157,7 @@ def knockout(
 
 
 def checked_lines(lines: Sequence[int | None] | None, players: int) -> list[int | None]:
-    """Return the first-round lines: those given, checked, or those of standard seeding."""
+    """Return the given first-round lines if they are valid, or those of standard seeding."""
     if lines is None:
         return seeded_lines(players)
     listed = list(lines)
@@ -177,7 +177,7 @@ def _had_bye(drafts: list[Draft], match: Draft, slot: int) -> bool:
 
 
 def _with_byes(entrants: list[DraftSlot]) -> list[DraftSlot]:
-    """Return the entrants on the lines of a bracket; byes are spread, and go to the first."""
+    """Return the entrants on the lines of a bracket, with byes for the first of them."""
     if len(entrants) == bracket_size(len(entrants)):
         return entrants
     return [None if k is None else entrants[k] for k in seeded_lines(len(entrants))]

@@ -1,4 +1,4 @@
-"""Seeding: in what order players enter a bracket, and which line each seed is on."""
+"""Seeding: the order in which players enter a bracket, and the line of each seed."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ Name = TypeVar("Name")
 
 
 def standard_lines(size: int) -> list[int]:
-    """Return the seeds, from 1 on, in the order of the bracket's first-round lines.
+    """Return the seeds, from 1 on, in the order of the first-round lines.
 
-    Seeds 1 and 2 can meet only in the final, 1 to 4 only in the last four, and so on.
+    Seeds 1 and 2 can meet only in the final, seeds 1 to 4 only in the last four, and so on.
 
     Parameters
     ----------
     size
-        the lines: a power of 2.
+        the number of lines, a power of 2.
 
     >>> standard_lines(8)
     [1, 8, 4, 5, 2, 7, 3, 6]
@@ -35,7 +35,7 @@ def standard_lines(size: int) -> list[int]:
 
 
 def bracket_size(players: int) -> int:
-    """Return the smallest power of 2 that has a line for each player, at least 2.
+    """Return the number of lines for so many players: a power of 2, at least 2.
 
     >>> bracket_size(5), bracket_size(8)
     (8, 8)
@@ -44,7 +44,7 @@ def bracket_size(players: int) -> int:
 
 
 def seeded_lines(players: int) -> list[int | None]:
-    """Return the player on each line, from 0 on; None is a bye. The top seeds have the byes.
+    """Return the player on each line, from 0 on, or None for a bye; top seeds get the byes.
 
     >>> seeded_lines(3)
     [0, None, 1, 2]
@@ -53,7 +53,7 @@ def seeded_lines(players: int) -> list[int | None]:
 
 
 def by_rating(players: Sequence[Name], ratings: Sequence[float]) -> list[Name]:
-    """Return the players, the highest rating first; equal ratings stay in the order given.
+    """Return the players, highest rating first; equal ratings stay in the order given.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def by_rating(players: Sequence[Name], ratings: Sequence[float]) -> list[Name]:
 
 
 def blind_draw(players: Sequence[Name], rng: np.random.Generator) -> list[Name]:
-    """Return the players in an order drawn by lot; all orders are equally likely.
+    """Return the players in random order; all orders are equally likely.
 
     >>> blind_draw(["Ann", "Bo", "Cy"], np.random.default_rng(2))
     ['Cy', 'Ann', 'Bo']
@@ -79,18 +79,18 @@ def blind_draw(players: Sequence[Name], rng: np.random.Generator) -> list[Name]:
 
 
 def apart_by_club(players: Sequence[Name], clubs: Sequence[str | None]) -> list[Name]:
-    """Return the seeds with players of one club as far apart as their tiers allow.
+    """Return the seeds with clubmates kept as far apart as their tiers allow.
 
-    Players change places only within their tier: seeds 3-4, 5-8, 9-16 and so on; seeds 1 and
-    2 stay. Two players of a club who can meet count four times as much for each round earlier
-    that they can. The best swap is made as long as one lowers the sum.
+    Players move only within their tier: seeds 3-4, 5-8, 9-16 and so on; seeds 1 and 2 stay.
+    The search minimises a penalty for each pair of clubmates, four times as high for each
+    round earlier that they can meet, by the best swap as long as a swap helps.
 
     Parameters
     ----------
     players
-        the players in the order of the seeds.
+        the players in seed order.
     clubs
-        the club of each; None for a player without one.
+        each player's club; None for a player without one.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def apart_by_club(players: Sequence[Name], clubs: Sequence[str | None]) -> list[
 def _gains(
     early: NDArray[np.float64], club: NDArray[np.int64], tier: NDArray[np.int64]
 ) -> NDArray[np.float64]:
-    """Return by how much the sum grows if seeds i and j change places; 0 where they may not."""
+    """Return the change of the penalty if seeds i and j swap; 0 where they may not."""
     _, own = np.unique(club, return_inverse=True)
     members = np.equal.outer(np.arange(own.max() + 1), own)
     near = early @ members.T  # of each seed's line to the members of each club

@@ -1,4 +1,4 @@
-"""Where a tournament stands: results so far, who sits where, what can be played."""
+"""A tournament in progress: results so far, who is in which match, what can be played now."""
 
 from __future__ import annotations
 
@@ -11,31 +11,31 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Slot, 
 from evenbreak.tournaments.brackets.group_ranks import ranked
 
 NOBODY = -1
-"""The player of a slot to which nobody comes: a second final that is not needed."""
+"""The player of a slot that stays empty, as in a second final that is not needed."""
 
 Results: TypeAlias = Mapping[str, str | Sequence[str]]
-"""The winner of each match that is decided, by the match's name.
+"""The winner of each decided match, by match name.
 
-For a group whose order is settled by lot: its players in order, by the group's name.
+For a group whose ties were broken by lot, also its players in final order, by group name.
 """
 
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """A bracket at some moment.
+    """A bracket at one moment of the tournament.
 
     Parameters
     ----------
     bracket
         the whole bracket.
     winners
-        the winner of each decided match, by position; NOBODY where it was not needed.
+        the winner of each decided match, by position; NOBODY for a match that is not needed.
     seats
-        who sits in each match's slots: a position, NOBODY, or None if not known yet.
+        the players in each match's two slots: a position, NOBODY, or None if not known yet.
     sent
-        who came out of the decided matches and groups.
+        the players who came out of decided matches and groups.
     assumed
-        results of matches whose players are not known yet: what if.
+        what-if results: those of matches whose players are not known yet.
     """
 
     bracket: Bracket
@@ -46,7 +46,7 @@ class Standing:
 
     @property
     def to_play(self) -> tuple[str, ...]:
-        """The matches that can be played now: both players are known."""
+        """The matches that can be played now, because both players are known."""
         return tuple(
             name
             for name, seats in self.seats.items()
@@ -55,7 +55,7 @@ class Standing:
 
     @property
     def remaining(self) -> Bracket:
-        """The matches that are not decided, with the players who are known in their slots."""
+        """The undecided matches, with the players who are known already in their slots."""
         matches = tuple(
             replace(match, slots=(self._slot(match.slots[0]), self._slot(match.slots[1])))
             for match in self.bracket.matches
@@ -79,7 +79,7 @@ class Standing:
 
 
 def standing(bracket: Bracket, results: Results | None = None) -> Standing:
-    """Return where the bracket stands after the results so far.
+    """Return the state of a bracket after the results so far.
 
     Raises
     ------
@@ -161,7 +161,7 @@ def _settled_ranks(
     winners: dict[str, int],
     given: dict[str, str | Sequence[str]],
 ) -> dict[Source, int]:
-    """Return who has which rank, once that is certain; nothing before."""
+    """Return the final ranking of a group, or nothing while it is open."""
     if not all(name in winners for name in group.matches):
         return {}
     if group.name in given:

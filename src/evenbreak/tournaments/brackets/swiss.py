@@ -1,7 +1,7 @@
-"""Swiss tournaments: nobody is out; each round pairs players of the same score.
+"""Swiss tournaments: nobody is knocked out; each round pairs players with equal scores.
 
-A round is paired when the one before it is over, so a Swiss is no bracket. The pairing is
-that of caissify-pairings, an extra: `pip install 'evenbreak[swiss]'`.
+A round can be paired only when the one before it is over, so a Swiss is not a bracket.
+Pairings come from caissify-pairings, an extra: `pip install 'evenbreak[swiss]'`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ System: TypeAlias = Literal["dutch", "casual"]
 
 
 class Pairing(NamedTuple):
-    """Two players who meet; `second` is None for a bye, `winner` until it is played."""
+    """Two players who meet; `second` is None for a bye, `winner` is None until it is played."""
 
     first: str
     second: str | None
@@ -27,7 +27,7 @@ class Pairing(NamedTuple):
 
 
 class SwissRank(NamedTuple):
-    """Where a player stands.
+    """A player's place in the standings.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class SwissRank(NamedTuple):
     score
         matches won; a bye counts as one.
     buchholz
-        the scores of all opponents together.
+        the sum of the opponents' scores, the usual tie-break.
     """
 
     player: str
@@ -51,12 +51,12 @@ class Swiss:
     Parameters
     ----------
     players
-        the names in the order of the seeds.
+        the names in seed order.
     rounds
-        how many rounds are played.
+        the number of rounds.
     system
-        how rounds are paired: 'dutch' by the rules of chess (FIDE C.04.3), or 'casual', which
-        is simpler, a hundred times as fast, and now and then lets two players meet again.
+        the pairing system: 'dutch' follows the rules of chess (FIDE C.04.3); 'casual' is
+        simpler and a hundred times as fast, but may pair two players twice.
     """
 
     players: tuple[str, ...]
@@ -71,7 +71,7 @@ class Swiss:
         if self.rounds > most:
             raise InputError(
                 f"rounds is {self.rounds} for {len(self.players)} players; give {most} at most, "
-                "so that nobody has to meet twice"
+                "so that nobody has to play the same opponent twice"
             )
 
 
@@ -81,7 +81,7 @@ def swiss(players: Sequence[str] | int, rounds: int, *, system: System = "dutch"
     Parameters
     ----------
     players
-        the names in the order of the seeds, or how many there are.
+        the names in seed order, or the number of players.
     rounds, system
         as in `Swiss`.
 
@@ -99,7 +99,7 @@ def swiss_round(event: Swiss, played: Sequence[Sequence[Pairing]] = ()) -> list[
     event
         the tournament.
     played
-        the rounds so far, each with all its pairings and winners.
+        the rounds so far, complete with winners.
 
     Raises
     ------
@@ -129,7 +129,7 @@ def swiss_round(event: Swiss, played: Sequence[Sequence[Pairing]] = ()) -> list[
 
 
 def swiss_standings(event: Swiss, played: Sequence[Sequence[Pairing]]) -> list[SwissRank]:
-    """Return the standings: by score, then by the opponents' scores, then by seed.
+    """Return the standings: by score, then by the sum of the opponents' scores, then by seed.
 
     >>> event = swiss(["Ann", "Bo", "Cy"], 2)
     >>> first = [Pairing("Ann", "Bo", "Bo"), Pairing("Cy", None)]
@@ -153,7 +153,7 @@ def swiss_standings(event: Swiss, played: Sequence[Sequence[Pairing]]) -> list[S
 
 
 def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
-    """Refuse rounds that are not complete, or in which somebody plays twice."""
+    """Raise an error if a round is incomplete or has a player twice."""
     if len(played) > event.rounds:
         raise InputError(f"played has {len(played)} rounds, the event has {event.rounds}")
     for number, pairings in enumerate(played, 1):
@@ -169,7 +169,7 @@ def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
 
 
 def _histories(event: Swiss, played: Sequence[Sequence[Pairing]]) -> list[dict[str, Any]]:
-    """Return what the pairing needs to know of each player; first seats are 'white'."""
+    """Return each player's history as the pairing engine wants it; the first player is white."""
     rows: dict[str, dict[str, Any]] = {
         player: {
             "id": number,

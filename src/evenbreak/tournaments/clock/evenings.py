@@ -18,8 +18,8 @@ from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.standing import NOBODY, Standing
 from evenbreak.tournaments.clock.pace import Pace, Turnover
 from evenbreak.tournaments.odds.chances import Chances, Floats
-from evenbreak.tournaments.odds.play import play_out, spread_evenly
-from evenbreak.tournaments.odds.races import MatchLaw
+from evenbreak.tournaments.odds.play import play_out, stratified_uniforms
+from evenbreak.tournaments.odds.races import PairOdds
 
 Bools: TypeAlias = NDArray[np.bool_]
 Ints: TypeAlias = NDArray[np.int64]
@@ -68,7 +68,7 @@ class Evenings:
 
 def play_evenings(
     now: Standing,
-    laws: Mapping[str, MatchLaw],
+    laws: Mapping[str, PairOdds],
     pace: Pace,
     turnover: Turnover,
     *,
@@ -100,7 +100,7 @@ def play_evenings(
         if name not in laws:
             raise InputError(f"laws has no match {name!r}; give the law of every match")
     rng = np.random.default_rng(seed)
-    evening = pace.level * np.exp(pace.evening_sd * ndtri(spread_evenly(rng, runs)))
+    evening = pace.level * np.exp(pace.evening_sd * ndtri(stratified_uniforms(rng, runs)))
     chances = Chances({m.name: _padded(laws[m.name].win) for m in remaining.matches})
     under_way = {}
     for match in playing:
@@ -116,7 +116,7 @@ def play_evenings(
         one, other = played.first[name], played.second[name]
         needed[:, k] = (one < nobody) & (other < nobody)
         first[:, k], second[:, k] = one, other
-        games_luck, match_luck, between_luck = (spread_evenly(luck, runs) for _ in range(3))
+        games_luck, match_luck, between_luck = (stratified_uniforms(luck, runs) for _ in range(3))
         between[:, k] = _between(turnover, between_luck)
         if name in under_way:
             minutes[:, k] = under_way[name][1]
@@ -146,7 +146,7 @@ def _decided(now: Standing, runs: int) -> dict[str, Bools]:
     return found
 
 
-def _games(law: MatchLaw, winner: Ints, loser: Ints, needed: Bools, luck: Floats) -> Ints:
+def _games(law: PairOdds, winner: Ints, loser: Ints, needed: Bools, luck: Floats) -> Ints:
     """Return how many games a match takes, given who wins."""
     games = np.zeros(len(winner), dtype=np.int64)
     ends = law.ends[winner[needed], loser[needed]]
@@ -164,7 +164,7 @@ def _between(turnover: Turnover, luck: Floats) -> Floats:
 
 def _under_way(
     now: Standing,
-    laws: Mapping[str, MatchLaw],
+    laws: Mapping[str, PairOdds],
     pace: Pace,
     evening: Floats,
     match: InPlay,
@@ -188,9 +188,9 @@ def _under_way(
         passed = np.log(elapsed / median) / max(pace.match_sd, 1e-9)
     lasts = ndtr(-passed)  # P(it takes longer than it has)
     reached = np.cumsum(ends * lasts, axis=1)
-    luck = spread_evenly(rng, len(evening)) * reached[:, -1]
+    luck = stratified_uniforms(rng, len(evening)) * reached[:, -1]
     kind = np.minimum((reached < luck[:, None]).sum(axis=1), len(ends) - 1)
     row = np.arange(len(evening))
-    tail = np.maximum(lasts[row, kind] * (1.0 - spread_evenly(rng, len(evening))), 1e-300)
+    tail = np.maximum(lasts[row, kind] * (1.0 - stratified_uniforms(rng, len(evening))), 1e-300)
     total = median[row, kind] * np.exp(-pace.match_sd * ndtri(tail))
     return kind < len(ends) // 2, np.maximum(total - elapsed, 0.0)

@@ -17,7 +17,7 @@ from evenbreak.tournaments.clock.matches_of import Waiting, waiting
 from evenbreak.tournaments.clock.pace import Pace, Timed, Turnover, learned_pace
 from evenbreak.tournaments.clock.table_schedule import Schedule, schedule
 from evenbreak.tournaments.odds.chances import Floats
-from evenbreak.tournaments.odds.races import MatchLaw
+from evenbreak.tournaments.odds.races import PairOdds
 
 QUANTILES = (0.1, 0.5, 0.9)
 
@@ -170,7 +170,7 @@ class _Room:
 
 def finish(
     bracket: Bracket,
-    laws: Mapping[str, MatchLaw],
+    laws: Mapping[str, PairOdds],
     *,
     tables: int | Sequence[float],
     pace: Pace | str = "9-ball",
@@ -192,7 +192,7 @@ def finish(
     bracket
         the tournament.
     laws
-        the law of each match, as `match_laws` gives it.
+        the law of each match, as `pair_odds` gives it.
     tables
         how many tables there are, or from when on each of them is free, in minutes since the
         first start. The tables of matches under way are among them.
@@ -220,9 +220,9 @@ def finish(
     InputError
         if a parameter has a value that it cannot have.
 
-    >>> from evenbreak.tournaments import double_elimination, match_laws
+    >>> from evenbreak.tournaments import double_elimination, pair_odds
     >>> bracket = double_elimination(8)
-    >>> laws = match_laws(bracket, [500] * 8, 5)
+    >>> laws = pair_odds(bracket, [500] * 8, 5)
     >>> four, two = (finish(bracket, laws, tables=tables).bands for tables in (4, 2))
     >>> four[0] < four[1] < four[2] < two[1]
     True

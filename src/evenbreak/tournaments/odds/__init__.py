@@ -1,1 +1,1 @@
-"""Title odds: who finishes where, worked out exactly from the chances of each match."""
+"""Title odds: who finishes where, exactly, from the chances of each match."""

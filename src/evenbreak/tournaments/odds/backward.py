@@ -1,13 +1,13 @@
-"""What each state is worth: the law of open slots, followed backwards.
+"""The backward pass: the expected reward from each state on, from the last match to the first.
 
-With r the reward of a result and v' the value of the states after a match, the value of
-a state before it is
+With r the reward of a result and v'(t) the value of state t after a match, the value of a
+state before it is
 
     v(s) = p(s) (r_1(s) + v'(s_1)) + (1 - p(s)) (r_2(s) + v'(s_2)),
 
-s_1 and s_2 the states that wins of slot 1 and of slot 2 lead to. Where a match joins two
-independent parts, the value of a state of one is the mean over the states of the other.
-In other words: the derivative of the expected reward, by going back through the steps.
+where wins of slot 1 and of slot 2 lead to s_1 and s_2. Where a match joins two independent
+parts of the bracket, the value of a state of one part is the mean over the states of the
+other. This is reverse-mode differentiation of the expected reward.
 """
 
 from __future__ import annotations
@@ -19,65 +19,65 @@ import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.tournaments.odds.chances import Chances, Floats
-from evenbreak.tournaments.odds.forward import Flow, joined
-from evenbreak.tournaments.odds.group_law import rank_laws, rank_states, result_law
+from evenbreak.tournaments.odds.forward import ForwardPass, joined
+from evenbreak.tournaments.odds.group_odds import rank_orders, rank_states, result_chances
 from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
 
 
 class Rewards(Protocol):
-    """What results pay: several kinds of reward at once."""
+    """The rewards of results; several kinds of reward are followed at once."""
 
     def of_match(self, step: MatchStep) -> tuple[Floats, Floats]:
-        """Return what is paid if slot 1's player wins, and if slot 2's does; (pairs, kinds)."""
+        """Return the rewards of a win of slot 1 and of slot 2, each of shape (pairs, kinds)."""
 
     def of_group(self, step: GroupStep) -> Floats:
-        """Return what each order of a group pays on average over the lots; (orders, kinds)."""
+        """Return the mean reward of each final order of a group, of shape (orders, kinds)."""
 
 
-class Worth(NamedTuple):
-    """What the results of a match are worth, summed over the states by their chance.
+class ResultValues(NamedTuple):
+    """The values of the two results of a match.
 
     Parameters
     ----------
     first, second
-        for each pair of the match: the chance that they meet times the expected reward from
-        then on, given that slot 1's player, slot 2's player wins.
+        for each pair, the chance that they meet times the expected reward from then on, given
+        that slot 1's player wins (`first`) or slot 2's (`second`).
     """
 
     first: Floats
     second: Floats
 
 
-def worth(
+def backward_pass(
     plan: Plan,
     chances: Chances,
-    through: Flow,
+    through: ForwardPass,
     at_end: Mapping[int, float],
     rewards: Rewards | None = None,
     kinds: int = 1,
-) -> dict[str, Worth]:
-    """Return what each result of each match is worth.
+) -> dict[str, ResultValues]:
+    """Return the values of the results of every match.
 
     Parameters
     ----------
     plan, chances, through
-        the steps, the chances, and what flowed through, kept.
+        the plan, the chances, and their forward pass with all states kept.
     at_end
-        the value of the last state of each step that leaves no slot open.
+        the value of the end, for each step that leaves no slot open, by its number.
     rewards
-        what results pay.
+        the rewards of results; None: only the end has a value.
     kinds
-        how many kinds of reward are followed at once.
+        the number of kinds of reward.
     """
     values: dict[int, Floats] = {}
-    found: dict[str, Worth] = {}
+    found: dict[str, ResultValues] = {}
     for number in range(len(plan.steps) - 1, -1, -1):
         step = plan.steps[number]
         if not step.slots:
             values[number] = np.full((step.size, kinds), at_end[number])
         after = values.pop(number)
         if isinstance(step, GroupStep):
-            found |= _group_worth(step, chances, after, rewards)
+            found |= _group_values(step, chances, after, rewards)
             continue
         parts = [through.after[k] for k in step.joins]
         mass = joined(parts)
@@ -87,7 +87,7 @@ def worth(
             _followed(step, side, after, None if pay is None else pay[side], len(mass))
             for side in (0, 1)
         ]
-        found[step.name] = Worth(*(_by_pair(step, mass, value) for value in branch))
+        found[step.name] = ResultValues(*(_by_pair(step, mass, value) for value in branch))
         of_state = (p if step.pair is None else p[step.pair])[:, None]
         before = of_state * branch[0] + (1.0 - of_state) * branch[1]
         if len(parts) == 1:
@@ -99,23 +99,21 @@ def worth(
     return found
 
 
-def conditional(plan: Plan, chances: Chances, through: Flow) -> Flow:
-    """Return the flow given that the assumed results happen.
+def conditional(plan: Plan, chances: Chances, through: ForwardPass) -> ForwardPass:
+    """Return the chances of all pairs given that the what-if results happen.
 
     Parameters
     ----------
-    plan
-        a plan with assumed results.
-    through
-        what flowed through it, kept: only what agrees with them.
+    plan, chances, through
+        a plan with what-if results, the chances, and their forward pass with all states kept.
 
     Raises
     ------
     InputError
-        if they cannot happen, or there are groups to be played.
+        if the results cannot all happen, or a group is still being played.
     """
     if any(isinstance(step, GroupStep) for step in plan.steps):
-        raise InputError("results has a match after the groups; give it once the groups are played")
+        raise InputError("results has a match after the groups; give it when the groups are over")
     if not float(through.total) > 0.0:
         raise InputError("results cannot all happen; give results that agree with each other")
     at_end = {
@@ -125,16 +123,16 @@ def conditional(plan: Plan, chances: Chances, through: Flow) -> Flow:
     }
     meet: dict[str, Floats] = {}
     first_wins: dict[str, Floats] = {}
-    for name, value in worth(plan, chances, through, at_end).items():
+    for name, value in backward_pass(plan, chances, through, at_end).items():
         p = through.first_wins[name]
         won, lost = p * value.first[:, 0], (1.0 - p) * value.second[:, 0]
         meet[name] = won + lost
         first_wins[name] = np.divide(won, meet[name], out=p.copy(), where=meet[name] > 0.0)
-    return Flow(meet, first_wins, through.ranks, np.ones(()), {})
+    return ForwardPass(meet, first_wins, through.ranks, np.ones(()), {})
 
 
 def _followed(step: MatchStep, side: int, after: Floats, pay: Floats | None, states: int) -> Floats:
-    """Return the value of each state before, given that the player in a slot wins."""
+    """Return the value of each state before a match, given the slot that wins."""
     branch = step.branches[side]
     value = after[branch.to]
     if branch.rows is not None:
@@ -146,25 +144,25 @@ def _followed(step: MatchStep, side: int, after: Floats, pay: Floats | None, sta
     return value
 
 
-def _group_worth(
+def _group_values(
     step: GroupStep, chances: Chances, after: Floats, rewards: Rewards | None
-) -> dict[str, Worth]:
-    """Return what the results of a group's matches are worth."""
+) -> dict[str, ResultValues]:
+    """Return the values of the results of a group's matches."""
     members = len(step.group.members)
     _, shares = rank_states(members, step.pairs, step.ranks)
     value: Floats = shares.T @ after
     if rewards:
         value = value + rewards.of_group(step)
-    of_result = value[rank_laws(members, step.pairs).order_of]
+    of_result = value[rank_orders(members, step.pairs).order_of]
     matches = list(zip(step.group.matches, step.group.pairs, strict=True))
     each = [np.asarray(chances.of(name)[pair]) for name, pair in matches]
     found = {}
     for k, (name, _) in enumerate(matches):
         sides = []
         for chance in (1.0, 0.0):
-            law = result_law([*each[:k], np.array(chance), *each[k + 1 :]])
-            sides.append((law @ of_result)[None, :])
-        found[name] = Worth(*sides)
+            results = result_chances([*each[:k], np.array(chance), *each[k + 1 :]])
+            sides.append((results @ of_result)[None, :])
+        found[name] = ResultValues(*sides)
     return found
 
 

@@ -6,8 +6,8 @@ sets on the two halves of the part, all splits of S into A and B being equally l
 
     f(S, i) = mean over splits of f(A, i) sum over j in B of f(B, j) P(i beats j), i in A,
 
-and likewise for i in B. The n!/2^(n-1) draws of n players are never written out. Other
-formats go through all draws where they are few, and through a sample of them otherwise;
+and likewise for i in B. The n!/2^(n-1) samples of n players are never written out. Other
+formats go through all samples where they are few, and through a sample of them otherwise;
 each draw is exact.
 """
 
@@ -25,8 +25,8 @@ from evenbreak.checks import whole
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.brackets.standing import standing
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
-from evenbreak.tournaments.odds.forward import flow
-from evenbreak.tournaments.odds.meetings import group_meetings, meetings_of_flow, place_law
+from evenbreak.tournaments.odds.forward import forward_pass
+from evenbreak.tournaments.odds.meetings import group_meetings, plan_meetings, place_odds
 from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.title import PlaceOdds, odds_now
 
@@ -41,7 +41,7 @@ def blind_draw_odds(
     bracket: Bracket,
     win: Wins,
     *,
-    draws: int = 400,
+    samples: int = 400,
     rng: np.random.Generator | None = None,
 ) -> PlaceOdds:
     """Return who finishes where before the draw, if everybody may be drawn to any line.
@@ -53,8 +53,8 @@ def blind_draw_odds(
         matter.
     win
         as in `title_odds`.
-    draws
-        how many draws are sampled where there are too many to go through all of them.
+    samples
+        how many samples are sampled where there are too many to go through all of them.
     rng
         where pseudo-random numbers come from then; None: a generator with the seed 0.
 
@@ -79,7 +79,7 @@ def blind_draw_odds(
         law = np.concatenate(list(_laws(bracket, chances, orders)), axis=2).mean(axis=2)
         return PlaceOdds(bracket, law, np.zeros_like(law), 0)
     rng = rng or np.random.default_rng(0)
-    many = whole(draws, "draws", at_least=2)
+    many = whole(samples, "samples", at_least=2)
     players = np.tile(np.arange(len(bracket.players)), (many, 1))
     laws = np.concatenate(list(_laws(bracket, chances, rng.permuted(players, axis=1))), axis=2)
     error = laws.std(axis=2, ddof=1) / np.sqrt(many)
@@ -168,7 +168,7 @@ def _masks(members: Ints) -> Ints:
 
 
 def _all_draws(bracket: Bracket) -> Ints | None:
-    """Return all draws, who is on each line, but one of those that swap first opponents.
+    """Return all samples, who is on each line, but one of those that swap first opponents.
 
     None if they are too many.
     """
@@ -193,7 +193,7 @@ def _permutations(count: int) -> Iterator[tuple[int, ...]]:
 
 
 def _laws(bracket: Bracket, chances: Chances, orders: Ints) -> Iterator[Floats]:
-    """Yield the places of the players, for some draws at a time; the last axis is draws."""
+    """Yield the places of the players, for some samples at a time; the last axis is samples."""
     plan = exact_plan(bracket)
     if plan is None:
         for order in orders:
@@ -204,9 +204,9 @@ def _laws(bracket: Bracket, chances: Chances, orders: Ints) -> Iterator[Floats]:
     for start in range(0, len(orders), at_once):
         seated = orders[start : start + at_once].T
         tables = _seated(chances, seated)
-        through = flow(plan, tables)
-        meetings = meetings_of_flow(plan, through) | group_meetings(bracket, tables)
-        law = place_law(bracket, meetings, through.ranks)
+        through = forward_pass(plan, tables)
+        meetings = plan_meetings(plan, through) | group_meetings(bracket, tables)
+        law = place_odds(bracket, meetings, through.ranks)
         line = np.argsort(seated, axis=0)
         yield np.take_along_axis(law, line[:, None, :], axis=0)
 

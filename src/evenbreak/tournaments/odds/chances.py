@@ -23,7 +23,7 @@ class HasWin(Protocol):
 
     @property
     def win(self) -> Floats:
-        """The chance of each player against each."""
+        """The chance of each player against each other player."""
         ...
 
 
@@ -31,15 +31,15 @@ Win: TypeAlias = ArrayLike | Callable[[str, str], float] | HasWin
 """P(i beats j) for every two players: a table, or a function of two names."""
 
 Wins: TypeAlias = Win | Mapping[str, Win]
-"""One for all matches, or one for each match by its name."""
+"""One for all matches, or one for each match, by match name."""
 
 
 @dataclass(frozen=True, eq=False)
 class Chances:
-    """The chance of slot 1's player in each match, for whoever the two are.
+    """P(slot 1's player wins) for each match and every two players.
 
-    Tables have a row and a column more than there are players, for nobody: whoever meets
-    nobody wins. A last axis, where there is one, is over draws.
+    Tables have one extra row and column for an empty slot, against which everybody wins. A
+    third axis, if there is one, runs over samples.
     """
 
     tables: Mapping[str, Floats]
@@ -56,26 +56,26 @@ def chances_of(
     live: Mapping[str, float] | None = None,
     walkovers: float | Mapping[str, float] = 0.0,
 ) -> Chances:
-    """Return the tables of all matches that are not decided.
+    """Return the tables of all undecided matches.
 
     Parameters
     ----------
     now
-        where the tournament stands.
+        the state of the tournament.
     win
         P(i beats j) for every two players, in the bracket's order: a table of shape (n, n), or
         a function of two names; or a mapping with one of these for each match.
     live
-        the chance of the player in slot 1, for matches under way.
+        P(the player in slot 1 wins) for matches in play.
     walkovers
-        the chance that a match is not played because one of the two, either as likely, does
-        not turn up; one for all matches, or by the match's name.
+        the chance that a match is a walkover, either way with equal chance: one number, or a
+        mapping by match name.
 
     Raises
     ------
     InputError
-        if a chance is no probability, two chances of a pair do not add up to 1, or a match
-        is unknown or has no table.
+        if a chance is not a probability, the two chances of a pair do not add up to 1, or a
+        match is unknown or has no table.
     """
     bracket, count = now.bracket, len(now.bracket.players)
     known: dict[int, Floats] = {}
@@ -128,8 +128,8 @@ def _table(given: Any, bracket: Bracket) -> Floats:
     if off.max() > 1e-9:
         i, j, *_ = np.unravel_index(off.argmax(), off.shape)
         raise InputError(
-            f"win has chances of {players[i]} against {players[j]} and back that do not add up "
-            "to 1; one of the two wins"
+            f"win[{players[i]}, {players[j]}] and win[{players[j]}, {players[i]}] do not add up "
+            "to 1; give the chances of both players of one match"
         )
     return table
 

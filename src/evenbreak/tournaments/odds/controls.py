@@ -19,12 +19,12 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Source
 from evenbreak.tournaments.brackets.standing import Standing
 from evenbreak.tournaments.odds.chances import Chances, Floats
 from evenbreak.tournaments.odds.cut import exact_starts
-from evenbreak.tournaments.odds.forward import flow
+from evenbreak.tournaments.odds.forward import forward_pass
 from evenbreak.tournaments.odds.meetings import (
     Meeting,
     group_meetings,
-    meetings_of_flow,
-    place_law,
+    plan_meetings,
+    place_odds,
 )
 from evenbreak.tournaments.odds.planning import plan_of
 from evenbreak.tournaments.odds.play import PlayedOut
@@ -51,18 +51,18 @@ class Controls:
     cells: NDArray[np.int64]
     expected: Floats
     batches: list[tuple[Floats, Floats]] = field(default_factory=list)
-    draws: int = 0
+    samples: int = 0
     squares: Floats | float = 0.0
     products: Floats | float = 0.0
 
     def add(self, played: PlayedOut, places: Floats) -> None:
-        """Add a batch of draws: how their first rounds went, and what each says of the places."""
+        """Add a batch of samples: how their first rounds went, and what each says of the places."""
         columns = [places[:, self.cells]]
         for slot, players in self.slots.items():
             columns.append(np.equal.outer(played.sent[slot], players).astype(float))
         x = np.concatenate(columns, axis=1) - self.expected
         self.batches.append((x.mean(axis=0), places.mean(axis=0)))
-        self.draws += len(places)
+        self.samples += len(places)
         self.squares = self.squares + x.T @ x
         self.products = self.products + x.T @ places
 
@@ -70,12 +70,12 @@ class Controls:
         """Return the mean of the places and its standard error."""
         x, y = (np.stack(part) for part in zip(*self.batches, strict=True))
         if self.expected.size:
-            centred = self.squares - self.draws * np.outer(x.mean(axis=0), x.mean(axis=0))
-            joint = self.products - self.draws * np.outer(x.mean(axis=0), y.mean(axis=0))
+            centred = self.squares - self.samples * np.outer(x.mean(axis=0), x.mean(axis=0))
+            joint = self.products - self.samples * np.outer(x.mean(axis=0), y.mean(axis=0))
             slope, _, rank, _ = np.linalg.lstsq(centred, joint, rcond=1e-9)
             y = y - x @ slope
             # Controls explain some of the noise by chance.
-            spread = 1.0 / np.sqrt(max(1.0 - int(rank) / self.draws, 0.1))
+            spread = 1.0 / np.sqrt(max(1.0 - int(rank) / self.samples, 0.1))
         else:
             spread = 1.0
         error: Floats = spread * y.std(axis=0, ddof=1) / np.sqrt(len(y))
@@ -86,7 +86,7 @@ class Controls:
 def controls_of(
     now: Standing, bracket: Bracket, early: frozenset[str], chances: Chances
 ) -> Controls:
-    """Return the controls for draws of the early matches of a bracket.
+    """Return the controls for samples of the early matches of a bracket.
 
     They are who comes to which slot, and who leaves for which place, in as many of the early
     rounds as can be worked out exactly.
@@ -102,9 +102,9 @@ def controls_of(
     """
     for start in exact_starts(bracket, early, _STATES):
         plan = plan_of(start)
-        through = flow(plan, chances)
-        meetings = meetings_of_flow(plan, through) | group_meetings(start, chances)
-        law = place_law(now.bracket, meetings, through.ranks)
+        through = forward_pass(plan, chances)
+        meetings = plan_meetings(plan, through) | group_meetings(start, chances)
+        law = place_odds(now.bracket, meetings, through.ranks)
         cells = np.flatnonzero(_settled(now.bracket, start, law))
         slots, expected = {}, [law.ravel()[cells]]
         for slot in _leading_out(bracket, start):

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
-from evenbreak.tournaments.odds.group_law import MOST_MATCHES
+from evenbreak.tournaments.odds.group_odds import MOST_MATCHES
 from evenbreak.tournaments.odds.order import elimination_order
 
 
@@ -51,7 +51,7 @@ def cut_before(bracket: Bracket, most_states: float) -> Cut:
 def exact_starts(bracket: Bracket, early: frozenset[str], most_states: float) -> Iterator[Bracket]:
     """Yield the early rounds that can be worked out exactly: the most first, then fewer.
 
-    First matches alone are left out: draws that are spread evenly have nothing wrong there.
+    First matches alone are left out: samples that are spread evenly have nothing wrong there.
     """
     to_come = _to_come(bracket)
     large = {group.name for group in bracket.groups if len(group.matches) > MOST_MATCHES}

@@ -19,7 +19,7 @@ from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.odds.chances import Floats
-from evenbreak.tournaments.odds.races import MatchLaw, Race, Races, match_laws
+from evenbreak.tournaments.odds.races import PairOdds, Race, Races, pair_odds
 from evenbreak.tournaments.odds.title import TitleOdds, title_odds
 
 _MOST_CHOICES = 200
@@ -72,7 +72,7 @@ def tournament_fairness(
     bracket
         the tournament, with the players on their lines.
     ratings, races, scale, break_advantage
-        as in `match_laws`.
+        as in `pair_odds`.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> found = tournament_fairness(double_elimination(4), [620, 560, 500, 440], Races(7))
@@ -81,7 +81,7 @@ def tournament_fairness(
     """
     plan = races if isinstance(races, Races) else Races(races)
     rated = column(ratings, "ratings", len(bracket.players), "players")
-    laws = match_laws(bracket, rated, plan, scale=scale, break_advantage=break_advantage)
+    laws = pair_odds(bracket, rated, plan, scale=scale, break_advantage=break_advantage)
     odds = title_odds(bracket, laws)
     edge = len(rated) * odds.title - 1.0
     order = np.argsort(-rated, kind="stable")
@@ -141,7 +141,7 @@ def fairest_races(
     return sorted(kept, key=lambda one: one.spread)
 
 
-def _games(odds: TitleOdds, laws: dict[str, MatchLaw]) -> float:
+def _games(odds: TitleOdds, laws: dict[str, PairOdds]) -> float:
     return float(
         sum(
             meeting.probability @ laws[name].mean_games[meeting.first, meeting.second]

@@ -1,13 +1,13 @@
-"""The joint law of open slots, carried from match to match.
+"""The forward pass: the joint distribution of open slots, from match to match.
 
-With m the chance of each state before a match and p the chance that slot 1's player wins
-it in that state, the states after it have
+With m(s) the probability of state s before a match and p(s) the chance that slot 1's player
+wins it in that state, the probabilities after the match are
 
-    m'(s') = sum over s that lead to s' by a win of slot 1 of m(s) p(s)
-           + sum over s that lead to s' by a win of slot 2 of m(s) (1 - p(s)).
+    m'(t) = sum of m(s) p(s) over the s that a win of slot 1 turns into t
+          + sum of m(s) (1 - p(s)) over the s that a win of slot 2 turns into t.
 
-Adding up m over the states in which two players meet gives the chance that they do; every
-other answer follows from these chances.
+The sum of m over the states in which two players meet is the chance that they do. All other
+answers follow from these chances.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from evenbreak.tournaments.odds.chances import Chances, Floats
-from evenbreak.tournaments.odds.group_law import rank_laws, rank_states, result_law
+from evenbreak.tournaments.odds.group_odds import rank_orders, rank_states, result_chances
 from evenbreak.tournaments.odds.plan import (
     Branch,
     GroupStep,
@@ -30,21 +30,21 @@ from evenbreak.tournaments.odds.plan import (
 
 
 @dataclass(frozen=True, eq=False)
-class Flow:
-    """What flowed through the steps of a plan; arrays have a last axis for draws, if any.
+class ForwardPass:
+    """The result of a forward pass; arrays have a last axis for samples, if there are any.
 
     Parameters
     ----------
     meet
-        for each match of the plan, the chance of each pair of its step.
+        for each match, the chance of each pair of its step.
     first_wins
-        for each match, slot 1's chance in each pair.
+        for each match, P(slot 1's player wins) in each pair.
     ranks
         for each group, ranks[i, k] = P(member i has rank k, from 0 on).
     total
-        the chance of the assumed results; 1 where there are none.
+        the probability of the what-if results; 1 if there are none.
     after
-        the chance of each state after each step, by its number, if it was asked for.
+        the probabilities of the states after each step, by its number, if they were kept.
     """
 
     meet: Mapping[str, Floats]
@@ -54,17 +54,17 @@ class Flow:
     after: Mapping[int, Floats]
 
 
-def flow(plan: Plan, chances: Chances, *, keep: bool = False) -> Flow:
-    """Return the chances of all pairs in all matches of a plan.
+def forward_pass(plan: Plan, chances: Chances, *, keep: bool = False) -> ForwardPass:
+    """Return the chance of every pair in every match of a plan.
 
     Parameters
     ----------
     plan
         the steps.
     chances
-        the chances of the matches, for one draw or many.
+        the chances of the matches, for one sample or many.
     keep
-        whether to keep the chance of each state after each step.
+        whether to keep the probabilities of all states.
     """
     masses: dict[int, Floats] = {}
     meet: dict[str, Floats] = {}
@@ -74,7 +74,7 @@ def flow(plan: Plan, chances: Chances, *, keep: bool = False) -> Flow:
     total = np.ones(())
     for number, step in enumerate(plan.steps):
         if isinstance(step, GroupStep):
-            masses[number], ranks[step.name] = group_law(step, chances)
+            masses[number], ranks[step.name] = group_odds(step, chances)
         else:
             mass = joined([masses.pop(k) for k in step.joins])
             p = chances.of(step.name)[step.first, step.second]
@@ -84,11 +84,11 @@ def flow(plan: Plan, chances: Chances, *, keep: bool = False) -> Flow:
             after[number] = masses[number]
         if not step.slots:
             total = total * masses.pop(number).sum(axis=0)
-    return Flow(meet, first_wins, ranks, total, after)
+    return ForwardPass(meet, first_wins, ranks, total, after)
 
 
 def joined(parts: list[Floats]) -> Floats:
-    """Return the joint law of independent parts, one or two of them."""
+    """Return the joint distribution of up to two independent parts."""
     if not parts:
         return np.ones(1)
     if len(parts) == 1:
@@ -99,13 +99,13 @@ def joined(parts: list[Floats]) -> Floats:
 
 
 def passed_on(step: MatchStep, mass: Floats, p: Floats) -> Floats:
-    """Return the law of the states after a match."""
+    """Return the probabilities of the states after a match."""
     won, lost = split(step, mass, p)
     return gathered(step, 0, won) + gathered(step, 1, lost)
 
 
 def split(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
-    """Return the mass of each state in which slot 1's player wins, and in which slot 2's does."""
+    """Return the probability of each state and a win of slot 1, and of slot 2."""
     of_state = p if step.pair is None else p[step.pair]
     won = mass[..., None] * of_state if of_state.ndim > mass.ndim else mass * of_state
     whole = mass[..., None] if of_state.ndim > mass.ndim else mass
@@ -113,7 +113,7 @@ def split(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
 
 
 def gathered(step: MatchStep, side: int, mass: Floats) -> Floats:
-    """Return the mass that arrives in each state after, from the branch of one side."""
+    """Return what one branch adds to the probabilities of the states after a match."""
     branch: Branch = step.branches[side]
     moved = mass if branch.rows is None else mass[branch.rows]
     if mass.ndim == 1:
@@ -131,19 +131,19 @@ def _pairs(step: MatchStep, mass: Floats) -> Floats:
     return met
 
 
-def group_law(step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
-    """Return the law of who goes on from a group, and who has which rank."""
+def group_odds(step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
+    """Return the probabilities of who qualifies from a group, and of who has which rank."""
     matches = zip(step.group.matches, step.group.pairs, strict=True)
     each = np.broadcast_arrays(*(chances.of(name)[pair] for name, pair in matches))
-    results = result_law(each)
+    results = result_chances(each)
     members = len(step.group.members)
-    laws = rank_laws(members, step.pairs)
-    orders = summed(laws.order_of, results, len(laws.orders))
+    final = rank_orders(members, step.pairs)
+    orders = summed(final.order_of, results, len(final.orders))
     _, shares = rank_states(members, step.pairs, step.ranks)
     ranks = np.zeros((members, members, *results.shape[1:]))
     for member in range(members):
-        ahead = laws.orders[:, member]
-        level = (laws.orders == ahead[:, None]).sum(axis=1)
+        ahead = final.orders[:, member]
+        level = (final.orders == ahead[:, None]).sum(axis=1)
         for lot in range(int(level.max())):
             there = level > lot
             share = orders[there] / level[there].reshape(-1, *[1] * (orders.ndim - 1))
@@ -152,7 +152,7 @@ def group_law(step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
 
 
 def summed(index: Index, mass: Floats, size: int) -> Floats:
-    """Return the sums of the masses with the same index."""
+    """Return the sums of the values with the same index."""
     if mass.ndim == 1:
         return np.bincount(index, mass, size).astype(float, copy=False)
     sums: Floats = adding_up(index.astype(np.int32), size) @ mass

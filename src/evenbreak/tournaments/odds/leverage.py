@@ -15,16 +15,16 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, standing
-from evenbreak.tournaments.odds.backward import Worth, worth
+from evenbreak.tournaments.odds.backward import ResultValues, backward_pass
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
-from evenbreak.tournaments.odds.forward import Flow, flow
-from evenbreak.tournaments.odds.group_law import rank_laws
+from evenbreak.tournaments.odds.forward import ForwardPass, forward_pass
+from evenbreak.tournaments.odds.group_odds import rank_orders
 from evenbreak.tournaments.odds.meetings import (
     goes_on,
     group_meetings,
-    meetings_of_flow,
+    plan_meetings,
     meetings_so_far,
-    place_law,
+    place_odds,
     settled_ranks,
 )
 from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
@@ -100,12 +100,12 @@ def leverages(
     now = standing(bracket, results)
     plan = _plan(now)
     chances = chances_of(now, win, live=live, walkovers=walkovers)
-    through = flow(plan, chances, keep=True)
+    through = forward_pass(plan, chances, keep=True)
     title = [float(place == Place(1, 1)) for place in bracket.places]
     value = np.array(title) if payouts is None else prizes(bracket, payouts)
     at_end = {k: 0.0 for k, step in enumerate(plan.steps) if not step.slots}
     rewards = _Prizes(bracket, value)
-    found = worth(plan, chances, through, at_end, rewards, len(bracket.players))
+    found = backward_pass(plan, chances, through, at_end, rewards, len(bracket.players))
     expected = _expected(now, plan, chances, through, value)
     return [
         _lever(now, chances, name, found[name], through, expected)
@@ -127,16 +127,16 @@ def _plan(now: Standing) -> Plan:
     return plan
 
 
-def _expected(now: Standing, plan: Plan, chances: Chances, through: Flow, value: Floats) -> Floats:
+def _expected(now: Standing, plan: Plan, chances: Chances, through: ForwardPass, value: Floats) -> Floats:
     meetings = meetings_so_far(now) | group_meetings(plan.bracket, chances)
-    meetings |= meetings_of_flow(plan, through)
-    law = place_law(now.bracket, meetings, {**settled_ranks(now), **through.ranks})
+    meetings |= plan_meetings(plan, through)
+    law = place_odds(now.bracket, meetings, {**settled_ranks(now), **through.ranks})
     expected: Floats = law @ value
     return expected
 
 
 def _lever(
-    now: Standing, chances: Chances, name: str, found: Worth, through: Flow, expected: Floats
+    now: Standing, chances: Chances, name: str, found: ResultValues, through: ForwardPass, expected: Floats
 ) -> Leverage:
     seats = now.seats[name]
     if name in through.meet:
@@ -183,7 +183,7 @@ class _Prizes:
     def of_group(self, step: GroupStep) -> Floats:
         """Return what each order of a group pays, on average over the lots."""
         members = step.group.members
-        orders = rank_laws(len(members), step.pairs).orders
+        orders = rank_orders(len(members), step.pairs).orders
         by_rank = [0.0 if place is None else self.value[place] for place in step.group.places]
         sums = np.concatenate([[0.0], np.cumsum(by_rank[: len(members)])])
         pay = np.zeros((len(orders), self.players))

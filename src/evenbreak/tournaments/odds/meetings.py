@@ -1,4 +1,4 @@
-"""Who meets whom in which match, and what places follow from it."""
+"""Who meets whom in each match, and the places that follow from it."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ import numpy as np
 from evenbreak.tournaments.brackets.bracket import Bracket, Match, Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Standing
 from evenbreak.tournaments.odds.chances import Chances, Floats
-from evenbreak.tournaments.odds.forward import Flow, summed
+from evenbreak.tournaments.odds.forward import ForwardPass, summed
 from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players
 
 
 class Meeting(NamedTuple):
-    """Who can meet in a match: pairs, the player in slot 1 first.
+    """The pairs of players who can meet in a match.
 
     Parameters
     ----------
     first, second
-        the players, by position.
+        the players in slot 1 and slot 2, by position.
     probability
-        P(these two meet in these slots of this match); with a last axis where there are draws.
+        P(these two meet in this match, in these slots); a last axis, if any, is for samples.
     first_wins
-        P(the player in slot 1 wins), if they meet.
+        P(the player in slot 1 wins | these two meet).
     """
 
     first: Players
@@ -39,14 +39,14 @@ class Meeting(NamedTuple):
 
 
 class GoesOn(NamedTuple):
-    """Whether the bracket has a slot for the winner and the loser, by the slot they sat in."""
+    """Whether a match's winner and loser have a next match, by the slot they come from."""
 
     winner: tuple[bool, bool]
     loser: tuple[bool, bool]
 
 
 def goes_on(bracket: Bracket) -> dict[str, GoesOn]:
-    """Return for each match who goes on from it."""
+    """Return for each match whether its winner and loser have a next match."""
     slots = [slot for match in bracket.matches for slot in match.slots]
     waiting = {slot for slot in slots if isinstance(slot, Source)}
 
@@ -62,8 +62,8 @@ def goes_on(bracket: Bracket) -> dict[str, GoesOn]:
     }
 
 
-def meetings_of_flow(plan: Plan, through: Flow) -> dict[str, Meeting]:
-    """Return the meetings of a plan's matches, given what flowed through it."""
+def plan_meetings(plan: Plan, through: ForwardPass) -> dict[str, Meeting]:
+    """Return the meetings of a plan's matches from its forward pass."""
     count = len(plan.bracket.players)
     found = {}
     for step in plan.steps:
@@ -77,7 +77,7 @@ def meetings_of_flow(plan: Plan, through: Flow) -> dict[str, Meeting]:
 
 
 def averaged(meetings: Mapping[str, Meeting]) -> dict[str, Meeting]:
-    """Return meetings as they are on average over the draws."""
+    """Return the meetings averaged over the samples."""
     found = {}
     for name, (first, second, meet, p) in meetings.items():
         if p.ndim > 1:
@@ -88,7 +88,7 @@ def averaged(meetings: Mapping[str, Meeting]) -> dict[str, Meeting]:
 
 
 def group_meetings(bracket: Bracket, chances: Chances) -> dict[str, Meeting]:
-    """Return the meetings within groups: who meets there is known."""
+    """Return the meetings of group matches, whose players are known."""
     found = {}
     for group in bracket.groups:
         for name, pair in zip(group.matches, group.pairs, strict=True):
@@ -99,7 +99,7 @@ def group_meetings(bracket: Bracket, chances: Chances) -> dict[str, Meeting]:
 
 
 def settled_ranks(now: Standing) -> dict[str, Floats]:
-    """Return the ranks of the groups that are settled, as certain laws."""
+    """Return the rank probabilities of groups that are over: zeros and ones."""
     found = {}
     for group in now.bracket.groups:
         if Source(group.name, 1) in now.sent:
@@ -110,7 +110,7 @@ def settled_ranks(now: Standing) -> dict[str, Floats]:
 
 
 def meetings_so_far(now: Standing) -> dict[str, Meeting]:
-    """Return the meetings that have taken place: one pair each, with chance 1 or 0."""
+    """Return the meetings of decided matches: one pair each, none if it was not needed."""
     found = {}
     for name, won in now.winners.items():
         one, other = now.seats[name]
@@ -127,43 +127,43 @@ def meetings_so_far(now: Standing) -> dict[str, Meeting]:
     return found
 
 
-def place_law(
+def place_odds(
     bracket: Bracket, meetings: Mapping[str, Meeting], ranks: Mapping[str, Floats]
 ) -> Floats:
-    """Return P(each player has each place), shape (players, places) or (players, places, draws).
+    """Return P(each player has each place), shape (players, places) or (players, places, samples).
 
     Parameters
     ----------
     bracket
         the whole bracket.
     meetings
-        who meets whom, in the matches that count.
+        the meetings of the matches to take into account.
     ranks
-        for each group that counts, ranks[i, k] = P(member i has rank k, from 0 on).
+        for each group to take into account, ranks[i, k] = P(member i has rank k, from 0 on).
     """
     column = {place: k for k, place in enumerate(bracket.places)}
-    draws = [part.probability.shape[1:] for part in meetings.values()]
-    draws += [part.shape[2:] for part in ranks.values()]
-    shape = max(draws, default=())
-    law = np.zeros((len(bracket.players), len(column), *shape))
+    samples = [part.probability.shape[1:] for part in meetings.values()]
+    samples += [part.shape[2:] for part in ranks.values()]
+    shape = max(samples, default=())
+    odds = np.zeros((len(bracket.players), len(column), *shape))
     in_group = {name for group in bracket.groups for name in group.matches}
     going = goes_on(bracket)
     for match in bracket.matches:
         if match.name in meetings and match.name not in in_group:
-            add_places(law, column, match, going[match.name], meetings[match.name])
+            add_places(odds, column, match, going[match.name], meetings[match.name])
     for group in bracket.groups:
         for rank, place in enumerate(group.places):
             if place is not None and group.name in ranks and rank < len(group.members):
                 share = ranks[group.name][:, rank]
                 more = share.shape[1:] or (1,) * len(shape)
-                law[list(group.members), column[place]] += share.reshape(len(share), *more)
-    return law
+                odds[list(group.members), column[place]] += share.reshape(len(share), *more)
+    return odds
 
 
 def add_places(
-    law: Floats, column: Mapping[Place, int], match: Match, going: GoesOn, meeting: Meeting
+    odds: Floats, column: Mapping[Place, int], match: Match, going: GoesOn, meeting: Meeting
 ) -> None:
-    """Add to a law of places what a match decides: whoever does not go on has a place."""
+    """Add the places that a match decides: those of players without a next match."""
     won = meeting.probability * meeting.first_wins
     lost = meeting.probability - won
     for place, on, players, mass in (
@@ -173,7 +173,7 @@ def add_places(
         (match.loser_place, going.loser[1], meeting.second, won),
     ):
         if place is not None and not on:
-            added = summed(players.astype(np.int32), mass, len(law))
-            law[:, column[place]] += added.reshape(
-                len(law), *added.shape[1:] or [1] * (law.ndim - 2)
+            added = summed(players.astype(np.int32), mass, len(odds))
+            odds[:, column[place]] += added.reshape(
+                len(odds), *added.shape[1:] or [1] * (odds.ndim - 2)
             )

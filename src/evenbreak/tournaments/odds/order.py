@@ -1,8 +1,8 @@
-"""In which order to work out matches, so that few joint states are open at a time.
+"""The order in which matches are processed, so that few joint states are open at a time.
 
-A slot that is filled and not yet played is *open*. Matches are taken one by one; the open
-slots that depend on each other have a joint law, whose states are what the work costs. The
-order is greedy: next comes the match after which the fewest states are open.
+A slot is *open* from the match that fills it to the match that it belongs to. Open slots that
+depend on each other have a joint distribution, and the number of its states is the cost. The
+order is greedy: the next match is the one that needs the fewest states.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Source
 
 
 class Order(NamedTuple):
-    """Matches and groups in the order in which they are worked out.
+    """The order in which matches and groups are processed.
 
     Parameters
     ----------
     names
         the matches and groups.
     states
-        about how many joint states are open on the way, all steps added up.
+        an estimate of the joint states of all steps together, on the high side.
     """
 
     names: tuple[str, ...]
@@ -31,7 +31,7 @@ class Order(NamedTuple):
 
 @dataclass
 class _Part:
-    """Open slots with a joint law: about how many states it has, and who can be in each slot."""
+    """Open slots that depend on each other: about how many states, and who can be in each slot."""
 
     size: float
     slots: dict[Source, int] = field(default_factory=dict)
@@ -44,7 +44,7 @@ class _Cost(NamedTuple):
 
 
 def elimination_order(bracket: Bracket) -> Order:
-    """Return a cheap order for the matches of a bracket.
+    """Return a cheap order in which to process the matches of a bracket.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> elimination_order(single_elimination(4))
@@ -79,7 +79,7 @@ class _Search:
         self.states = 0.0
 
     def offer(self, name: str) -> None:
-        """Put a match on the heap if both its slots are open; what it cost before is void."""
+        """Put a match on the heap if both its slots are open, in place of its earlier entry."""
         item = self.items[name]
         if isinstance(item, Match) and not all(
             isinstance(slot, int) or slot in self.home for slot in item.slots
@@ -111,7 +111,7 @@ class _Search:
             self.offer(other)
 
     def cost(self, item: Match | Group) -> _Cost:
-        """Return what a match costs now."""
+        """Return the cost of a match if it came next."""
         if isinstance(item, Group):
             return self._group_cost(item)
         parts: list[_Part] = []
@@ -144,10 +144,10 @@ class _Search:
 
 
 def _ways(can_sit: list[int]) -> float:
-    """Return in how many ways the slots can be filled, each player in one of them at most.
+    """Return the number of ways to fill the slots with different players.
 
-    Exact where of any two slots either the players of one are among those of the other, or
-    no player is in both.
+    `can_sit` holds a bit mask of players for each slot. The number is exact if the players of
+    any two slots are nested or disjoint, and about right otherwise.
     """
     ways = 1.0
     ordered = sorted(can_sit, key=int.bit_count)

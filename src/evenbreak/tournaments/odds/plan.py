@@ -1,8 +1,7 @@
-"""The joint states of open slots, worked out once: everything but the chances.
+"""A plan: the joint states of open slots at each match, and where each result leads.
 
-A plan says for each match which states its slots' joint law has, which two players meet in
-each, and to which state a win of either leads. It depends on the bracket and the results
-so far, not on the chances, so that one plan serves many draws of ratings.
+A plan depends on the bracket and the results so far, but not on the chances of the matches,
+so one plan serves many samples of the ratings.
 """
 
 from __future__ import annotations
@@ -23,14 +22,14 @@ Index: TypeAlias = NDArray[np.int32]
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """What follows if the player in one of the slots wins.
+    """What follows if the player in one of the two slots wins.
 
     Parameters
     ----------
     rows
-        the states in which they can win; None: all.
+        the states in which that player can win; None: all.
     to
-        the state that follows each of them.
+        the next state for each of them.
     """
 
     rows: Index | None
@@ -39,26 +38,26 @@ class Branch:
 
 @dataclass(frozen=True, eq=False)
 class MatchStep:
-    """A match: its states are the pairs of states of the parts that it joins.
+    """One match. Its states are all pairs of states of the parts of the bracket that it joins.
 
     Parameters
     ----------
     name
         the match.
     joins
-        the steps whose open slots it joins, none, one or two.
+        the numbers of the steps before it whose open slots it joins: none, one or two.
     first, second
-        the distinct pairs who can meet, slot 1's player and slot 2's.
+        the distinct pairs of players who can meet, by slot.
     pair
-        which of them meets in each state; None: state and pair are the same.
+        the pair in each state; None if states and pairs are the same.
     branches
-        what follows if slot 1's player wins, if slot 2's does.
+        what follows if slot 1's player wins, and if slot 2's player wins.
     size
-        how many states there are after it.
+        the number of states after the match.
     slots
-        the slots that are open after it, together with others' if it joined them.
+        the open slots of this part of the bracket after the match.
     columns
-        who sits in each of these slots, in each state.
+        the player in each of these slots, for each state.
     """
 
     name: str
@@ -73,28 +72,28 @@ class MatchStep:
 
     @cached_property
     def scatter(self) -> tuple[csc_array, csc_array]:
-        """The two branches as matrices that add up what arrives in each state after."""
+        """The two branches as sparse matrices from states before to states after."""
         one, other = (adding_up(branch.to, self.size) for branch in self.branches)
         return one, other
 
     @cached_property
     def meeting(self) -> csc_array | None:
-        """The matrix that adds up states of the same pair; None where there is nothing to add."""
+        """The sparse matrix that sums states by pair; None if states and pairs are the same."""
         return None if self.pair is None else adding_up(self.pair, len(self.first))
 
 
 @dataclass(frozen=True, eq=False)
 class GroupStep:
-    """A group: who has each rank that goes on.
+    """One group: who has each qualifying rank.
 
     Parameters
     ----------
     group
         the group.
     pairs
-        who meets in each of its matches, by seat in the group.
+        the two players of each match, by position in the group.
     ranks
-        the ranks that go on, from 0 on.
+        the qualifying ranks, from 0 on.
     size, slots, columns
         as for a match.
     """
@@ -119,19 +118,19 @@ Step: TypeAlias = MatchStep | GroupStep
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The steps in their order."""
+    """The steps, in the order in which they are processed."""
 
     bracket: Bracket
     steps: tuple[Step, ...]
 
     @property
     def states(self) -> int:
-        """How many states all steps have together."""
+        """The number of states of all steps together."""
         return sum(step.size for step in self.steps)
 
 
 def adding_up(index: Index, size: int) -> csc_array:
-    """Return the matrix that adds up rows with the same index."""
+    """Return the sparse matrix that sums rows with the same index."""
     count = len(index)
     return csc_array(
         (np.ones(count), index, np.arange(count + 1, dtype=np.int32)), shape=(size, count)

@@ -1,7 +1,8 @@
-"""Making a plan: match after match, the states that can be reached and where results lead.
+"""Building a plan: the states that can be reached, match by match.
 
-States are rows of who sits in each open slot. Two parts that a match joins make all pairs
-of their states; after the match, rows that agree in the slots still open are one state.
+A state says who is in each open slot. A match that joins two parts of the bracket has all
+pairs of their states; after it, states that agree in the slots that are still open become
+one.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Source
-from evenbreak.tournaments.odds.group_law import MOST_MATCHES, rank_states
+from evenbreak.tournaments.odds.group_odds import MOST_MATCHES, rank_states
 from evenbreak.tournaments.odds.order import elimination_order
 from evenbreak.tournaments.odds.plan import (
     Branch,
@@ -28,11 +29,11 @@ from evenbreak.tournaments.odds.plan import (
 )
 
 MOST_STATES = 1e7
-"""How many joint states one match may have before it: some hundred megabytes."""
+"""The largest number of joint states of one match; takes some hundred megabytes."""
 
-_PESSIMISM = 30.0  # the estimate may be so many times the states that there are
-_MOST_KEPT = 2_000_000  # states of the plans that are kept, beside the last
-_SPARE = 8  # a table of all keys is used if it is at most this much longer than the keys
+_PESSIMISM = 30.0  # the estimate can be this many times too high
+_MOST_KEPT = 2_000_000  # states of all plans that are kept for later
+_SPARE = 8  # keys are looked up in a table if it is not this many times longer than the keys
 
 
 class _Table(NamedTuple):
@@ -42,14 +43,14 @@ class _Table(NamedTuple):
 
 
 def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan:
-    """Return the plan of a bracket, however many states it has.
+    """Return the plan of a bracket, however large.
 
     Parameters
     ----------
     bracket
-        the matches still to be played, with the players who are known in their slots.
+        the matches still to be played, with the known players in their slots.
     assumed
-        results of matches whose players are not known yet.
+        what-if results of matches whose players are not known yet.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> plan = plan_of(double_elimination(4))
@@ -69,23 +70,22 @@ def exact_plan(
     assumed: tuple[tuple[str, int], ...] = (),
     most_states: float = MOST_STATES,
 ) -> Plan | None:
-    """Return the plan of a bracket, or None if it would take too many states.
+    """Return the plan of a bracket, or None if it would be too large.
 
-    It is refused at once if the estimate is far beyond, and otherwise before the first law
-    that would be too large: so many states of one match, or three times as many of all.
+    It is too large if one match would have more than `most_states` joint states, or all
+    matches together three times as many. Where the estimate is far beyond that, nothing is
+    built; otherwise building stops before the first match that is too large. Plans are cached.
 
     Parameters
     ----------
     bracket, assumed
         as in `plan_of`.
     most_states
-        how many joint states one match may have before it.
-
-    Plans are kept for the next question, as many as there is room for.
+        the largest number of joint states of one match.
     """
     question = bracket, assumed, most_states
     if question not in _KEPT:
-        _KEPT[question] = _worked_out(bracket, assumed, most_states)
+        _KEPT[question] = _built(bracket, assumed, most_states)
         while len(_KEPT) > 1 and (len(_KEPT) > 64 or _kept_states() > _MOST_KEPT):
             _KEPT.popitem(last=False)
     _KEPT.move_to_end(question)
@@ -96,7 +96,7 @@ def _kept_states() -> int:
     return sum(plan.states for plan in _KEPT.values() if plan)
 
 
-def _worked_out(
+def _built(
     bracket: Bracket, assumed: tuple[tuple[str, int], ...], most_states: float
 ) -> Plan | None:
     if any(len(group.matches) > MOST_MATCHES for group in bracket.groups):
@@ -201,7 +201,7 @@ def _match_step(
 
 
 def _joined(tables: list[_Table]) -> tuple[int, dict[Source, Players]]:
-    """Return the states of one or two parts together: all pairs of theirs."""
+    """Return the joint states of up to two parts: all pairs of their states."""
     if not tables:
         return 1, {}
     if len(tables) == 1:
@@ -215,7 +215,7 @@ def _joined(tables: list[_Table]) -> tuple[int, dict[Source, Players]]:
 def _branch_rows(
     first: Players, second: Players, nobody: int, result: int | None
 ) -> tuple[Index | None, Index | None]:
-    """Return the states in which slot 1's and slot 2's player can win; None: all."""
+    """Return the states in which slot 1's and slot 2's player can win, or None for all."""
     one_there, other_there = first != nobody, second != nobody
     can = [one_there | ~other_there, other_there]
     if result is not None:
@@ -233,7 +233,7 @@ def _taken(column: Players, rows: Index | None) -> Players:
 def _keys(
     after: list[dict[Source, Players]], lengths: list[int], base: int
 ) -> tuple[list[NDArray[np.int64]], int]:
-    """Return a number for each state of each branch, alike for alike states, and their bound."""
+    """Return a key for each state of each branch, equal for equal states, and an upper bound."""
     keys = [np.zeros(length, dtype=np.int64) for length in lengths]
     top = 1
     for slot in after[0]:
@@ -254,7 +254,7 @@ def _keys(
 def _numbered(
     keys: list[NDArray[np.int64]] | list[Index], top: int
 ) -> tuple[NDArray[np.int64], list[Index]]:
-    """Return the distinct keys, ascending, and for each list the position of its keys in them."""
+    """Return the distinct keys, ascending, and the position of each given key among them."""
     if top <= _SPARE * sum(map(len, keys)) + 1000:
         there = np.zeros(top, dtype=bool)
         for part in keys:
@@ -269,7 +269,7 @@ def _numbered(
 
 
 def _representatives(to: list[Index], states: int) -> NDArray[np.int64]:
-    """Return for each state after a match one of those from which it is reached."""
+    """Return for each state after a match the row of one state that leads to it."""
     kept = np.empty(states, dtype=np.int64)
     kept[to[1]] = np.arange(len(to[0]), len(to[0]) + len(to[1]))
     kept[to[0]] = np.arange(len(to[0]))

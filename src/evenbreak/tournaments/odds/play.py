@@ -92,7 +92,7 @@ def play_out(
         return np.full(runs, slot if slot >= 0 else nobody, dtype=np.int16)
 
     for match in bracket.matches:
-        luck = spread_evenly(rng, runs)
+        luck = stratified_uniforms(rng, runs)
         if only is not None and match.name not in only:
             continue
         one, other = seated(match.slots[0]), seated(match.slots[1])
@@ -122,7 +122,7 @@ def _sent_on(
     return player.astype(np.int16)
 
 
-def spread_evenly(rng: np.random.Generator, runs: int) -> Floats:
+def stratified_uniforms(rng: np.random.Generator, runs: int) -> Floats:
     """Return pseudo-random numbers from 0 to 1, one in each of `runs` equal parts, shuffled."""
     luck: Floats = (rng.permutation(runs) + rng.random(runs)) / runs
     return luck

@@ -46,7 +46,7 @@ Race: TypeAlias = int | Chart | Fairest
 
 
 @dataclass(frozen=True, eq=False)
-class MatchLaw:
+class PairOdds:
     """Who wins a match and in how many games, for every two players.
 
     Parameters
@@ -109,7 +109,7 @@ class Races:
         return self.race if special is None else special
 
 
-def match_laws(
+def pair_odds(
     bracket: Bracket,
     ratings: ArrayLike,
     races: Races | Race,
@@ -117,7 +117,7 @@ def match_laws(
     scale: Scale | str | float = "fargo",
     break_advantage: float = 0.0,
     breaks: BreakFormat = alternate_breaks,
-) -> dict[str, MatchLaw]:
+) -> dict[str, PairOdds]:
     """Return the law of each match, given the ratings: what `title_odds` takes as `win`.
 
     Parameters
@@ -142,14 +142,14 @@ def match_laws(
 
     >>> from evenbreak.tournaments import double_elimination
     >>> bracket = double_elimination(["Ann", "Bo"])
-    >>> laws = match_laws(bracket, [600, 500], Races(3, final=5))
+    >>> laws = pair_odds(bracket, [600, 500], Races(3, final=5))
     >>> laws["W1.1"].win[0, 1].round(4), laws["F"].win[0, 1].round(4)
     (np.float64(0.7901), np.float64(0.8552))
     """
     plan, scale, rated, advantage = _checked(bracket, ratings, races, scale, break_advantage)
     points = rated[:, None] - rated
-    made: dict[int | tuple[int, ...], MatchLaw] = {}
-    laws: dict[str, MatchLaw] = {}
+    made: dict[int | tuple[int, ...], PairOdds] = {}
+    laws: dict[str, PairOdds] = {}
     for match in bracket.matches:
         race = plan.of(match)
         if _key(race) not in made:
@@ -175,7 +175,7 @@ def chances_given(
     Parameters
     ----------
     bracket, ratings, races, scale, break_advantage, breaks
-        as in `match_laws`.
+        as in `pair_odds`.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> chances = chances_given(single_elimination(2), [600, 500], 3)
@@ -260,7 +260,7 @@ def _ends(
     scale: Scale,
     advantage: float,
     breaks: BreakFormat,
-) -> MatchLaw:
+) -> PairOdds:
     need_1, need_2 = needs
     count = len(points)
     ends = np.zeros((count, count, int((need_1 + need_2).max())))
@@ -271,7 +271,7 @@ def _ends(
             won, lost = race_endings(m, n, _rack(points[i, j], scale, advantage), breaks, first)
             ends[i, j, : m + n] += share * won.T
             ends[j, i, : m + n] += share * lost.T
-    return MatchLaw(ends)
+    return PairOdds(ends)
 
 
 def _rack(points: Floats, scale: Scale, advantage: float) -> Rack:

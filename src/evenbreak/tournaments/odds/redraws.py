@@ -23,7 +23,7 @@ def redraw_odds(
     win: Wins,
     *,
     results: Results | None = None,
-    draws: int = 40,
+    samples: int = 40,
     rng: np.random.Generator | None = None,
 ) -> PlaceOdds:
     """Return who finishes where if the losers' qualifiers are still to be drawn.
@@ -35,7 +35,7 @@ def redraw_odds(
         matter.
     win, results
         as in `title_odds`, before the knock-out begins.
-    draws
+    samples
         how many redraws are sampled if there are more than 24.
     rng
         where pseudo-random numbers come from then; None: a generator with the seed 0.
@@ -48,7 +48,7 @@ def redraw_odds(
     >>> from evenbreak.tournaments import double_elimination
     >>> coin = np.full((8, 8), 0.5)
     >>> odds = redraw_odds(double_elimination(8, qualifiers=4), coin)
-    >>> odds.title.round(3).tolist(), odds.draws
+    >>> odds.title.round(3).tolist(), odds.samples
     ([0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125], 0)
     """
     first = [match for match in bracket.matches if match.name.startswith("K1.")]
@@ -59,7 +59,7 @@ def redraw_odds(
         orders = list(permutations(range(len(first))))
     else:
         rng = rng or np.random.default_rng(0)
-        many = whole(draws, "draws", at_least=2)
+        many = whole(samples, "samples", at_least=2)
         orders = [tuple(rng.permutation(len(first)).tolist()) for _ in range(many)]
     found = [
         title_odds(_placed(bracket, first, [qualifiers[k] for k in order]), win, results=results)
@@ -70,8 +70,8 @@ def redraw_odds(
     variance = (inner**2).mean(axis=0) / len(found)
     if len(orders) < factorial(len(first)):
         variance = laws.var(axis=0, ddof=1) / len(found)
-    draws = 0 if not variance.any() else max(len(orders), sum(odds.draws for odds in found))
-    return PlaceOdds(bracket, laws.mean(axis=0), np.sqrt(variance), draws)
+    samples = 0 if not variance.any() else max(len(orders), sum(odds.samples for odds in found))
+    return PlaceOdds(bracket, laws.mean(axis=0), np.sqrt(variance), samples)
 
 
 def _placed(bracket: Bracket, first: list[Match], order: list[Slot]) -> Bracket:

@@ -16,7 +16,7 @@ import numpy as np
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, standing
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
-from evenbreak.tournaments.odds.forward import gathered, group_law, joined, split
+from evenbreak.tournaments.odds.forward import gathered, group_odds, joined, split
 from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
 from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.play import play_out
@@ -111,7 +111,7 @@ def _met_again(plan: Plan, chances: Chances, before: Floats) -> dict[str, float]
     again: dict[str, float] = {}
     for number, step in enumerate(plan.steps):
         if isinstance(step, GroupStep):
-            masses[number], _ = group_law(step, chances)
+            masses[number], _ = group_odds(step, chances)
             pasts[number] = {}
             continue
         mass, past = _joined_pasts(

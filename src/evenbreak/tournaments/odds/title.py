@@ -1,9 +1,9 @@
-"""Title odds: P(each place) for each player, from any point of a tournament.
+"""Title odds: the chance of each place for each player, from any point of a tournament.
 
-The players of each slot are random variables and the matches tie them together; working
-out one match after the other and keeping the joint law of the open slots only, all places
-are exact. Where that would take too many states, the first rounds are drawn by lot and
-the rest of each draw is exact.
+Who is in each slot is a random variable, and the matches tie these variables together.
+Processing one match after another, and keeping only the joint distribution of the slots that
+are open, gives exact odds. Where that would take too many states, the first rounds are
+sampled, and the rest of each sample is exact.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.odds.backward import conditional
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
-from evenbreak.tournaments.odds.drawn import BATCHES, drawn_odds
-from evenbreak.tournaments.odds.forward import flow
+from evenbreak.tournaments.odds.sampled import BATCHES, sampled_odds
+from evenbreak.tournaments.odds.forward import forward_pass
 from evenbreak.tournaments.odds.meetings import (
     Meeting,
     group_meetings,
-    meetings_of_flow,
+    plan_meetings,
     meetings_so_far,
-    place_law,
+    place_odds,
     settled_ranks,
 )
 from evenbreak.tournaments.odds.planning import MOST_STATES, exact_plan
 
-DRAWS = 10_000
-"""How often the first rounds are drawn where they are."""
+SAMPLES = 10_000
+"""The number of samples of the first rounds, where they are sampled."""
 
 WALKOVERS = 0.047
-"""The part of real double-elimination matches that is not played (one city, 2017-2025)."""
+"""The share of walkovers among real double-elimination matches (one city, 2017-2025)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,23 +47,22 @@ class PlaceOdds:
     bracket
         the tournament.
     p_place
-        P(a player has a place), a row for each player and a column for each of
-        `bracket.places`.
+        P(each place), with a row for each player and a column for each of `bracket.places`.
     error
-        the standard errors of `p_place`; zeros where it is exact.
-    draws
-        how many draws by lot the odds are averaged over; 0 where they are exact.
+        the standard errors of `p_place`; zeros if it is exact.
+    samples
+        the number of samples behind the odds; 0 if they are exact.
     """
 
     bracket: Bracket
     p_place: Floats
     error: Floats
-    draws: int
+    samples: int
 
     @property
     def exact(self) -> bool:
-        """Whether the odds are exact, without pseudo-random numbers."""
-        return self.draws == 0
+        """Whether the odds are exact rather than sampled."""
+        return self.samples == 0
 
     @property
     def title(self) -> Floats:
@@ -80,8 +79,8 @@ class PlaceOdds:
         Parameters
         ----------
         payouts
-            the money for first place, second, ...; places that are not played out share what
-            is paid for them equally.
+            the money for first place, second, ...; places that are not played off share
+            their money equally.
         """
         return self.p_place @ prizes(self.bracket, payouts)
 
@@ -93,7 +92,7 @@ class TitleOdds(PlaceOdds):
     Parameters
     ----------
     meetings
-        who meets whom in each match, with what chance.
+        for each match, who meets whom with what chance.
 
     The other parameters are those of `PlaceOdds`.
     """
@@ -102,16 +101,16 @@ class TitleOdds(PlaceOdds):
 
     @property
     def p_second_final(self) -> float:
-        """P(a second final is played); 0 where the bracket has none."""
+        """P(a second final is played); 0 if the bracket has none."""
         return self.meetings["F2"].played if "F2" in self.meetings else 0.0
 
     @property
     def matches_mean(self) -> float:
-        """The expected number of matches, those played so far with them."""
+        """The expected number of matches, including those already played."""
         return float(sum(meeting.played for meeting in self.meetings.values()))
 
     def expected_meetings(self) -> Floats:
-        """Return how often two players are expected to meet, a symmetric table."""
+        """Return the expected number of meetings of every two players, a symmetric table."""
         count = len(self.bracket.players)
         table = np.zeros((count, count))
         for meeting in self.meetings.values():
@@ -154,10 +153,10 @@ def title_odds(
     live: Mapping[str, float] | None = None,
     walkovers: float | Mapping[str, float] = 0.0,
     most_states: float = MOST_STATES,
-    draws: int = DRAWS,
+    samples: int = SAMPLES,
     rng: np.random.Generator | None = None,
 ) -> TitleOdds:
-    """Return who finishes where, with what chance.
+    """Return the chance of each place for each player.
 
     Parameters
     ----------
@@ -165,27 +164,27 @@ def title_odds(
         the tournament.
     win
         P(i beats j) for every two players, in the bracket's order: a table of shape (n, n), or
-        a function of two names; or a mapping with one of these for each match by name.
+        a function of two names; or a mapping with one of these for each match, by match name.
     results
-        the results so far: the winner of each match that is decided. A result of a match
-        whose players are not known yet is taken as 'what if': all is given that it happens.
+        the winner of each decided match. The result of a match whose players are not known
+        yet is a what-if: the odds are conditional on it.
     live
-        the chance of the player in slot 1, for matches under way.
+        P(the player in slot 1 wins) for matches in play.
     walkovers
-        the chance that a match is a walkover, won by either player as likely: one for all, or by
-        the match's name; see `WALKOVERS`.
+        the chance that a match is a walkover, either way with equal chance: one number, or a
+        mapping by match name; `WALKOVERS` is that of real events.
     most_states
-        how many joint states of open slots one match may have; beyond that the first rounds
-        are drawn by lot instead.
-    draws
-        how often they are drawn then.
+        the largest number of joint states of one match; beyond it, the first rounds are
+        sampled.
+    samples
+        the number of samples in that case.
     rng
-        where pseudo-random numbers come from then; None: a generator with the seed 0.
+        the random numbers in that case; None: a generator with seed 0.
 
     Raises
     ------
     InputError
-        if a chance or a result cannot be used, or what is assumed cannot happen.
+        if a chance or a result cannot be used, or the what-if results cannot all happen.
 
     Notes
     -----
@@ -208,7 +207,7 @@ def title_odds(
         now,
         chances,
         most_states=most_states,
-        draws=whole(draws, "draws", at_least=100),
+        samples=whole(samples, "samples", at_least=100),
         rng=rng or np.random.default_rng(0),
     )
 
@@ -218,50 +217,50 @@ def odds_now(
     chances: Chances,
     *,
     most_states: float = MOST_STATES,
-    draws: int = DRAWS,
+    samples: int = SAMPLES,
     rng: np.random.Generator | None = None,
     batches: int = BATCHES,
 ) -> TitleOdds:
-    """Return who finishes where, from where the tournament stands.
+    """Return the chance of each place for each player, from the present state on.
 
     Parameters
     ----------
     now
-        where it stands.
+        the state of the tournament.
     chances
         the chances of the matches still to be played.
-    most_states, draws, rng
+    most_states, samples, rng
         as in `title_odds`.
     batches
-        how many batches the draws come in.
+        the number of batches of samples.
     """
     remaining = now.remaining
     plan = exact_plan(remaining, tuple(now.assumed.items()), most_states)
     if plan is None:
-        return _drawn(now, chances, draws, rng or np.random.default_rng(0), batches)
-    through = flow(plan, chances, keep=bool(now.assumed))
+        return _sampled(now, chances, samples, rng or np.random.default_rng(0), batches)
+    through = forward_pass(plan, chances, keep=bool(now.assumed))
     if now.assumed:
         through = conditional(plan, chances, through)
     meetings = meetings_so_far(now) | group_meetings(remaining, chances)
-    meetings |= meetings_of_flow(plan, through)
-    law = place_law(now.bracket, meetings, {**settled_ranks(now), **through.ranks})
-    return TitleOdds(now.bracket, law, np.zeros_like(law), 0, _in_order(now.bracket, meetings))
+    meetings |= plan_meetings(plan, through)
+    p_place = place_odds(now.bracket, meetings, {**settled_ranks(now), **through.ranks})
+    return TitleOdds(now.bracket, p_place, np.zeros_like(p_place), 0, _in_order(now.bracket, meetings))
 
 
-def _drawn(
-    now: Standing, chances: Chances, draws: int, rng: np.random.Generator, batches: int
+def _sampled(
+    now: Standing, chances: Chances, samples: int, rng: np.random.Generator, batches: int
 ) -> TitleOdds:
     if now.assumed:
         raise InputError(
             f"results has {next(iter(now.assumed))!r}, whose players are not known yet; the odds "
-            "of this bracket are drawn by lot, so give results of matches that can be played"
+            "of this bracket are sampled, so give only results of matches that can be played"
         )
-    drawn = drawn_odds(now, chances, draws, rng, batches=batches)
+    found = sampled_odds(now, chances, samples, rng, batches=batches)
     meetings: dict[str, Meeting] = meetings_so_far(now)
-    certain = place_law(now.bracket, meetings, settled_ranks(now))
-    meetings |= drawn.meetings
-    law = certain + drawn.p_place
-    return TitleOdds(now.bracket, law, drawn.error, drawn.draws, _in_order(now.bracket, meetings))
+    certain = place_odds(now.bracket, meetings, settled_ranks(now))
+    meetings |= found.meetings
+    p_place = certain + found.p_place
+    return TitleOdds(now.bracket, p_place, found.error, found.samples, _in_order(now.bracket, meetings))
 
 
 def _in_order(bracket: Bracket, meetings: Mapping[str, Meeting]) -> dict[str, Meeting]:

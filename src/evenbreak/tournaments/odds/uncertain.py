@@ -18,14 +18,14 @@ from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
-from evenbreak.tournaments.odds.forward import flow
+from evenbreak.tournaments.odds.forward import forward_pass
 from evenbreak.tournaments.odds.meetings import (
     Meeting,
     averaged,
     group_meetings,
-    meetings_of_flow,
+    plan_meetings,
     meetings_so_far,
-    place_law,
+    place_odds,
     settled_ranks,
 )
 from evenbreak.tournaments.odds.plan import Plan
@@ -33,7 +33,7 @@ from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.title import TitleOdds, odds_now
 
 _CELLS = 4_000_000
-_DRAWS_EACH = 100
+_SAMPLES_EACH = 100
 _MOST_STATES = 1e6
 
 
@@ -44,7 +44,7 @@ class UncertainOdds:
     Parameters
     ----------
     averaged
-        the odds averaged over draws of the ratings; its `error` is that of the average.
+        the odds averaged over samples of the ratings; its `error` is that of the average.
     as_if_sure
         the odds by the ratings as they are.
     """
@@ -59,7 +59,7 @@ def over_ratings(
     ratings: Sequence[float] | ArrayLike,
     spread: ArrayLike,
     *,
-    draws: int = 200,
+    samples: int = 200,
     results: Results | None = None,
     live: Mapping[str, float] | None = None,
     walkovers: float | Mapping[str, float] = 0.0,
@@ -78,8 +78,8 @@ def over_ratings(
     spread
         how uncertain they are: a standard deviation for each player, or the covariance
         matrix of all of them. Errors are normal.
-    draws
-        how many draws of the ratings; they come in pairs on either side of the ratings.
+    samples
+        how many samples of the ratings; they come in pairs on either side of the ratings.
     rng
         where pseudo-random numbers come from; None: a generator with the seed 0.
 
@@ -101,7 +101,7 @@ def over_ratings(
         name = next(iter(now.assumed))
         raise InputError(f"results has {name!r}; give results of matches whose players are known")
     mean = column(ratings, "ratings", len(bracket.players), "players")
-    pairs = -(-whole(draws, "draws", at_least=4) // 2)
+    pairs = -(-whole(samples, "samples", at_least=4) // 2)
     rng = rng or np.random.default_rng(0)
     drawn = mean + _errors(spread, len(mean), pairs, rng)
     tables = [
@@ -111,7 +111,7 @@ def over_ratings(
     plan = exact_plan(remaining, (), _MOST_STATES)
     sure = odds_now(now, tables[0], rng=rng)
     if plan is None:
-        each = [odds_now(now, part, draws=_DRAWS_EACH, rng=rng, batches=2) for part in tables[1:]]
+        each = [odds_now(now, part, samples=_SAMPLES_EACH, rng=rng, batches=2) for part in tables[1:]]
         laws = np.stack([odds.p_place for odds in each], axis=2)
         meetings = sure.meetings
     else:
@@ -151,11 +151,11 @@ def _exactly(now: Standing, plan: Plan, tables: list[Chances]) -> tuple[Floats, 
     for start in range(0, len(tables), at_once):
         part = tables[start : start + at_once]
         chances = _stacked(part)
-        through = flow(plan, chances)
-        meetings = meetings_of_flow(plan, through) | group_meetings(plan.bracket, chances)
+        through = forward_pass(plan, chances)
+        meetings = plan_meetings(plan, through) | group_meetings(plan.bracket, chances)
         certain = meetings_so_far(now)
         ranks = {**settled_ranks(now), **through.ranks}
-        law = place_law(now.bracket, {**certain, **meetings}, ranks)
+        law = place_odds(now.bracket, {**certain, **meetings}, ranks)
         shape = (*law.shape[:2], len(part))
         laws.append(np.broadcast_to(law.reshape(*law.shape[:2], -1), shape))
         _add(sums, averaged(meetings), len(part) / len(tables))
@@ -184,7 +184,7 @@ def _add(sums: dict[str, Meeting], part: dict[str, Meeting], weight: float) -> N
 
 
 def _stacked(tables: list[Chances]) -> Chances:
-    """Return the chances of many draws as one, the draws as last axis."""
+    """Return the chances of many samples as one, the samples as last axis."""
     made: dict[int, Floats] = {}
     found: dict[str, Floats] = {}
     for name, table in tables[0].tables.items():

@@ -33,10 +33,10 @@ from tournaments.fields import by_seed, one_favourite
 def test_drawn_odds_are_those_that_are_exact(bracket, monkeypatch) -> None:
     win = by_seed(len(bracket.players))
     exact = title_odds(bracket, win)
-    monkeypatch.setattr("evenbreak.tournaments.odds.drawn._STATES_A_DRAW", 500.0)
-    drawn = title_odds(bracket, win, most_states=0, draws=4000)
+    monkeypatch.setattr("evenbreak.tournaments.odds.sampled._STATES_PER_SAMPLE", 500.0)
+    drawn = title_odds(bracket, win, most_states=0, samples=4000)
     assert exact.exact
-    assert drawn.draws == 4000
+    assert drawn.samples == 4000
     gap = np.abs(drawn.p_place - exact.p_place)
     assert (gap <= 5.0 * drawn.error + 1e-9).all()
     assert drawn.error[:, 0].max() < 0.004
@@ -54,14 +54,14 @@ def test_standard_errors_are_honest() -> None:
     scores = []
     for seed in range(20):
         rng = np.random.default_rng(seed)
-        drawn = title_odds(bracket, win, most_states=0, draws=400, rng=rng)
+        drawn = title_odds(bracket, win, most_states=0, samples=400, rng=rng)
         scores.append((drawn.title - exact) / np.maximum(drawn.error[:, 0], 1e-12))
     assert 0.6 < np.std(scores) < 1.5
 
 
 @pytest.mark.parametrize("drops", ["fewest rematches", "usual"])
 def test_a_favourite_in_a_drawn_bracket(drops) -> None:
-    odds = title_odds(double_elimination(32, drops=drops), one_favourite(32, 2 / 3), draws=2000)
+    odds = title_odds(double_elimination(32, drops=drops), one_favourite(32, 2 / 3), samples=2000)
     assert not odds.exact
     assert odds.title[0] == pytest.approx(30080 / 177147, abs=5 * odds.error[0, 0])
     assert odds.error[0, 0] < 0.002
@@ -70,16 +70,16 @@ def test_a_favourite_in_a_drawn_bracket(drops) -> None:
 def test_a_drawn_bracket_after_some_results() -> None:
     bracket, win = double_elimination(32), by_seed(32)
     results = {"W1.1": "32"}
-    odds = title_odds(bracket, win, results=results, draws=1000)
+    odds = title_odds(bracket, win, results=results, samples=1000)
     assert not odds.exact
     assert odds.p_place.sum(axis=1) == pytest.approx(np.ones(32), abs=1e-9)
-    assert odds.title[0] < title_odds(bracket, win, draws=1000).title[0]
+    assert odds.title[0] < title_odds(bracket, win, samples=1000).title[0]
     with pytest.raises(InputError, match="F"):
         title_odds(bracket, win, results={"F": "1"})
 
 
 def test_a_large_group_is_played_out() -> None:
-    odds = title_odds(round_robin(9), np.full((9, 9), 0.5), draws=4000)
+    odds = title_odds(round_robin(9), np.full((9, 9), 0.5), samples=4000)
     assert not odds.exact
     assert odds.title == pytest.approx([1 / 9] * 9, abs=0.03)
 

@@ -1,11 +1,10 @@
-"""Odds by drawing the first rounds: each draw's later rounds are worked out exactly.
+"""Odds by sampling the first rounds; the later rounds of each sample are exact.
 
-Averaging what is exact given the draw varies less than playing all of it out by lot
-(Rao & Blackwell). Three things make it vary less still: each batch of draws is spread evenly
-over the luck of each match (a Latin hypercube); the chance of each player to come through
-the first rounds to each slot is known exactly, and what a draw has too much of it is taken
-out by regression (control variates); and all draws share one plan, so that many fit in a
-second. Standard errors are those of the mean of batches.
+Averages of exact conditional odds have a smaller variance than simulating everything
+(Rao-Blackwell). Two more things reduce it: the samples of a batch are stratified over the luck
+of each match (a Latin hypercube), and the exact chances of the first rounds correct for samples
+with too many wins of somebody (control variates). All samples share one plan, so thousands of
+them take seconds. Standard errors come from the differences between batches.
 """
 
 from __future__ import annotations
@@ -22,91 +21,91 @@ from evenbreak.tournaments.brackets.standing import Standing
 from evenbreak.tournaments.odds.chances import Chances, Floats
 from evenbreak.tournaments.odds.controls import controls_of
 from evenbreak.tournaments.odds.cut import Cut, cut_before
-from evenbreak.tournaments.odds.forward import Flow, flow
+from evenbreak.tournaments.odds.forward import ForwardPass, forward_pass
 from evenbreak.tournaments.odds.meetings import GoesOn, Meeting, add_places, goes_on
 from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players
 from evenbreak.tournaments.odds.planning import plan_of
 from evenbreak.tournaments.odds.play import PlayedOut, play_out
 
-_STATES_A_DRAW = 1e5
-"""The estimate of joint states up to which the rest of a draw is exact."""
+_STATES_PER_SAMPLE = 1e5
+"""The largest estimate of joint states for the later rounds of one sample."""
 
 BATCHES = 40
-"""How many batches the draws come in."""
+"""The number of batches of samples."""
 
 _CELLS = 4_000_000
-"""States times draws that are worked out at once."""
+"""The largest number of states times samples that are processed at once."""
 
 
-class DrawnOdds(NamedTuple):
-    """What the draws say.
+class SampledOdds(NamedTuple):
+    """Odds of the matches still to be played.
 
     Parameters
     ----------
     p_place, error
-        P(each player has each place), without what is certain already, and its standard error.
+        P(each place) for each player, leaving out places already taken, and standard errors.
     meetings
         who meets whom.
-    draws
-        how many draws there were.
+    samples
+        the number of samples.
     """
 
     p_place: Floats
     error: Floats
     meetings: dict[str, Meeting]
-    draws: int
+    samples: int
 
 
 @dataclass
 class _Batch:
-    """What one batch of draws comes to: places by draw, and who met in each match."""
+    """One batch: the places in each sample, and the meetings in each match."""
 
     places: Floats
     counts: dict[str, Floats] = field(default_factory=dict)
 
 
-def drawn_odds(
+def sampled_odds(
     now: Standing,
     chances: Chances,
-    draws: int,
+    samples: int,
     rng: np.random.Generator,
     *,
     batches: int = BATCHES,
-) -> DrawnOdds:
+) -> SampledOdds:
     """Return the odds of the matches still to be played.
 
     Parameters
     ----------
     now
-        where the tournament stands.
+        the state of the tournament.
     chances
         the chances of the matches still to be played.
-    draws
-        how many draws at least.
+    samples
+        the number of samples, at least.
     rng
-        where pseudo-random numbers come from.
+        the random numbers.
     batches
-        in how many batches, two or more.
+        the number of batches, 2 or more.
     """
     bracket = now.remaining
-    drawing = _Drawing(now, bracket, chances, cut_before(bracket, _STATES_A_DRAW))
-    controls = controls_of(now, bracket, drawing.cut.early, chances)
-    size = max(2, -(-draws // batches))
+    sampler = _Sampler(now, bracket, chances, cut_before(bracket, _STATES_PER_SAMPLE))
+    controls = controls_of(now, bracket, sampler.cut.early, chances)
+    size = max(2, -(-samples // batches))
     counts: dict[str, Floats] = {}
     for _ in range(batches):
-        played = play_out(bracket, chances, rng, size, only=drawing.cut.early)
-        batch = drawing.batch(played, size)
+        played = play_out(bracket, chances, rng, size, only=sampler.cut.early)
+        batch = sampler.batch(played, size)
         controls.add(played, batch.places)
         for name, count in batch.counts.items():
             counts[name] = counts.get(name, 0.0) + count
     mean, error = controls.estimate()
-    shape = len(bracket.players), len(drawing.column)
-    meetings = drawing.meetings(counts, size * batches)
-    return DrawnOdds(mean.reshape(shape), error.reshape(shape), meetings, size * batches)
+    shape = len(bracket.players), len(sampler.column)
+    meetings = sampler.meetings(counts, size * batches)
+    return SampledOdds(mean.reshape(shape), error.reshape(shape), meetings, size * batches)
 
 
-class _Drawing:
-    """What all batches share."""
+class _Sampler:
+    """What all batches have in common."""
 
     def __init__(self, now: Standing, bracket: Bracket, chances: Chances, cut: Cut) -> None:
         self.bracket, self.chances, self.cut = bracket, chances, cut
@@ -119,7 +118,7 @@ class _Drawing:
         self.at_once = max(1, _CELLS // largest)
 
     def batch(self, played: PlayedOut, size: int) -> _Batch:
-        """Return what a batch comes to, given how its first rounds went."""
+        """Return a batch, given the results of its first rounds."""
         batch = _Batch(np.zeros((size, self.nobody + 1, len(self.column))))
         self._early(batch, played, size)
         for start in range(0, size, self.at_once):
@@ -128,14 +127,14 @@ class _Drawing:
         batch.places = batch.places[:, :-1].reshape(size, -1)
         return batch
 
-    def meetings(self, counts: Mapping[str, Floats], draws: int) -> dict[str, Meeting]:
-        """Return the meetings counted over all draws."""
+    def meetings(self, counts: Mapping[str, Floats], samples: int) -> dict[str, Meeting]:
+        """Return the meetings of all samples."""
         found = {}
         for name, count in counts.items():
             one, other = np.nonzero(count)
             first, second = self.first[name][one], self.second[name][other]
             p = self.chances.of(name)[first, second]
-            found[name] = Meeting(first, second, count[one, other] / draws, p)
+            found[name] = Meeting(first, second, count[one, other] / samples, p)
         return found
 
     def _early(self, batch: _Batch, played: PlayedOut, size: int) -> None:
@@ -156,13 +155,13 @@ class _Drawing:
                     batch.places[rows, who, self.column[place]] = 1.0
 
     def _rest(self, batch: _Batch, played: PlayedOut, rows: slice) -> None:
-        """Add the later rounds, exact given what was drawn."""
+        """Add the later rounds, which are exact given the first."""
         many = rows.stop - rows.start
         who = np.full((len(self.cut.entrants) + 1, many), self.nobody)
         for k, slot in enumerate(self.cut.entrants):
             who[k] = played.sent[slot][rows] if isinstance(slot, Source) else slot
-        through: Flow = flow(self.plan, self._tables(who))
-        law = np.zeros((len(who), len(self.column), many))
+        through: ForwardPass = forward_pass(self.plan, self._tables(who))
+        shares = np.zeros((len(who), len(self.column), many))
         for step in self.plan.steps:
             if isinstance(step, MatchStep):
                 shape = len(step.first), many
@@ -171,13 +170,13 @@ class _Drawing:
                 self._count(batch, step.name, first, second, meet.ravel())
                 match, going = self.bracket.by_name[step.name], self.going[step.name]
                 meeting = Meeting(step.first, step.second, meet, through.first_wins[step.name])
-                add_places(law, self.column, match, going, meeting)
-        draws = np.arange(rows.start, rows.stop)
+                add_places(shares, self.column, match, going, meeting)
+        samples = np.arange(rows.start, rows.stop)
         for k, players in enumerate(who[:-1]):
-            batch.places[draws, players] += law[k].T
+            batch.places[samples, players] += shares[k].T
 
     def _tables(self, who: NDArray[np.int64]) -> Chances:
-        """Return the chances of the entrants of each draw."""
+        """Return the chances of the entrants of each sample."""
         made: dict[int, Floats] = {}
         tables: dict[str, Floats] = {}
         for match in self.cut.rest.matches:
@@ -215,7 +214,7 @@ def early_places(
     second: Players,
     won: NDArray[np.bool_],
 ) -> list[tuple[Place, Players]]:
-    """Return who leaves a match for a place, in each draw; nobody where they go on."""
+    """Return the place and the player who takes it in each sample; -1 where nobody does."""
     found = []
     ends = zip(places, (going.winner, going.loser), (won, ~won), strict=True)
     for place, on, sat_in_1 in ends:
@@ -227,7 +226,7 @@ def early_places(
 
 
 def who_can_sit(bracket: Bracket) -> tuple[dict[str, Players], dict[str, Players]]:
-    """Return the players who can sit in slot 1 and in slot 2 of each match, ascending."""
+    """Return the players who can be in slot 1 and in slot 2 of each match, ascending."""
     sent = {group.name: sum(1 << player for player in group.members) for group in bracket.groups}
     sides: tuple[dict[str, Players], dict[str, Players]] = ({}, {})
     for match in bracket.matches:

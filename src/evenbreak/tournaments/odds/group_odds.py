@@ -1,4 +1,4 @@
-"""Who comes first, second, ... in a group: all its results enumerated at once."""
+"""Who comes first, second, ... in a group, by enumerating all its results."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from scipy.sparse import csr_array
 from evenbreak.tournaments.brackets.group_ranks import players_ahead
 
 MOST_MATCHES = 21
-"""Matches of a group whose results are enumerated: 7 players who meet once."""
+"""The largest number of matches whose results are enumerated: 7 players who meet once."""
 
 _CHUNK = 1 << 15
 
 
-class RankLaws(NamedTuple):
-    """How the laws of ranks follow from the law of results.
+class RankOrders(NamedTuple):
+    """The final order that each result of a group leads to.
 
     Parameters
     ----------
     order_of
-        for each result of all matches (slot 1's player wins where the bit is set) which order of
-        the members it leads to; players who are level have the same place in it.
+        the order, by number, for each combination of results; bit k of a combination is set if
+        slot 1's player wins match k.
     orders
-        how many members are ahead of each, for each order.
+        orders[o, i]: how many members are ahead of member i in order o; tied members share it.
     """
 
     order_of: NDArray[np.int32]
@@ -36,15 +36,15 @@ class RankLaws(NamedTuple):
 
 
 @lru_cache(maxsize=16)
-def rank_laws(members: int, pairs: tuple[tuple[int, int], ...]) -> RankLaws:
-    """Return which result of a group's matches leads to which order of its members.
+def rank_orders(members: int, pairs: tuple[tuple[int, int], ...]) -> RankOrders:
+    """Return the final order of a group for each combination of results.
 
     Parameters
     ----------
     members
-        how many there are.
+        the number of players.
     pairs
-        who meets in each match, from 0 on.
+        the two players of each match, from 0 on.
     """
     count = 1 << len(pairs)
     codes = np.empty(count, dtype=np.int64)
@@ -59,40 +59,47 @@ def rank_laws(members: int, pairs: tuple[tuple[int, int], ...]) -> RankLaws:
         codes[results] = players_ahead(beats).astype(np.int64) @ power
     distinct, order_of = np.unique(codes, return_inverse=True)
     orders = (distinct[:, None] // power % members).astype(np.int16)
-    return RankLaws(order_of.astype(np.int32), orders)
+    return RankOrders(order_of.astype(np.int32), orders)
 
 
 @lru_cache(maxsize=32)
 def rank_states(
     members: int, pairs: tuple[tuple[int, int], ...], ranks: tuple[int, ...]
 ) -> tuple[NDArray[np.int16], csr_array]:
-    """Return who can have which rank, and the share of each order that leads there.
+    """Return who can have the given ranks, and how likely that is for each final order.
 
-    Lots decide among players who are level: all their orders are equally likely.
+    Remaining ties are broken by lot: all orders of tied players are equally likely.
+
+    Parameters
+    ----------
+    members, pairs
+        as in `rank_orders`.
+    ranks
+        the ranks of interest, ascending, from 0 on.
 
     Returns
     -------
     states
-        states[s, k]: the member at ranks[k] (from 0 on) in state s.
+        states[s, k]: the member with rank ranks[k] in state s.
     shares
         shares[s, o] = P(state s | order o).
     """
     found: dict[tuple[int, ...], int] = {}
     rows, columns, shares = [], [], []
-    for o, ahead in enumerate(rank_laws(members, pairs).orders.tolist()):
+    for o, ahead in enumerate(rank_orders(members, pairs).orders.tolist()):
         law = _lots(tuple(ahead), ranks)
         for state, share in law.items():
             rows.append(found.setdefault(state, len(found)))
             columns.append(o)
             shares.append(share)
-    shape = len(found), len(rank_laws(members, pairs).orders)
+    shape = len(found), len(rank_orders(members, pairs).orders)
     matrix = csr_array((shares, (rows, columns)), shape=shape)
     states = np.array(list(found), dtype=np.int16).reshape(len(found), len(ranks))
     return states, matrix
 
 
 def _lots(ahead: tuple[int, ...], ranks: tuple[int, ...]) -> dict[tuple[int, ...], float]:
-    """Return the law of who has these ranks, given who is level with whom."""
+    """Return the distribution of who has the given ranks, given who is tied with whom."""
     laws: dict[tuple[int, ...], float] = {(): 1.0}
     blocks = sorted(set(ahead))
     for start in blocks:
@@ -112,15 +119,15 @@ def _lots(ahead: tuple[int, ...], ranks: tuple[int, ...]) -> dict[tuple[int, ...
     return laws
 
 
-def result_law(chances: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Return the chance of each result of a group's matches.
+def result_chances(chances: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Return the chance of each combination of results of a group's matches.
 
     Parameters
     ----------
     chances
-        for each match, the chance that slot 1's player wins it; numbers or arrays of draws.
+        P(slot 1's player wins) for each match: numbers, or arrays over samples.
 
-    >>> result_law([np.array(0.75), np.array(0.5)])
+    >>> result_chances([np.array(0.75), np.array(0.5)])
     array([0.125, 0.375, 0.125, 0.375])
     """
     law = np.ones((1, *np.shape(chances[0])))
