@@ -1,12 +1,18 @@
 # `make check` is what CI runs. Set PYTHON to the interpreter of your own environment.
 PYTHON ?= .venv-dev/bin/python
 
-.PHONY: check check-rest lint types test layers docs reports drift bench clean
+# What breaks first where another library is older: drawing, files, sparse solvers, all commands.
+LEANING = tests/plots tests/sheets tests/files/test_spreadsheet.py tests/cli/league/test_report.py \
+	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
+
+.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
 
-check-rest: lint types docs drift   ## what CI checks after the tests, in this environment
+check-rest: check-beside drift   ## what CI checks after the tests
+
+check-beside: lowest docs lint types   ## those of them that may run side by side
 
 lint:
 	$(PYTHON) -m ruff format --check .
@@ -16,7 +22,14 @@ types:
 	$(PYTHON) -m mypy
 
 test:             ## tests and every docstring's, README's and page's example
-	$(PYTHON) -m pytest -q
+	$(PYTHON) -m pytest -q -n logical
+
+lowest:           ## tests that lean on other libraries, at the lowest versions declared
+	$(PYTHON) -m venv .venv-lowest
+	$(PYTHON) .ci/lowest_versions.py > .venv-lowest/versions.txt
+	.venv-lowest/bin/python -m pip install -q -c .venv-lowest/versions.txt -e '.[excel,symbolic]' \
+		pytest hypothesis pytest-xdist
+	.venv-lowest/bin/python -m pytest -q -n logical -W ignore::DeprecationWarning $(LEANING)
 
 layers:           ## imports in one direction, files and terminal only at the end
 	$(PYTHON) -m pytest -q tests/test_layers.py
@@ -30,7 +43,7 @@ reports:          ## make again every committed output that a script makes
 	$(PYTHON) data/make_drill_log.py
 	$(PYTHON) data/make_practice.py
 	$(PYTHON) docs/images/make_images.py
-	$(PYTHON) -m evenbreak report data/demo_league.csv --out reports/demo_league --top 24 --html > demo_league.txt
+	$(PYTHON) -m evenbreak report data/demo_league.csv --out reports/demo_league --html > demo_league.txt
 	mv demo_league.txt reports/demo_league/sheet.txt
 	$(PYTHON) -m evenbreak reproduce --out reports
 
@@ -43,4 +56,4 @@ bench:            ## each benchmark beside the bare floor it is compared with
 		--benchmark-columns=min,median,rounds --benchmark-group-by=group benchmarks
 
 clean:
-	rm -rf docs/_build sheet .venv .venv-dev .pytest_cache .mypy_cache .ruff_cache
+	rm -rf docs/_build sheet .venv .venv-dev .venv-lowest .pytest_cache .mypy_cache .ruff_cache

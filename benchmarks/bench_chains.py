@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from decimal import Decimal, localcontext
+from fractions import Fraction
 from typing import Any
 
 import networkx as nx
@@ -20,6 +21,7 @@ from scipy.sparse.linalg import splu, spsolve_triangular
 from evenbreak.chains import Chain, chain_from_arrays, chain_of, stochastic_limit
 from evenbreak.game import graph_of
 from evenbreak.games import Race, Rack, winner_breaks
+from evenbreak.matches import win_probability
 
 Beside = Callable[..., float]
 
@@ -100,6 +102,73 @@ def ladder_law(up: np.ndarray, down: np.ndarray) -> np.ndarray:
             weights.append(weights[-1] * Decimal(rise) / Decimal(fall))
         total = sum(weights)
         return np.array([float(weight / total) for weight in weights])
+
+
+# Small chains, and fractions --------------------------------------------------------------
+
+
+@pytest.mark.parametrize("n", [30, 100])
+def test_dense_chain(beside: Beside, n: int) -> None:
+    P = np.random.default_rng(1).random((n, n))
+    P /= P.sum(axis=1, keepdims=True)
+    chain = chain_of(P, rows="from")
+    stochastic_limit(chain, 0)  # a built chain knows its classes
+
+    def bare() -> np.ndarray:
+        A = P.copy()
+        for k in range(n - 1, 0, -1):
+            A[:k, k] /= A[k, :k].sum()
+            A[:k, :k] += np.outer(A[:k, k], A[k, :k])
+        law = np.ones(n)
+        for k in range(1, n):
+            law[k] = law[:k] @ A[:k, k]
+        return law / law.sum()
+
+    def ours() -> Any:
+        return stochastic_limit(chain, 0).probability
+
+    note = f"difference {np.abs(ours() / bare() - 1.0).max():.0e}"
+    beside(f"{n} dense states / elimination in plain numpy", ours, bare, rounds=201, note=note)
+
+
+def test_ladder_in_fractions(beside: Beside) -> None:
+    n, up, down = 201, Fraction(9, 20), Fraction(1, 2)
+    rows = {
+        i: {k: p for k, p in ((i - 1, down), (i + 1, up)) if 0 <= k < n} | {i: Fraction(1, 20)}
+        for i in range(n)
+    }
+    rows[0][0], rows[n - 1][n - 1] = 1 - up, 1 - down
+    chain = chain_of(rows)
+
+    def bare() -> list[Fraction]:
+        weights = [Fraction(1)]
+        for _ in range(n - 1):
+            weights.append(weights[-1] * up / down)
+        total = sum(weights)
+        return [weight / total for weight in weights]
+
+    def ours() -> Any:
+        return list(stochastic_limit(chain, 0, exact=True).values())
+
+    note = "equal" if ours() == bare() else "not equal"
+    beside("ladder of 201 states in fractions / products of ratios", ours, bare, note=note)
+
+
+def test_race_in_fractions(beside: Beside) -> None:
+    race, p = Race(50, 50, Rack(0.6)), Fraction(3, 5)
+
+    def bare() -> Fraction:
+        row = [Fraction(1), *[Fraction(0)] * 50]  # by the games that player 1 still needs
+        for _ in range(50):
+            for a in range(1, 51):
+                row[a] = p * row[a - 1] + (1 - p) * row[a]
+        return row[50]
+
+    def ours() -> Fraction:
+        return win_probability(race, exact=True)
+
+    note = "equal" if ours() == bare() else "not equal"
+    beside("race 50:50 in fractions / recurrence", ours, bare, note=note)
 
 
 # A race of 180,000 states --------------------------------------------------------------

@@ -23,6 +23,8 @@ myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
 
 autodoc_member_order = "bysource"
+# matplotlib writes this method into each of its subclasses.
+autodoc_default_options = {"exclude-members": "set"}
 autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_rtype = False

@@ -2,11 +2,8 @@
 
 import doctest
 import importlib
-import os
 import re
 import shutil
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -17,6 +14,7 @@ import pytest
 from evenbreak.cli.program import COMMANDS, program
 from evenbreak.files.results_columns import OPTIONAL, REQUIRED
 from places import ROOT, SRC
+from terminal import on_a_terminal
 
 PAGES = [
     ROOT / "README.md",
@@ -108,41 +106,6 @@ def commands_of(body: str) -> Iterator[tuple[str, str]]:
 def shortened(text: str) -> str:
     """Round numbers in full precision: their last digit may differ from machine to machine."""
     return LONG_NUMBER.sub(lambda number: f"{float(number[0]):.12g}", text.rstrip()) + "\n"
-
-
-def on_a_terminal(command: str) -> str:
-    """Run a command as a person would, and return what the screen shows."""
-    pty = pytest.importorskip("pty", reason="a terminal to look at needs a POSIX system")
-    import fcntl
-    import struct
-    import termios
-
-    ours, theirs = pty.openpty()
-    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 100, 0, 0))
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
-    environment = {**os.environ, "PATH": path, "NO_COLOR": "1", "TERM": "dumb", "PYTHONUTF8": "1"}
-    environment.pop("COLUMNS", None)
-    with subprocess.Popen(  # noqa: S602
-        command,
-        shell=True,
-        stdin=subprocess.DEVNULL,
-        stdout=theirs,
-        stderr=theirs,
-        env=environment,
-    ) as process:
-        os.close(theirs)
-        shown = b""
-        while True:
-            try:
-                piece = os.read(ours, 65536)
-            except OSError:  # the other end is closed: how Linux says end of file here
-                break
-            if not piece:
-                break
-            shown += piece
-    os.close(ours)
-    assert process.returncode == 0, shown.decode()
-    return shown.decode().replace("\r\n", "\n")
 
 
 @pytest.mark.usefixtures("desk")

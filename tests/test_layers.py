@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
 
+import networkx as nx
 import pytest
 
 from places import ROOT, SRC
@@ -21,7 +22,7 @@ from places import ROOT, SRC
 LAYERS: tuple[tuple[str, ...], ...] = tuple(
     tuple(row.split())
     for row in (
-        "errors",
+        "errors arrays",
         "checks",
         "game",
         "games chains stats physics",
@@ -144,6 +145,49 @@ def test_only_the_last_rooms_touch_files_and_the_terminal(room: str) -> None:
         for path in ROOMS[room]
         for problem in outward_uses(path.read_text(encoding="utf-8"))
     ] == []
+
+
+def imports_between(modules: dict[str, ast.Module]) -> nx.DiGraph:
+    """Return who imports whom, within functions too, but not for type checking alone."""
+    arrows = nx.DiGraph()
+    for name, tree in modules.items():
+        todo: list[ast.AST] = [tree]
+        while todo:
+            node = todo.pop()
+            if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+                continue
+            todo += ast.iter_child_nodes(node)
+            if isinstance(node, ast.Import):
+                arrows.add_edges_from((name, alias.name) for alias in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.module:
+                inner = (f"{node.module}.{alias.name}" for alias in node.names)
+                arrows.add_edges_from(
+                    (name, one if one in modules else node.module) for one in inner
+                )
+    return arrows
+
+
+def circles(modules: dict[str, ast.Module]) -> list[list[str]]:
+    """List the modules that import each other, those of a circle together."""
+    found = nx.strongly_connected_components(imports_between(modules))
+    return [sorted(circle) for circle in found if len(circle) > 1]
+
+
+def test_no_modules_import_each_other() -> None:
+    modules = {
+        ".".join(("evenbreak", *module_of(path))).removesuffix(".__init__"): ast.parse(
+            path.read_text(encoding="utf-8")
+        )
+        for path in MODULES
+    }
+    assert circles(modules) == []
+
+
+def test_the_checker_sees_a_circle() -> None:
+    modules = {"a": ast.parse("import b"), "b": ast.parse("def f():\n    from a import x")}
+    assert circles(modules) == [["a", "b"]]
+    modules["b"] = ast.parse("if TYPE_CHECKING:\n    from a import x")
+    assert circles(modules) == []
 
 
 @pytest.mark.parametrize("room", ROOMS)

@@ -3,7 +3,6 @@
 python docs/images/make_images.py
 """
 
-from itertools import accumulate
 from pathlib import Path
 
 import networkx as nx
@@ -13,10 +12,11 @@ from evenbreak.answers import OfferedRaces, Sheet, most_active
 from evenbreak.files.results import read_results
 from evenbreak.games import Ahead, OneBall, Race, Rack
 from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling
-from evenbreak.physics import Table, aimed_shot, pockets, strike_for_speed
+from evenbreak.physics import PoolTable, aimed_shot, pockets, strike_for_speed
 from evenbreak.physics.units import INCH
-from evenbreak.plots.diagram import draw, image_bytes
-from evenbreak.plots.ladders import SettlingCurve, ladder_figure
+from evenbreak.plots.diagram import draw
+from evenbreak.plots.ladders import ladder_figure
+from evenbreak.plots.picture import image_bytes
 from evenbreak.plots.traced_shot import shot_on_table
 from evenbreak.ratings import fit
 from evenbreak.sheets import sheet_pages
@@ -44,8 +44,8 @@ def sheet() -> Figure:
 
 
 def cut_shot() -> Figure:
-    """Draw a cut with draw into the far corner, throw allowed for."""
-    corner = pockets(Table())[2]
+    """Draw a draw shot into the far corner, allowing for throw."""
+    corner = pockets(PoolTable())[2]
     hit = strike_for_speed(80.0 * INCH, -0.4)
     places = ((30.0, 15.0), (50.0, 15.0), (corner.x / INCH, corner.y / INCH))
     return shot_on_table(aimed_shot(hit, *((x * INCH, y * INCH) for x, y in places)))
@@ -54,9 +54,8 @@ def cut_shot() -> Figure:
 def ladder() -> Figure:
     """Draw what `evenbreak ladder` draws of chart 10: the law, and how newcomers settle."""
     model = Ladder("npl", chart("npl_10"), opponents=EQUAL_SKILL)
-    settled = [*accumulate(settling(model, -30, newcomer=True).chances)]
     natural = Ladder("npl", chart("npl_10")).law()
-    curve = SettlingCurve(-30, 5, settled)
+    curve = settling(model, -30, newcomer=True)
     return ladder_figure(
         model.law(), natural=natural, curve=curve, title="chart npl_10, system npl"
     )

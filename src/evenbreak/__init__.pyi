@@ -16,7 +16,7 @@ from . import tournaments as tournaments
 from .chains.absorption import absorption as absorption
 from .chains.absorption import expected_visits as expected_visits
 from .chains.explore import chain_of as chain_of
-from .chains.limits import limit_matrix as limit_matrix
+from .chains.limit_matrix import limit_matrix as limit_matrix
 from .chains.limits import stochastic_limit as stochastic_limit
 from .chains.mixing import mixing_time as mixing_time
 from .chains.mixing import spectral_gap as spectral_gap
@@ -54,10 +54,12 @@ from .handicaps.charts.chart import Chart as Chart
 from .handicaps.charts.chart import chart as chart
 from .handicaps.charts.design import design as design
 from .handicaps.charts.fair import fair_races as fair_races
+from .handicaps.charts.win_matrix import win_matrix as win_matrix
 from .handicaps.ladders.ladder import Ladder as Ladder
 from .matches.crossings import crossings as crossings
 from .matches.crossings import even_probability as even_probability
 from .matches.formats import match_format as match_format
+from .matches.game_odds import game_odds as game_odds
 from .matches.length import match_length as match_length
 from .matches.live import live_odds as live_odds
 from .matches.odds import match_odds as match_odds
@@ -66,6 +68,7 @@ from .matches.straight_pool import StraightPool as StraightPool
 from .matches.straight_pool import straight_pool_odds as straight_pool_odds
 from .matches.win import race_win_probability as race_win_probability
 from .matches.win import win_probability as win_probability
+from .matches.win_formula import win_formula as win_formula
 from .practice.breaks import compare_break_formats as compare_break_formats
 from .practice.drills import drill_statistics as drill_statistics
 from .practice.log_analysis import analyse_log as analyse_log

@@ -25,19 +25,23 @@ State: TypeAlias = Hashable
 
 @runtime_checkable
 class Game(Protocol):
-    """Anything that says where it starts, what can happen next, and who has won."""
+    """Anything that says where it starts, what can happen next, and who has won.
+
+    A game may also have a method `label(state)`, which returns how a diagram writes a state, and
+    a method `arcs()` (see `ArcArrays`).
+    """
 
     @property
     def start(self) -> Any:
         """The state in which the game begins."""
         ...
 
-    def moves(self, state: Any) -> Mapping[Any, float]:
+    def moves(self, state: Any, /) -> Mapping[Any, float]:
         """Return the probability of each next state, given `state`; empty if the game is over."""
         ...
 
-    def winner(self, state: Any) -> int | None:
-        """Return who has won in `state`: 1, 2, or None."""
+    def winner(self, state: Any, /) -> int | None:
+        """Return the number of the player who has won in `state`: 1, 2, ...; None if nobody has."""
         ...
 
 
@@ -47,7 +51,7 @@ class ArcArrays(NamedTuple):
     `sources[k]` and `targets[k]` are positions in `states`; `probabilities[k]` > 0 is the
     probability of the target, given the source. States without arcs are terminal. A game
     may have a method `arcs()` that returns these, for the start and every state that can
-    be reached from it, or None if its moves have to be walked.
+    be reached from it, or None if they have to be found by its moves.
     """
 
     states: Sequence[Any]
@@ -62,8 +66,8 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     Parameters
     ----------
     game
-        the game. If it has arrays of its own, these are used; otherwise its moves are
-        walked breadth-first. Moves of probability zero are left out.
+        the game. If it has arrays of its own, these are used; otherwise its states are
+        found move by move, breadth-first. Moves of probability zero are left out.
     start
         the state to start from; None: the game's own start.
     max_states
@@ -91,6 +95,8 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     2 3 0.25
     2 4 0.75
     """
+    if isinstance(game, type):
+        raise GameError(f"the game is the class {game.__name__}; give one of its objects")
     if not hasattr(game, "moves"):
         raise GameError(f"{game!r} is not a game; give an object with start, moves and winner")
     offer = getattr(game, "arcs", None)
@@ -106,7 +112,12 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
 def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
     import numpy as np
 
-    position = {start: 0}
+    try:
+        position = {start: 0}
+    except TypeError:
+        raise GameError(
+            f"the start is {start!r}; give a state that can be hashed, such as a tuple"
+        ) from None
     states = [start]
     arc_counts: list[int] = []
     targets: list[int] = []
@@ -114,6 +125,11 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
     for state in states:
         before = len(targets)
         moves = game.moves(state)
+        if not hasattr(moves, "items"):
+            raise GameError(
+                f"the moves from {state!r} are {moves!r}; give a dict from states to "
+                "probabilities, empty if the game is over"
+            )
         for target, chance in moves.items():
             try:
                 possible = bool(0.0 < chance <= _ONE)
@@ -159,7 +175,7 @@ def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     """Return the game's diagram: every state that can be reached from its start.
 
     Arcs carry `probability` (of the target, given the source); nodes carry `kind`
-    ('start', 'transient' or 'terminal') and `winner` (1, 2 or None). Moves of
+    ('start', 'transient' or 'terminal') and `winner` (1, 2, ... or None). Moves of
     probability zero are left out. If the game is over at its start, the start is 'terminal'.
 
     Parameters

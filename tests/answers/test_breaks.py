@@ -24,8 +24,8 @@ def test_the_best_format_for_each(p1, p2, for_a, for_b):
 
 def test_where_the_stakes_turn():
     words = breaks_answer(Rack(0.9, 0.5), lose=3).sentences[0].split("\n")[1]
-    assert "gains with winner breaks" in words
-    assert "loses with alternate and loser breaks" in words
+    assert "ahead with winner breaks" in words
+    assert "behind with alternate and loser breaks" in words
 
 
 @pytest.mark.parametrize(("p1", "p2"), [(0.6, 0.4), (0.7, 0.7)])
@@ -35,7 +35,7 @@ def test_formats_that_are_worth_the_same(p1, p2):
 
 @pytest.mark.parametrize(("p", "name"), [(1.0, "winner"), (0.0, "loser")])
 def test_a_break_that_never_passes_on(p, name):
-    assert breaks_answer(Rack(p, p)).sentences[0].startswith(f"With {name} breaks whoever")
+    assert breaks_answer(Rack(p, p)).sentences[0].startswith(f"With {name} breaks, the player who")
 
 
 def test_a_session_in_points():

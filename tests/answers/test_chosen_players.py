@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.chosen_players import by_strength, find_players, most_active
+from evenbreak.answers.chosen_players import find_players, most_active
 from evenbreak.errors import InputError
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
@@ -29,14 +29,6 @@ def test_matches_known_by_the_winner_alone_break_a_tie():
         unscored=[True, True],
     )
     assert most_active(fit(season), 1) == [1]
-
-
-@pytest.mark.parametrize("scale", ["npl", 0.01, 1e6])
-def test_the_strongest_come_first_on_any_scale(scale):
-    season = Results.from_names(["Ann", "Bo", "Di"], ["Bo", "Cy", "Ed"], [3, 4, 5], [7, 7, 5])
-    ratings = fit(season, scale=scale)
-    order = by_strength(ratings, range(5))
-    assert [ratings.players[k] for k in order] == ["Cy", "Bo", "Di", "Ed", "Ann"]
 
 
 def test_players_are_found_by_name_in_any_case_and_once(ratings):

@@ -37,7 +37,7 @@ def test_formats_that_are_the_same_are_said_to_be():
 def test_one_format_alone_is_not_compared():
     answer = answer_of("3:3")
     assert answer.to_dict()["crossings"] == []
-    assert "68 %" in answer.sentences[0]
+    assert "68%" in answer.sentences[0]
 
 
 @pytest.mark.parametrize(

@@ -18,5 +18,5 @@ def test_the_fairest_race_leads_and_all_are_listed():
 def test_a_target_is_named():
     races = fair_races(RACK, race_to=7, target=0.7, top=1)
     answer = fair_answer(TwoPlayers(RACK), races, target=0.7)
-    assert "0.7" in answer.sentences[0]
+    assert "70%" in answer.sentences[0]
     assert answer.to_dict()["target"] == 0.7

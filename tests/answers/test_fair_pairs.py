@@ -1,13 +1,19 @@
 import itertools
 import math
 
+import numpy as np
 import pytest
 
-from evenbreak.answers.fair_pairs import NOT_LINKED, matchups_frame
+from evenbreak.answers.fair_pairs import matchups_frame
 from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.handicaps.charts.fair import fair_races
+from evenbreak.answers.roster_matchups import NOT_LINKED, all_pairs, roster_matchups
+from evenbreak.files.csv_writer import to_csv
+from evenbreak.files.results import read_results
+from evenbreak.files.roster import read_roster
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
+from places import DATA, SHARED
 
 
 @pytest.fixture(scope="module")
@@ -25,16 +31,58 @@ def test_every_pair_has_the_fairest_race_and_the_stronger_comes_first(ratings, o
     assert list(zip(frame["player_a"], frame["player_b"], strict=True)) == list(
         itertools.combinations(["Ann", "Bo", "Cy"], 2)
     )
+    error = dict(zip(ratings.players, ratings.quasi_error, strict=True))
     for row in frame.itertuples():
-        p = ratings.win_probability(row.player_a, row.player_b)
-        (race,) = fair_races(p, games=offered.games, race_to=offered.race_to, top=1)
-        assert p > 0.5
-        assert (row.race_a, row.race_b, row.games_p90, row.note) == (
-            *(race.race_1, race.race_2, race.games_p90, ""),
+        assert row.p_game_a_plug_in == pytest.approx(
+            ratings.win_probability(row.player_a, row.player_b), abs=1e-8
         )
-        assert (row.p_game_a, row.p_win_a, row.mean_games) == pytest.approx(
-            (p, race.p_win_1, race.mean_games), rel=1e-12
-        )
+        both = math.hypot(error[row.player_a], error[row.player_b])
+        assert row.difference_error == pytest.approx(both, abs=1e-5)
+        chance = win_given_ratings(row.difference, both, row.race_a, row.race_b, scale="fargo")
+        assert row.p_win_a == pytest.approx(chance, abs=1e-7)
+        races = [(m, n) for m in range(1, 14) for n in range(1, 14)]
+        within = [(7, n) for n in range(1, 8)]
+        if offered.games is not None:
+            within = [(m, n) for m, n in races if 7 <= m + n - 1 <= 13]
+        chances = win_given_ratings(row.difference, both, *np.transpose(within), scale="fargo")
+        assert abs(row.p_win_a - 0.5) == pytest.approx(np.abs(chances - 0.5).min(), abs=1e-7)
+
+
+SNOOKER = SHARED / "data" / "snooker_2016_17_results.csv"
+
+
+@pytest.mark.parametrize(
+    "results",
+    [
+        DATA / "demo_league.csv",
+        pytest.param(
+            SNOOKER,
+            marks=pytest.mark.skipif(
+                not SNOOKER.exists(), reason=f"{SNOOKER.name} is not on this computer"
+            ),
+        ),
+    ],
+    ids=["demo", "snooker"],
+)
+def test_a_report_and_the_list_that_it_writes_give_each_pair_the_same_race(results, tmp_path):
+    offered = OfferedRaces(race_to=7)
+    rated = fit(read_results(results).results)
+    here = matchups_frame(rated, range(len(rated.players)), offered)
+    path = tmp_path / "ratings.csv"
+    path.write_bytes(to_csv(rated.to_frame()))
+    club = read_roster(path).roster
+    there = roster_matchups(club, all_pairs(club), scale=rated.scale, offered=offered).frame
+    pairs = ["player_a", "player_b"]
+    # Equal ratings may come in either order.
+    assert {frozenset(pair) for pair in here[pairs].to_numpy().tolist()} == {
+        frozenset(pair) for pair in there[pairs].to_numpy().tolist()
+    }
+    same = here.merge(there, on=pairs, suffixes=("", "_list"))
+    assert len(same) > 0.999 * len(here)
+    for name in ("race_a", "race_b", "games_p90", "note"):
+        assert (same[name] == same[f"{name}_list"]).all()
+    for name in ("p_win_a", "p_game_a", "mean_games", "difference_error"):
+        assert same[name].to_numpy() == pytest.approx(same[f"{name}_list"].to_numpy(), abs=1e-12)
 
 
 def test_players_who_are_not_linked_get_no_race(ratings):

@@ -32,7 +32,7 @@ def test_the_turning_point_is_the_game_that_moved_most():
     most = max(range(3), key=lambda i: abs(odds.swings[i]))
     assert f"Game {most + 1} " in answer.sentences[-1]
     before, after = (100 * standing.p_win_2 for standing in odds.course[most : most + 2])
-    assert f"{before:.0f} % to {after:.0f} %" in answer.sentences[-1]
+    assert f"{before:.0f}% to {after:.0f}%" in answer.sentences[-1]
 
 
 @pytest.mark.parametrize(("winners", "name"), [([1, 1], "A"), ([2, 2], "B")])

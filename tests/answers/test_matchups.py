@@ -9,6 +9,7 @@ from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.faces.to_text import to_text
 from evenbreak.answers.matchups import matchups_answer
 from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.matches.pace import own_pace
 from evenbreak.ratings.roster import Roster
 from leagues import CLUB, round_of
 
@@ -16,7 +17,7 @@ OFFERED = OfferedRaces((7, 13))
 
 
 def test_files_have_the_columns_of_the_frame():
-    tonight = round_of(offered=OFFERED, minutes_per_game=8.0)
+    tonight = round_of(offered=OFFERED, pace=own_pace(8.0))
     table = matchups_answer(tonight).csv
     assert table.names == list(tonight.matchups.frame.columns)
     for record, row in zip(
@@ -35,7 +36,7 @@ def test_the_plug_in_chance_is_a_detail_where_it_differs(sure):
 
 
 def test_with_both_kinds_the_chart_comes_first():
-    text = to_text(matchups_answer(round_of(offered=OFFERED, minutes_per_game=8.0)))
+    text = to_text(matchups_answer(round_of(offered=OFFERED, pace=own_pace(8.0))))
     (heads,) = (line for line in text.splitlines() if re.fullmatch(r"\s+chart\s+fair", line))
     assert heads
     assert max(map(len, text.splitlines())) <= 80

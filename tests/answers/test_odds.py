@@ -25,6 +25,13 @@ def test_the_favourite_comes_first(p, favourite):
     assert answer_of(Race(5, 5, Rack(p))).sentences[0].startswith(favourite)
 
 
+def test_exact_chances_are_there_if_asked_for():
+    match = Race(2, 1, RACK)
+    exact = odds_answer(TwoPlayers(RACK), match, exact=True)
+    assert exact.to_dict()["p_win_b_exact"] == "16/25"
+    assert "9/25 = 0.36" in exact.sentences[1]
+
+
 def test_a_match_that_is_over_has_no_odds_in_words():
     over = answer_of(Race(3, 3, RACK, score=(1, 3)))
     assert over.sentences[0].startswith("B")

@@ -2,6 +2,7 @@ import pytest
 
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
+from evenbreak.ratings.scale import scale_of
 
 
 @pytest.mark.parametrize("wrong", [{}, {"games": (5, 9), "race_to": 7}])
@@ -10,12 +11,14 @@ def test_races_are_limited_one_way_or_the_other(wrong):
         OfferedRaces(**wrong)
 
 
-@pytest.mark.parametrize("p", [0.5, 0.6, 0.75])
-def test_the_fairest_race_is_within_the_limits(p):
-    race = OfferedRaces(race_to=7).fairest(p)
-    assert race.race_1 == 7
-    race = OfferedRaces((5, 9)).fairest(p)
-    assert 5 <= race.race_1 + race.race_2 - 1 <= 9
+@pytest.mark.parametrize("error", [0.0, 25.0])
+def test_the_fairest_race_is_within_the_limits(error):
+    gaps = [0.0, 18.0, 48.0]
+    m, n = OfferedRaces(race_to=7).fairest(gaps, error, scale_of("npl"))
+    assert (m == 7).all()
+    assert (n <= 7).all()
+    m, n = OfferedRaces((5, 9)).fairest(gaps, error, scale_of("npl"))
+    assert ((m + n - 1 >= 5) & (m + n - 1 <= 9)).all()
 
 
 def test_one_game_is_no_games():

@@ -1,6 +1,4 @@
-from evenbreak.answers.remarks import Remark, warnings_of
-from evenbreak.files.results import ResultsFile
-from leagues import league
+from evenbreak.answers.remarks import Remark, Remarks
 
 
 def test_many_names_are_cut_and_counted():
@@ -9,16 +7,7 @@ def test_many_names_are_cut_and_counted():
     assert (list(remark.shown_names), remark.more_names) == (["P0", "P1", "P2", "P3", "P4"], 3)
 
 
-def test_warnings_do_not_name_the_folder_of_the_file():
-    warnings = (
-        "folder/season.csv: columns not used: 'x'",
-        "folder/season.csv:7: 1 row is again",
-        "aliases.csv: is not UTF-8",
-    )
-    file = ResultsFile(league(2), "folder/season.csv", warnings, (), "")
-    said = [(one.what.partition("about ")[2], one.why) for one in warnings_of(file)]
-    assert said == [
-        ("season.csv", "columns not used: 'x'"),
-        ("season.csv", "line 7: 1 row is again"),
-        ("", "aliases.csv: is not UTF-8"),
-    ]
+def test_remarks_are_a_paragraph_that_knows_its_items():
+    remark = Remark("New", "taken as 80")
+    assert Remarks([remark], "Assumed") == "Assumed:\n- New: taken as 80."
+    assert Remarks([remark, remark]).items == (remark, remark)

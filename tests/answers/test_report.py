@@ -45,7 +45,8 @@ def test_no_line_is_wider_than_a_terminal_and_no_name_is_cut(players, name):
     assert "…" not in text
 
 
-def test_a_long_list_is_cut_and_said_to_be():
+def test_a_long_list_is_cut_and_said_to_be(monkeypatch):
+    monkeypatch.setattr("evenbreak.answers.report.MOST_ON_SHEET", 30)
     answer = report_answer(sheet_of(league(34), top=33))
     assert "place among all 34 players" in to_text(answer)
     left = " ".join(answer.data["left_out"])
@@ -53,6 +54,14 @@ def test_a_long_list_is_cut_and_said_to_be():
     assert "1 rated player" in left
     assert len(answer.data["ratings"]) == 34
     assert len(answer.to_dict()["matchups"]) == 33 * 32 / 2
+
+
+def test_races_of_a_large_league_are_on_paper_and_all_its_players_are_named():
+    sheet = sheet_of(league(34))
+    text = to_text(report_answer(sheet))
+    assert "sheet.pdf has the races" in text
+    assert not races_in(text)
+    assert all(name in text for name in sheet.rated["player"])
 
 
 def test_json_has_the_tables_of_the_files():

@@ -1,14 +1,19 @@
 import numpy as np
 import pandas as pd
-import pytest
 
 from evenbreak.answers import round as module
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.matches.evening import evening
+from evenbreak.matches.pace import own_pace
 from evenbreak.ratings.roster import Roster
-from leagues import CLUB, round_of
+from leagues import round_of
 
 OFFERED = OfferedRaces((7, 13))
+
+
+def test_it_prints_in_a_line():
+    assert repr(round_of()) == "<Round of 6 pairs of 4 players>"
+    assert repr(round_of().matchups) == "<RosterMatchups of 6 pairs>"
 
 
 def test_the_races_to_play_come_first():
@@ -26,24 +31,18 @@ def test_parts_are_the_whole(monkeypatch):
     pd.testing.assert_frame_equal(pd.concat(parts, ignore_index=True), whole, rtol=1e-12)
 
 
-def test_only_players_who_meet_somebody_are_named():
-    assert round_of(pairs=[[0, 1]]).names == {"Ann", "Bo"}
-    assert round_of().names == set(CLUB.players)
-
-
 def test_the_evening_is_that_of_the_races_lengths():
-    tonight = round_of(pairs=[[0, 1], [2, 3]], offered=OFFERED, minutes_per_game=8.0, tables=2)
+    tonight = round_of(pairs=[[0, 1], [2, 3]], offered=OFFERED, pace=own_pace(8.0), tables=2)
     chart, best = tonight.evening
     assert (chart.races, best.races, chart.exact) == ("chart", "best", True)
-    exact = evening(tonight.matchups.chart_lengths, tables=2)
-    assert chart.mean_minutes == pytest.approx(8.0 * exact.mean)
-    assert chart.minutes_p90 == 8.0 * exact.p90
-    assert round_of(minutes_per_game=8.0).evening == []
+    end = evening(tonight.matchups.chart_lengths, own_pace(8.0), tables=2)
+    assert (chart.mean_minutes, chart.minutes_p90) == (end.mean, end.p90)
+    assert round_of(pace=own_pace(8.0)).evening == []
 
 
 def test_a_simulated_evening_depends_on_its_seed_alone():
     def ends(seed):
-        return round_of(minutes_per_game=8.0, tables=2, seed=seed).evening
+        return round_of(pace=own_pace(8.0), tables=2, seed=seed).evening
 
     assert ends(0) == ends(0) != ends(1)
     assert not ends(0)[0].exact
@@ -52,5 +51,5 @@ def test_a_simulated_evening_depends_on_its_seed_alone():
 
 def test_pairs_without_a_race_take_no_table():
     apart = Roster(["A", "B", "C"], [90, 80, 70], np.full(3, np.nan), [9] * 3, component=[1, 1, 2])
-    (end,) = round_of(apart, minutes_per_game=8.0, tables=1).evening
+    (end,) = round_of(apart, pace=own_pace(8.0), tables=1).evening
     assert end.matches == 1

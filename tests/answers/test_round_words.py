@@ -5,15 +5,17 @@ from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.round import EveningEnd
 from evenbreak.answers.round_words import (
     about_method,
-    about_model,
     about_pairs,
     about_players,
+    about_time,
     doubtful,
     evening_words,
+    game_model,
     least_even,
     races_of,
     which_races,
 )
+from evenbreak.matches.pace import PACES, Turnover, own_pace
 from evenbreak.ratings.roster import Roster
 from leagues import round_of
 
@@ -24,7 +26,7 @@ def test_the_least_even_race_is_the_furthest_from_a_half():
     worst = frame.iloc[frame["chart_unfairness"].argmax()]
     assert worst.player_a in text
     assert worst.player_b in text
-    assert f"{50 + 100 * worst.chart_unfairness:.0f} %" in text
+    assert f"{50 + 100 * worst.chart_unfairness:.0f}%" in text
 
 
 def test_races_say_where_they_come_from():
@@ -34,9 +36,19 @@ def test_races_say_where_they_come_from():
 
 
 def test_an_evening_is_counted_and_timed():
-    text = evening_words(EveningEnd("best", 1, 1, 65.0, 80.0, True, 0, 0.0))
+    text = evening_words(EveningEnd("best", 1, 1, 65.0, 80.0, True, 0, 0.0, 0.0))
     assert "1 match on 1 table takes 1 h 05" in text
     assert "1 h 20" in text
+
+
+def test_what_the_minutes_assume_is_said():
+    assert about_time(round_of()) == ""
+    timed = about_time(round_of(pace=PACES["9-ball"]))
+    assert "9-ball: 5.6 minutes" in timed
+    assert "table" not in timed
+    own = about_time(round_of(pace=own_pace(8.0), tables=2, turnover=Turnover(5)))
+    assert "8 minutes a game on average" in own
+    assert "5 minutes pass between" in own
 
 
 def test_pairs_that_cannot_be_compared_or_made_even_are_named():
@@ -85,7 +97,6 @@ def test_the_method_is_said_as_far_as_it_was_used():
     plain = [remark.what for remark in about_method(round_of())]
     assert plain[0] == "Chart npl_10"
     assert any("standard error" in what for what in plain)
-    timed = [str(remark) for remark in about_method(round_of(minutes_per_game=8.0, tables=2))]
-    assert any(text.startswith("8 minutes a game") for text in timed)
+    timed = [str(remark) for remark in about_method(round_of(pace=own_pace(8.0), tables=2))]
     assert any("50,000 simulated evenings" in text for text in timed)
-    assert "d/30" in about_model(round_of())
+    assert "d/30" in game_model(round_of())

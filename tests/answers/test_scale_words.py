@@ -7,7 +7,7 @@ from evenbreak.ratings.scale import scale_of
 @pytest.mark.parametrize("name", ["npl", "fargo", "elo", 50])
 def test_a_leagues_own_ratings_are_on_no_named_scale(name):
     scale = scale_of(name)
-    assert scale_words(scale).startswith(f"on the {scale.name} scale (")
+    assert scale_words(scale).lower().startswith(f"on the {scale.name} scale (")
     words = like_scale_words(scale)
     assert "-like" in words or "of its own" in words
     assert f"{scale.points_per_doubling:.6g} points" in words

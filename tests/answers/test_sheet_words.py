@@ -5,12 +5,12 @@ import pytest
 
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.sheet_words import (
-    about_model,
     about_ratings,
     how_even,
     how_rated,
     how_to_read,
     played,
+    rating_model,
     source_and_dates,
 )
 from evenbreak.ratings.prior import PriorChoice
@@ -81,20 +81,22 @@ def test_how_it_was_rated():
     season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2026-01-31"])
     sheet = sheet_of(season, scale="fargo", prior_sd=0.5)
     assert "500, give or take 72.13" in how_rated(sheet)
-    choice = PriorChoice(sheet.ratings.prior_sd, (0.1, 0.5, 0.9), (0.7, 0.6, 0.7), 1234)
-    assert "of 3 spreads this one predicted 1,234" in how_rated(replace(sheet, choice=choice))
+    tried = (sheet.ratings.prior_sd, (0.1, 0.5, 0.9), (0.7, 0.6, 0.7), 1234, 0.4, 0.6)
+    learnt, not_learnt = PriorChoice(*tried, True, 0.61), PriorChoice(*tried, False, 0.61)
+    assert "of 3 values tried, this one predicted 1,234" in how_rated(replace(sheet, choice=learnt))
+    assert how_rated(replace(sheet, choice=not_learnt)) == how_rated(sheet)
     aged = sheet_of(season, half_life=90, as_of="2026-02-01")
     assert "half after 90 days, as of 2026-02-01" in how_rated(aged)
 
 
 def test_the_model_is_the_one_that_was_used():
     season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2026-01-31"])
-    assert "d/100" in about_model(sheet_of(season, scale="fargo"))
-    assert "alike" in about_model(sheet_of(season))
-    assert "alike" not in about_model(sheet_of(season, half_life=90))
+    assert "d/100" in rating_model(sheet_of(season, scale="fargo"))
+    assert "alike" in rating_model(sheet_of(season))
+    assert "alike" not in rating_model(sheet_of(season, half_life=90))
     sheet = sheet_of(season)
     breaks = replace(sheet, ratings=replace(sheet.ratings, break_advantage=12.34))
-    assert "12.3 points better" in about_model(breaks)
+    assert "12.3 points better" in rating_model(breaks)
     winners = Results.from_names(
         *(["Ann"], ["Bo"], [0], [0]),
         race_a=[7],
@@ -102,4 +104,4 @@ def test_the_model_is_the_one_that_was_used():
         winner=[1],
         unscored=[True],
     )
-    assert "only its winner" in about_model(sheet_of(winners))
+    assert "only its winner" in rating_model(sheet_of(winners))

@@ -11,13 +11,13 @@ def test_the_spot_is_named_with_its_chance():
     told = answer.to_dict()
     assert (told["even_points_a"], told["even_points_b"]) == (spot.points, 100)
     assert told["p_win_a_even"] == spot.p_win_1
-    assert f"A should need {spot.points} points" in answer.sentences[0]
+    assert f"A should play to {spot.points} points" in answer.sentences[0]
 
 
 @pytest.mark.parametrize(
     ("match", "words"),
     [
-        (StraightPool(100, 60, 0.9, 0.85), "No other number of points"),
+        (StraightPool(100, 60, 0.9, 0.85), "No other spot"),
         (StraightPool(100, 100, 0.0, 0.9), "No spot"),
         (StraightPool(100, 100, 0.0, 0.0), "never ends"),
     ],

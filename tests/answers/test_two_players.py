@@ -9,7 +9,7 @@ def test_rated_players():
     players = TwoPlayers.rated(612, 521, scale_of("fargo"), names=("Ann", "Bo"))
     assert players.p_game_a == pytest.approx(1 / (1 + 2**-0.91))
     assert players.doubts == []
-    for part in ("Ann", "612", "Bo", "521", "fargo"):
+    for part in ("Ann", "612", "Bo", "521", "Fargo"):
         assert part in players.description
 
 

@@ -33,7 +33,7 @@ def test_the_matrix_is_canonical() -> None:
 
 @pytest.mark.parametrize("source", [None, 5, 0.5])
 def test_what_is_no_source_is_refused(source: object) -> None:
-    with pytest.raises(ChainError, match=r"the source is .*; give a game, a networkx.DiGraph, or"):
+    with pytest.raises(ChainError, match=r"the source is .*; give a game, a networkx.DiGraph, a "):
         chain_of(source)  # type: ignore[arg-type]
 
 
@@ -88,7 +88,8 @@ def test_refused(triples: list[tuple[object, ...]], words: str) -> None:
 
 def test_the_tolerance_of_a_sum() -> None:
     chain = chain_of([("A", "B", 0.5), ("A", "C", 0.5 - 9e-10)])
-    assert chain.matrix[2, 0] == 0.5 - 9e-10  # kept as it was given
+    assert chain.matrix[2, 0] == pytest.approx((0.5 - 9e-10) / (1.0 - 9e-10), rel=1e-15)
+    assert chain.matrix[1, 0] + chain.matrix[2, 0] == 1.0
 
 
 def test_a_listed_self_loop_is_what_the_others_leave_over() -> None:
@@ -259,11 +260,22 @@ class Endless(Wild):
         ({0: {1: 0.0, 2: 0.0}}, GameError, "every move from 0 has probability 0"),
         ({0: {1: 0.5, 2: 0.4}}, ChainError, "'?0'? sum to 0.9"),
         ({0: {1: 1.5}}, GameError, "probability 1.5"),
+        ({0: None}, GameError, "moves from 0 are None"),
+        ({0: [(1, 1.0)]}, GameError, "moves from 0 are"),
     ],
 )
 def test_games_refused(moves: dict[int, dict[int, float]], error: type, words: str) -> None:
     with pytest.raises(error, match=words):
         chain_of(Wild(moves))
+
+
+def test_a_class_and_a_start_that_cannot_be_hashed_are_refused() -> None:
+    with pytest.raises(GameError, match="the class Wild"):
+        chain_of(Wild)  # type: ignore[arg-type]
+    game = Wild({})
+    game.start = [0]  # type: ignore[assignment]
+    with pytest.raises(GameError, match="the start is"):
+        chain_of(game)
 
 
 def test_an_endless_game_is_given_up() -> None:

@@ -3,6 +3,7 @@
 from fractions import Fraction
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from evenbreak.chains import chain_of
@@ -89,3 +90,14 @@ def test_what_is_earned_after_absorption_does_not_count():
 def test_refusals(rewards, message):
     with pytest.raises(ChainError, match=message):
         long_run_reward(chain_of(OneBall(0.4, 0.8)), **rewards)
+
+
+def test_a_series_is_read_by_its_labels():
+    chain = chain_of([("a", "b", 1.0), ("b", "c", 1.0)], start="a")
+    rewards = pd.Series([3.0, 1.0], index=["b", "a"])
+    assert total_reward(chain, per_state=rewards) == 4.0
+    assert total_reward(chain, "b", per_state=rewards) == 3.0
+    assert chain.density(pd.Series([0.75, 0.25], index=["b", "a"])).tolist() == [0.25, 0.75, 0.0]
+    for labels, message in ([0, 1], "state 0 is not in the chain"), (["a", "a"], "a label twice"):
+        with pytest.raises(ChainError, match=message):
+            total_reward(chain, per_state=pd.Series([1.0, 2.0], index=labels))

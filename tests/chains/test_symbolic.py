@@ -140,6 +140,8 @@ def test_refusals():
         symbolic_limit([("S", "W", p), ("S", "W", q)])
     with pytest.raises(ChainError, match="no arcs"):
         symbolic_limit([])
+    with pytest.raises(ChainError, match="the source is 3"):
+        symbolic_limit(3)
     with pytest.raises(ChainError, match="'X' is not in the diagram"):
         symbolic_limit(ONE_BALL, "X")
 

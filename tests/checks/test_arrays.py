@@ -1,5 +1,6 @@
 """Arrays that pass the checks, as what they pass, and arrays that do not."""
 
+import datetime as dt
 import subprocess
 import sys
 from fractions import Fraction
@@ -89,8 +90,21 @@ def test_a_column_is_a_copy_that_cannot_be_written() -> None:
         (5, float, r"has shape \(\); give one value for each of 2 players"),
         ([1, 2.5], np.int64, "give whole numbers"),
         ([1, np.nan], np.int64, "give whole numbers"),
-        (["a", "b"], float, "give values of type float64"),
-        (["a", "b"], "datetime64[D]", "give values of type"),
+        (["a", "b"], float, "give numbers"),
+        (["80", "90"], float, "give numbers"),
+        ([80, "90"], float, "give numbers"),
+        ([80, 90 + 1j], float, "give numbers"),
+        ([257, 1], np.int8, "give whole numbers"),
+        (["7", "5"], np.int64, "give whole numbers"),
+        (["no", "yes"], bool, "give True or False"),
+        ([True, np.nan], bool, "give True or False"),
+        ([True, None], bool, "give True or False"),
+        ([0, 2], bool, "give True or False"),
+        (["a", "b"], "datetime64[D]", "give days"),
+        ([20260131, 20260201], "datetime64[D]", "give days"),
+        (["20260131", "2026-02-01"], "datetime64[D]", "give days"),
+        (["aba", np.nan], object, "give text"),
+        (["aba", None], object, "give text"),
     ],
 )
 def test_other_columns_are_refused(values: Any, dtype: Any, problem: str) -> None:
@@ -98,9 +112,17 @@ def test_other_columns_are_refused(values: Any, dtype: Any, problem: str) -> Non
         column(values, "x", 2, "players", dtype)
 
 
+def test_zeros_and_ones_are_a_column_of_bools() -> None:
+    for values in ([0, 1], [0.0, 1.0], [False, True], np.array([False, True], dtype=object)):
+        assert column(values, "x", 2, "rows", bool).tolist() == [False, True]
+
+
 def test_a_column_of_days_and_one_with_gaps() -> None:
     days = column(["2026-01-31"], "date", 1, "rows", "datetime64[D]")
     assert days.dtype == np.dtype("datetime64[D]")
+    given = ["2026-01-31", dt.date(2026, 2, 1), np.datetime64("2026-02-02T20:15"), None]
+    days = column(np.array(given, dtype=object), "date", 4, "rows", "datetime64[D]")
+    assert [str(day) for day in days] == ["2026-01-31", "2026-02-01", "2026-02-02", "NaT"]
     assert np.isnan(column([np.nan, 80], "rating", 2, "players")).tolist() == [True, False]
 
 
@@ -124,3 +146,11 @@ def test_numbers_are_checked_without_numpy() -> None:
         "sys.exit('numpy' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
+
+
+def test_what_is_masked_is_missing() -> None:
+    masked = np.ma.masked_array([0.5, 0.25], mask=[False, True])
+    with pytest.raises(InputError, match="p holds nan"):
+        probability(masked, "p")
+    assert np.isnan(column(masked, "rating", 2, "players")).tolist() == [False, True]
+    assert floats(np.ma.masked_array([1, 2]), "p").tolist() == [1.0, 2.0]

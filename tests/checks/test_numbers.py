@@ -12,6 +12,7 @@ from evenbreak.checks import (
     number_probability,
     one_of,
     positive,
+    seed_of,
     whole,
 )
 from evenbreak.errors import InputError
@@ -98,3 +99,9 @@ def test_a_choice_comes_back_as_it_was_listed(value: object) -> None:
 def test_other_choices_are_refused(value: object) -> None:
     with pytest.raises(InputError, match=r"player is .*; give 1 or 2"):
         one_of(value, "player", (1, 2))
+
+
+@pytest.mark.parametrize("wrong", ["x", 1.5, -1, None])
+def test_a_seed_is_a_whole_number_or_a_generator(wrong):
+    with pytest.raises(InputError, match="seed"):
+        seed_of(wrong)

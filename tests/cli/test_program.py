@@ -1,9 +1,11 @@
 """The program as a whole: its help, its exit codes, its streams."""
 
+import contextlib
 import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import click
@@ -39,6 +41,7 @@ def test_help_lists_every_command_under_its_heading(run):
 
 def test_help_imports_no_command():
     assert {name for name in loaded_by("--help") if name.startswith("evenbreak.cli.")} == {
+        "evenbreak.cli.interrupts",
         "evenbreak.cli.kit",
         "evenbreak.cli.kit.groups",
         "evenbreak.cli.program",
@@ -84,6 +87,16 @@ def test_errors_pass_through_where_the_caller_asks_for_them():
         program.main(["odds", "1", "2"], standalone_mode=False)
 
 
+def interrupted(running, times=10):
+    """Interrupt a program that waits for input, again if the wait began just after the signal."""
+    for _ in range(times):
+        running.send_signal(signal.SIGINT)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            return running.communicate(timeout=3)
+    running.kill()
+    return running.communicate()
+
+
 def test_ctrl_c_ends_with_130(tmp_path):
     fifo = tmp_path / "arcs.csv"
     os.mkfifo(fifo)
@@ -94,8 +107,7 @@ def test_ctrl_c_ends_with_130(tmp_path):
         text=True,
     )
     with fifo.open("w", encoding="utf-8"):  # opens once the program has opened it to read
-        running.send_signal(signal.SIGINT)
-        out, err = running.communicate(timeout=30)
+        out, err = interrupted(running)
     assert (running.returncode, out) == (130, "")
     assert err.strip() == "Interrupted."
 
@@ -111,6 +123,104 @@ def test_an_interrupt_caught_during_an_import_ends_with_130(tmp_path):
         [sys.executable, "-m", "stopped"], cwd=tmp_path, capture_output=True, text=True
     )
     assert (ended.returncode, ended.stdout, ended.stderr.strip()) == (130, "", "Interrupted.")
+
+
+SWALLOWED = """
+import os, signal, sys, time
+from evenbreak import cli
+from evenbreak.cli.kit.terminal import write
+from evenbreak.cli.program import program
+def invoke(_):
+    {happens}
+    write("went on")
+program.invoke = invoke
+sys.argv[1:] = ["odds"]
+cli.main()
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
+@pytest.mark.parametrize(
+    "happens",
+    [
+        "import swallows; time.sleep(5)",  # in an import: it waits, and comes right after
+        "type('X', (), {'__del__': lambda _: os.kill(os.getpid(), signal.SIGINT)})()",
+    ],
+)
+def test_an_interrupt_that_something_swallows_ends_the_run(tmp_path, happens):
+    (tmp_path / "swallows.py").write_text(
+        "import os, signal, time\ntry:\n os.kill(os.getpid(), signal.SIGINT)\n time.sleep(0.1)\n"
+        "except BaseException: pass\n"
+    )
+    (tmp_path / "run.py").write_text(SWALLOWED.format(happens=happens))
+    begun = time.monotonic()
+    ended = subprocess.run([sys.executable, "run.py"], cwd=tmp_path, capture_output=True, text=True)
+    assert (ended.returncode, ended.stdout) == (130, "")
+    assert ended.stderr.endswith("Interrupted.\n")
+    assert time.monotonic() - begun < 4.5
+
+
+def test_python_m_runs_no_code_of_the_working_folder(tmp_path):
+    for name in ("click", "pickle", "numpy", "difflib"):
+        (tmp_path / f"{name}.py").write_text("print('run')\n", encoding="utf-8")
+    done = run_program("odds", "60", "50", "--race", "7", cwd=tmp_path)
+    assert done.returncode == 0
+    assert "run" not in done.stdout
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a shell closes the streams")
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    "words", ["--help", "odds 60 50 --race 7", "odds x y", "drill --p 0.8 --plot d.svg", "chain -"]
+)
+def test_closed_streams_are_no_bug(tmp_path, words, closed):
+    command = f"{sys.executable} -m evenbreak {words} {closed}"
+    done = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True)  # noqa: S602
+    assert done.returncode in (0, 2, 3)
+    assert "Traceback" not in done.stderr
+    assert "Exception ignored" not in done.stderr
+    if words.endswith("svg"):
+        assert (tmp_path / "d.svg").read_bytes().endswith(b"</svg>\n")
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("MPLBACKEND", "absent"),
+        ("MPLBACKEND", "module://absent.inline"),
+        ("SOURCE_DATE_EPOCH", "yesterday"),
+    ],
+)
+def test_settings_of_matplotlib_in_the_environment_do_not_matter(tmp_path, name, value):
+    words = ("drill", "--p", "0.8", "--plot", "d.svg", "--text")
+    done = run_program(*words, cwd=tmp_path, env={**os.environ, name: value})
+    assert (done.returncode, done.stderr) == (0, "Wrote d.svg\n")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere a folder in use cannot be removed")
+def test_a_working_folder_that_is_gone_does_not_matter(tmp_path):
+    command = f"mkdir gone; cd gone; rmdir ../gone; {sys.executable} -m evenbreak --version"
+    done = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True)  # noqa: S602
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_somebodys_matplotlibrc_changes_nothing(tmp_path):
+    words = ("drill", "--p", "0.8", "--plot", "d.svg", "--text")
+    pictures = []
+    for settings in ("", "text.usetex: True\nfont.size: 30\naxes.facecolor: red\n"):
+        (tmp_path / "matplotlibrc").write_text(settings)
+        done = run_program(*words, cwd=tmp_path)
+        assert (done.returncode, done.stderr) == (0, "Wrote d.svg\n")
+        pictures.append((tmp_path / "d.svg").read_bytes())
+    assert pictures[0] == pictures[1]
+
+
+def test_a_matplotlibrc_that_is_no_text_is_one_line(tmp_path):
+    (tmp_path / "matplotlibrc").write_bytes(b"\xff\xfe")
+    done = run_program("drill", "--p", "0.8", "--plot", "d.svg", "--text", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "remove the file matplotlibrc" in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 def test_a_reader_that_leaves_is_not_an_error(tmp_path):
@@ -152,3 +262,14 @@ def test_output_is_utf_8_in_any_locale():
         env={**os.environ, "PYTHONIOENCODING": "ascii", "LC_ALL": "C"},
     )
     assert done.stdout == "state,probability\nS,0.0\nÆrø,0.6\nL,0.4\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "same"), [(["help"], ["--help"]), (["help", "odds"], ["odds", "--help"])]
+)
+def test_help_needs_no_dashes(run, words, same):
+    assert run(*words).stdout == run(*same).stdout
+
+
+def test_version_needs_no_dashes(run):
+    assert run("version").stdout == run("--version").stdout

@@ -42,7 +42,7 @@ def test_all_that_is_wrong_is_told_at_once(read):
     assert [text.partition(";")[0] for text in told] == [
         ":2: 'Bob' means 'Rob', which means 'Robin' in line 6",
         ":3: name is empty",
-        ":4: 'Bob' means 'Robert' here and 'Rob' in line 2",
+        ":4: 'Bob' means 'Robert' here, but 'Rob' in line 2",
         ":5: means is empty",
     ]
 

@@ -12,9 +12,9 @@ from evenbreak.files.csv_writer import text_cell
 from evenbreak.files.drill_log import read_drill_log
 from evenbreak.files.league import read_league
 from evenbreak.files.pairs import read_pairs
+from evenbreak.files.player_names import clean_name
 from evenbreak.files.problems import printable
 from evenbreak.files.results import read_results
-from evenbreak.files.results_columns import clean_name
 from evenbreak.files.roster import read_roster
 from evenbreak.files.schedule import read_schedule
 from evenbreak.files.scores import read_scores

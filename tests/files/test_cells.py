@@ -1,3 +1,4 @@
+import dataclasses
 import math
 
 import numpy as np
@@ -6,14 +7,15 @@ import pytest
 from evenbreak.errors import DataError
 from evenbreak.files.cells import numbers, whole_numbers
 from evenbreak.files.problems import Problems
-from evenbreak.files.text_table import Table, Texts
+from evenbreak.files.text_table import Texts, TextTable
 
 
 def table_of(*cells):
     distinct = list(dict.fromkeys(cells))
     codes = np.array([distinct.index(cell) for cell in cells], dtype=np.int64)
     lines = np.arange(2, len(cells) + 2)
-    return Table("t.csv", lines, {"x": Texts(distinct, codes)}, Problems("t.csv"), (), b"")
+    columns = {"x": Texts(distinct, codes)}
+    return TextTable("t.csv", lines, columns, frozenset(columns), Problems("t.csv"), (), b"")
 
 
 def told(table):
@@ -45,6 +47,7 @@ def test_whole_numbers(text, value):
         "seven",
         "1_000",
         "1,000",
+        "1.000",
         "٧",
         "²",
         "0x7",
@@ -87,9 +90,10 @@ def test_empty_cells_may_be_allowed():
 
 
 def test_a_column_that_is_missing_is_no_further_problem():
-    table = table_of("1", "2")
+    table = table_of("", "")
+    table = dataclasses.replace(table, columns={"y": table.columns["x"]}, found=frozenset())
     assert whole_numbers(table, "y").values.tolist() == [0, 0]
-    assert np.isnan(numbers(table, "y", remedy="write one").values).all()
+    assert np.isnan(numbers(table, "y", at_least=-9, at_most=9, remedy="write one").values).all()
     assert told(table) == []
 
 
@@ -109,8 +113,37 @@ def test_a_column_that_is_missing_is_no_further_problem():
 )
 def test_numbers(text, value):
     table = table_of(text)
-    assert numbers(table, "x", remedy="write 0.5").values.tolist() == [value]
+    assert numbers(table, "x", at_least=-9, at_most=9, remedy="write 0.5").values.tolist() == [
+        value
+    ]
     assert told(table) == []
+
+
+@pytest.mark.parametrize(
+    ("cells", "problems"),
+    [
+        (("1,500", "1,700"), ["1,500' may mean 1500 or 1.5", "1,700' may mean 1700 or 1.7"]),
+        (("1.500", "1.700"), ["1.500' may mean 1500 or 1.5", "1.700' may mean 1700 or 1.7"]),
+        (("-1,500", "85,5"), ["-1,500' may mean -1500 or -1.5"]),
+        (("1.500", "1700"), ["1.500' may mean 1500 or 1.5"]),
+        (("1.500", "1.25"), []),
+        (("85,5", "92,347", "0,125", "1,5", "1,5000"), []),
+        (("85.5", "92.347", "9.512"), []),
+    ],
+)
+def test_a_number_that_reads_two_ways_is_refused(cells, problems):
+    table = table_of(*cells)
+    numbers(table, "x", at_least=-(10**6), at_most=10**6, remedy="", points_may_group=True)
+    assert len(told(table)) == len(problems)
+    for problem, part in zip(told(table), problems, strict=True):
+        assert part in problem
+
+
+def test_a_point_is_a_decimal_point_unless_it_may_group_and_a_comma_where_no_thousand_fits():
+    for text, at_most in (("1.500", 10**6), ("1,500", 9)):
+        table = table_of(text)
+        assert numbers(table, "x", at_least=0, at_most=at_most, remedy="").values.tolist() == [1.5]
+        assert told(table) == []
 
 
 @pytest.mark.parametrize(
@@ -119,7 +152,7 @@ def test_numbers(text, value):
 )
 def test_what_is_no_number_is_told(text):
     table = table_of(text)
-    assert math.isnan(numbers(table, "x", remedy="write 0.5").values[0])
+    assert math.isnan(numbers(table, "x", at_least=-9, at_most=9, remedy="write 0.5").values[0])
     (problem,) = told(table)
     assert problem.startswith("t.csv:2: x ")
     assert problem.endswith("; write 0.5")

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.files.csv_writer import FORMULA_STARTS, to_csv
+from evenbreak.files.csv_writer import FORMULA_STARTS, csv_lines, to_csv, undefused
+from evenbreak.files.player_names import clean_name, is_name
 
 
 def test_every_kind_of_value():
@@ -28,11 +29,46 @@ def test_every_kind_of_value():
     )
 
 
-@pytest.mark.parametrize("text", ["=1+1", "+A1", "-1+1", "@SUM(A1)", "\t=1", "\r=1", "\x1b[31m"])
+@pytest.mark.parametrize(
+    "text", ["=1+1", "+A1", "-1+1", "@SUM(A1)", "\x1b[31m", "\r1", "＝1", "﹣x"]
+)
 def test_text_that_a_spreadsheet_would_run_is_defused(text):
     frame = pd.DataFrame({"player": [text], text: ["x"]})
     header, row = csv.reader(io.StringIO(to_csv(frame).decode(), newline=""))
     assert header[1] == row[0] == f"'{text}"
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+@pytest.mark.parametrize("column", [0, 1])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Bo;=cmd|' /C calc'!A0;x",
+        "Bo; ＝cmd;@x",
+        "=1;=2",
+        'Bo";"=1";-x',
+        "Bo\t+1;x",
+        "Bo\n=1\r\n@x",
+        "\t=1",
+        "'=1;x",
+    ],
+)
+def test_no_spreadsheet_of_any_country_finds_a_formula(text, column, separator):
+    row = ["Ann", "x"]
+    row[column] = text
+    line = "".join(csv_lines(row, []))
+    for split in csv.reader(io.StringIO(line, newline=""), delimiter=separator):
+        assert not [cell for cell in split if cell.lstrip('" \t\n')[:1] in (*FORMULA_STARTS,)]
+    assert undefused(next(csv.reader(io.StringIO(line, newline="")))[column]) in (text, f"'{text}")
+
+
+NAMES = st.text("ab '\";,=-+\u202e\u200d\u0301\u00e9\uff1d", max_size=8)
+
+
+@given(st.lists(NAMES.map(clean_name).filter(is_name), min_size=1))
+def test_names_come_back_as_they_were(names):
+    text = "".join(csv_lines(["player"], [[name] for name in names]))
+    assert [clean_name(row["player"]) for row in csv.DictReader(io.StringIO(text))] == names
 
 
 def test_numbers_are_never_defused_even_as_text():
@@ -63,9 +99,8 @@ def test_what_is_written_reads_back_and_is_the_same_each_time(rows, excel):
     assert written == to_csv(frame.copy(), excel=excel)
     text = written.decode("utf-8-sig")
     read = list(csv.DictReader(io.StringIO(text, newline="")))
-    assert [row["name"].removeprefix("'") for row in read] == [
-        name.removeprefix("'") for name, _ in rows
-    ]
+    for row, (name, _) in zip(read, rows, strict=True):
+        assert undefused(row["name"]) in (name, f"'{name}")
     assert [row["p"] for row in read] == [f"{p:.6f}" for _, p in rows]
     for row in read:
-        assert row["name"][:1] not in FORMULA_STARTS or float(row["name"])
+        assert row["name"][:1] not in (*FORMULA_STARTS,) or float(row["name"])

@@ -5,7 +5,8 @@ import sys
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.encoding import content_of, encoding_of
+from evenbreak.files import encoding as module
+from evenbreak.files.encoding import content_of, text_of
 
 
 def test_a_file_is_called_as_the_person_called_it(tmp_path, monkeypatch):
@@ -49,17 +50,20 @@ def test_a_file_that_cannot_be_read_is_one_problem(tmp_path, name, told):
         ("Zoë".encode(), "utf-8-sig"),
         ("Zoë".encode("utf-8-sig"), "utf-8-sig"),
         ("Zoë".encode("cp1252"), "cp1252"),
+        ("Zoë".encode("utf-16"), "utf-8-sig"),
+        ("\ufeffZoë".encode("utf-16-le"), "utf-8-sig"),
+        ("\ufeffZoë".encode("utf-16-be"), "utf-8-sig"),
     ],
 )
 def test_encodings(content, encoding):
-    found, warnings = encoding_of(content, "r.csv")
+    body, found, warnings = text_of(content, "r.csv")
     assert found == encoding
-    assert content.decode(found) in ("plain", "Zoë")
+    assert body.decode(found) in ("plain", "Zoë")
     assert len(warnings) == (encoding == "cp1252")
 
 
 def test_the_warning_says_where_the_file_stops_being_utf8():
-    _, warnings = encoding_of("Zoë\nBo\n".encode() + "Émile".encode("cp1252"), "r.csv")
+    *_, warnings = text_of("Zoë\nBo\n".encode() + "Émile".encode("cp1252"), "r.csv")
     assert warnings[0].startswith("r.csv:3: is not UTF-8; read as Windows-1252")
 
 
@@ -73,15 +77,18 @@ def test_the_warning_says_where_the_file_stops_being_utf8():
         (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "r.csv:3: holds a NUL byte"),
         (b"a,b\n\x81\xff\n", "r.csv:2: is neither UTF-8 nor Windows-1252"),
         (b"\xef\xbb\xbfa,b\n\xe9,1\n", "r.csv:1: is neither UTF-8 nor Windows-1252"),
-        ("a,b\n".encode("utf-16"), "r.csv: is UTF-16 text"),
-        (b"PK\x03\x04\x14\0", "r.csv: is a spreadsheet or a zip archive"),
-        (b"\xd0\xcf\x11\xe0\xa1\xb1", "r.csv: is an old Excel workbook"),
+        ("a,b\n".encode("utf-16")[:-1], "r.csv: is damaged UTF-16 text"),
+        (b"\xff\xfe\x00\xd8\x00\x00", "r.csv: is damaged UTF-16 text"),
+        ("a,b\n1,\0\n".encode("utf-16"), "r.csv:2: holds a NUL byte"),
+        ("a,b\n".encode("utf-32"), "r.csv:1: holds a NUL byte"),
+        (b"\xff\xfe", "r.csv: is empty"),
+        (b"\xd0\xcf\x11\xe0\xa1\xb1", "r.csv: is an old or locked Excel workbook"),
         (b"%PDF-1.7", "r.csv: is a PDF document"),
     ],
 )
 def test_what_is_no_text_is_refused_with_a_remedy(content, told):
     with pytest.raises(DataError) as caught:
-        encoding_of(content, "r.csv")
+        text_of(content, "r.csv")
     (problem,) = caught.value.problems
     assert problem.startswith(told)
     assert "save" in problem or "write" in problem
@@ -92,3 +99,12 @@ def test_a_name_of_a_file_stays_on_one_line(tmp_path):
         content_of(tmp_path / "no\nsuch\x1b[31m\udcff.csv")
     (problem,) = caught.value.problems
     assert problem.endswith("no\\nsuch\\x1b[31m\\udcff.csv: there is no such file; check its name")
+
+
+def test_a_file_without_end_is_refused(monkeypatch):
+    monkeypatch.setattr(module, "MOST_BYTES", 1 << 20)
+    with pytest.raises(DataError, match="larger than 1 MB"):
+        content_of("/dev/zero")
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(bytes((1 << 20) + 1))))
+    with pytest.raises(DataError, match="stdin: is larger"):
+        content_of("-")

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.folder import LITTER_AGE, check_folder, write_files
+from evenbreak.files.folder import check_folder, write_files
+from evenbreak.files.transaction import MADE_BY_US, WORK
 
 NAMES = ("a.csv", "b.csv", "c.csv")
 OLD = {name: f"old {name}".encode() for name in NAMES}
@@ -97,17 +98,17 @@ def test_a_file_in_the_place_of_a_folder_above_is_told(tmp_path, place):
     assert content(tmp_path) == {"one.csv": b"mine"}
 
 
-@pytest.mark.parametrize("failing", [1, 2, 3])
+@pytest.mark.parametrize("failing", range(1, 5))  # the journal and the three files
 def test_an_interrupt_while_files_take_their_places_waits(folder, monkeypatch, failing):
-    replace, calls = Path.replace, []
+    replace, calls = os.replace, []
 
-    def replace_and_interrupt(self, target):
-        calls.append(target)
+    def replace_and_interrupt(*places):
+        calls.append(places)
         if len(calls) == failing:
             signal.raise_signal(signal.SIGINT)
-        return replace(self, target)
+        return replace(*places)
 
-    monkeypatch.setattr(Path, "replace", replace_and_interrupt)
+    monkeypatch.setattr(os, "replace", replace_and_interrupt)
     with pytest.raises(KeyboardInterrupt):
         write_files(folder, NEW)
     assert content(folder) == NEW
@@ -131,17 +132,51 @@ def test_other_threads_can_write(folder):
     assert content(folder) == NEW
 
 
-def test_litter_of_a_killed_run_is_swept_but_not_what_may_be_in_use(folder):
-    old, young = folder / ".a.csv.0123.tmp", folder / ".a.csv.4567.tmp"
-    other, staged = folder / ".mine.tmp", folder.parent / ".sheet.89ab.tmp"
-    staged.mkdir()
-    for path in (old, young, other, staged / "a.csv"):
-        path.write_bytes(b"half")
-    long_ago = time.time() - LITTER_AGE - 60
-    for path in (old, other, staged):
+def test_files_of_people_are_left_alone_whatever_they_are_called(folder):
+    beside = folder.parent / ".sheet.old.tmp"
+    beside.mkdir()
+    mine = [
+        folder / ".a.csv.0123456789abcdef.tmp",
+        folder / ".evenbreak.txt",
+        beside / "thesis.txt",
+    ]
+    long_ago = time.time() - 1e6
+    for path in (*mine, beside):
+        if path != beside:
+            path.write_bytes(b"mine")
         os.utime(path, (long_ago, long_ago))
     write_files(folder, NEW)
-    assert [path.exists() for path in (old, young, other, staged)] == [False, True, True, False]
+    assert [path.read_bytes() for path in mine] == [b"mine"] * 3
+
+
+@pytest.mark.parametrize("name", ["thesis.txt", "new-0", "journal"])
+def test_a_folder_that_only_has_the_name_of_ours_is_left_alone(folder, name):
+    (folder / WORK).mkdir()
+    (folder / WORK / name).write_bytes(b"mine")
+    with pytest.raises(OSError, match="was not made by this program"):
+        write_files(folder, NEW)
+    assert (folder / WORK / name).read_bytes() == b"mine"
+    assert (folder / "a.csv").read_bytes() == OLD["a.csv"]
+
+
+def test_a_file_put_into_our_folder_is_left_alone(folder):
+    (folder / WORK).mkdir()
+    for name in (MADE_BY_US, "new-0", "thesis.txt"):
+        (folder / WORK / name).write_bytes(b"mine")
+    with pytest.raises(OSError, match="was not made by this program"):
+        write_files(folder, NEW)
+    assert sorted(content(folder / WORK)) == [MADE_BY_US, "thesis.txt"]
+
+
+@posix
+def test_a_link_with_the_name_of_our_folder_is_not_followed(folder, tmp_path):
+    (tmp_path / "home").mkdir()
+    (tmp_path / "home" / MADE_BY_US).write_bytes(b"")
+    (tmp_path / "home" / "new-0").write_bytes(b"mine")
+    (folder / WORK).symlink_to(tmp_path / "home")
+    with pytest.raises(OSError, match="was not made by this program"):
+        write_files(folder, NEW)
+    assert (tmp_path / "home" / "new-0").read_bytes() == b"mine"
 
 
 WRITER = """
@@ -174,13 +209,14 @@ def test_an_end_at_any_moment_leaves_whole_files(tmp_path, ending, after):
             writer.wait(timeout=30)
         finally:
             writer.kill()
+    check_folder(folder)  # as the next run does
     if not folder.exists():
         return
+    assert sorted(path.name for path in folder.iterdir()) == list(NAMES)
     rounds = [set((folder / name).read_bytes().split()) for name in NAMES]
     assert all(len(words) == 1 for words in rounds)
     numbers = [int(words.pop()) for words in rounds]
-    # A kill that cannot wait may hit the moment in which the files take their places.
-    assert max(numbers) - min(numbers) <= (ending == "SIGKILL")
+    assert max(numbers) == min(numbers)
 
 
 def test_a_folder_is_checked_without_a_trace(tmp_path):

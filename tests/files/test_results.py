@@ -108,7 +108,7 @@ def test_all_problems_are_told_at_once_with_line_column_and_remedy(read):
         ":2: date '2024-13-03' is not a date",
         ":2: score_a 'x' is not a whole number from 0 to 1,000,000",
         ":2: score_b '-1' is not a whole number from 0 to 1,000,000",
-        ":2: 'Ann' plays against himself or herself",
+        ":2: 'Ann' is on both sides of the match",
         ":4: player_a is empty",
         ":4: score_b 'NaN' is not a whole number from 0 to 1,000,000",
         ":4: race_a '0' is not a whole number from 1 to 1,000,000",
@@ -119,18 +119,36 @@ def test_all_problems_are_told_at_once_with_line_column_and_remedy(read):
     assert all("; " in text for text in told)
 
 
-def test_a_name_written_with_other_blanks_is_one_name_and_told(read):
-    file = read(f"{HEADER}\n2024-09-03,Ann  Lee,Bo,7,5\n2024-09-04, Ann Lee ,Bo,7,5\n")
+def test_names_that_differ_in_case_or_spaces_are_one_player_and_both_spellings_are_named(read):
+    file = read(
+        f"{HEADER}\n2024-09-03,Ann  Lee,Bo,7,5\n2024-09-04, Ann Lee ,Bo,7,5\n"
+        "2024-09-05,bo,ANN LEE,7,5\n2024-09-06,Bo,AnnLee,7,5\n"
+    )
     assert file.results.players == ("Ann Lee", "Bo")
-    assert [w.partition(": ")[2] for w in file.warnings] == ["'Ann  Lee' is read as 'Ann Lee'"]
+    assert file.results.player_a.tolist() == [0, 0, 1, 1]
+    told = [w.partition(": ")[2].partition(", as")[0] for w in file.warnings]
+    assert told == [
+        "'ANN LEE' is read as 'Ann Lee'",
+        "'Ann  Lee' is read as 'Ann Lee'",
+        "'AnnLee' is read as 'Ann Lee'",
+        "'bo' is read as 'Bo'",
+    ]
+    assert file.similar_names == ()
 
 
-def test_similar_names_are_listed(read):
-    rows = "2024-09-03,Ann Lee,ann lee,7,5\n2024-09-03,Jörg Petersen,Jorg Petersen,7,5\n"
+def test_names_that_differ_in_accents_are_asked_about(read):
+    rows = "2024-09-03,Zoë Lee,Zoe Lee,7,5\n2024-09-03,Jörg Petersen,Jorg Petersen,7,5\n"
     file = read(f"{HEADER}\n{rows}")
-    assert file.similar_names == (("Ann Lee", "ann lee"), ("Jorg Petersen", "Jörg Petersen"))
+    assert file.similar_names == (("Jorg Petersen", "Jörg Petersen"), ("Zoe Lee", "Zoë Lee"))
     assert len(file.warnings) == 2
-    assert "'Ann Lee' and 'ann lee' may be one player" in file.warnings[0]
+    assert "'Jorg Petersen' and 'Jörg Petersen' may be one player" in file.warnings[0]
+
+
+def test_a_player_does_not_play_another_spelling_of_their_name(read):
+    with pytest.raises(DataError) as caught:
+        read(f"{HEADER}\n2024-09-03,Ann Lee,ann lee,7,5\n")
+    (told,) = caught.value.problems
+    assert "('Ann Lee' and 'ann lee' are read as one player)" in told
 
 
 def test_names_a_letter_apart_are_listed_unless_they_met(read):
@@ -141,7 +159,7 @@ def test_names_a_letter_apart_are_listed_unless_they_met(read):
 
 def test_of_many_similar_names_twenty_groups_are_listed(read):
     letters = "abcdefghijklmnopqrstuvwxyz"
-    rows = "".join(f"2024-09-03,Player{a * 9},PLAYER{a * 9},7,5\n" for a in letters)
+    rows = "".join(f"2024-09-03,Zoë L{a * 9},Zoe L{a * 9},7,5\n" for a in letters)
     warnings = read(f"{HEADER}\n{rows}").warnings
     assert len(warnings) == 21
     assert warnings[-1].endswith("and 6 more groups of similar names")
@@ -166,9 +184,7 @@ def test_aliases_mend_names_wherever_they_stand(tmp_path, aliases):
     assert (list(file.results.winner), list(file.results.first_break)) == ([1, 1], [2, 2])
     assert list(file.lines) == [2, 3]
     assert file.similar_names == ()
-    assert file.warnings[-1] == (
-        f"{path}: read as {aliases} says: 'Bobby' as 'Bob Smith', 'Jo' as 'Joan'"
-    )
+    assert "'Bobby' as 'Bob Smith', 'Jo' as 'Joan'" in file.warnings[-1]
 
 
 def test_two_names_of_one_player_do_not_play_each_other(tmp_path, aliases):
@@ -177,8 +193,8 @@ def test_two_names_of_one_player_do_not_play_each_other(tmp_path, aliases):
     with pytest.raises(DataError) as caught:
         read_results(path, aliases=aliases)
     (told,) = caught.value.problems
-    assert told.startswith(f"{path}:2: 'Bob Smith' plays against himself or herself")
-    assert told.endswith("('Bobby' and 'Bob Smith' are one player by the aliases)")
+    assert told.startswith(f"{path}:2: 'Bob Smith'")
+    assert "('Bobby' and 'Bob Smith'" in told
 
 
 def test_what_is_wrong_with_the_aliases_is_told(tmp_path):
@@ -239,3 +255,10 @@ def test_rows_without_dates_may_be_alike(tmp_path):
     path = tmp_path / "r.csv"
     path.write_text("player_a,player_b,score_a,score_b\nAnn,Bo,5,3\nAnn,Bo,5,3\n")
     assert read_results(path).warnings == ()
+
+
+def test_a_cell_with_half_a_file_in_it_is_no_name(read):
+    content = "player_a,player_b,score_a,score_b\nAnn," + 130_000 * "a" + ",7,3\n"
+    (problem,) = problems(read, content)
+    assert ":2: player_b" in problem
+    assert "200 letters" in problem

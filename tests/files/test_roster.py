@@ -3,12 +3,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.answers.rate_frames import rate_frame
+from evenbreak.answers.faces.to_csv import to_csv
+from evenbreak.answers.rate import rate_answer
 from evenbreak.errors import DataError
-from evenbreak.files.csv_writer import to_csv
+from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import OPTIONAL, REQUIRED, read_roster
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.roster import NOT_STATED
+from evenbreak.ratings.scale import SCALES
 from places import DOCS
 
 
@@ -50,18 +52,28 @@ def test_a_quasi_error_is_taken_where_it_stands(read):
     assert roster.standard_error.tolist() == [6.0, 8.0, 5.0]
     text = "player,rating,quasi_error\nAnn,92,-1\n"
     (problem,) = problems_of(read, text)
-    assert problem.startswith(":2: quasi_error -1 is not from 0")
+    assert problem.startswith(":2: quasi_error '-1' is not a number from 0")
 
 
 def test_a_list_of_ratings_is_a_roster_with_the_errors_of_differences(tmp_path):
     season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
     ratings = fit(season)
     path = tmp_path / "ratings.csv"
-    path.write_bytes(to_csv(rate_frame(ratings)))
+    answer = rate_answer(ResultsFile(season, "season.csv", (), (), ""), ratings)
+    path.write_text("".join(to_csv(answer)), encoding="utf-8")
     roster = read_roster(path).roster
     at = [ratings.players.index(name) for name in roster.players]
     np.testing.assert_allclose(roster.standard_error, ratings.quasi_error[at], atol=1e-6)
     np.testing.assert_allclose(roster.rating, ratings.rating[at], atol=1e-6)
+
+
+def test_ratings_that_may_be_thousands_are_refused(read):
+    for one, other in (('"1,500"', '"1,700"'), ("1.500", "1.700")):
+        first, second = problems_of(read, f"name,rating\nAnn,{one}\nBo,{other}\n")
+        assert first.startswith(":2: rating ")
+        assert "1500 or 1.5;" in first
+        assert second.startswith(":3: rating ")
+        assert "1700 or 1.7;" in second
 
 
 def test_two_columns_suffice(read):
@@ -84,7 +96,7 @@ def test_all_problems_at_once(read):
     )
     problems = problems_of(read, text)
     assert [line.split(":")[1] for line in problems] == ["2", "3", "3", "4", "4", "4", "5", "6"]
-    assert problems[-2] == ":5: rating is empty after 12 games; write it, or 0 games if new"
+    assert problems[-2] == ":5: rating is empty after 12 games; fill it in, or write 0 games"
 
 
 @pytest.mark.parametrize(
@@ -94,6 +106,11 @@ def test_names_of_all_kinds(read, name):
     quoted = name.replace('"', '""')
     file = read(f'player,rating\n"{quoted}",80\n')
     assert file.roster.players == (" ".join(name.split()),)
+
+
+def test_names_that_differ_in_case_or_spaces_are_one_player_listed_twice(read):
+    (problem,) = problems_of(read, "player,rating\nAnn Lee,80\nBo,75\nann  lee,71\n")
+    assert problem.startswith(":4: player 'ann lee' is already in line 2 as 'Ann Lee'; ")
 
 
 def test_similar_names_are_a_warning(read):
@@ -163,3 +180,46 @@ def test_the_columns_of_a_season_are_no_surprise_but_a_misspelt_one_is(tmp_path)
         encoding="utf-8",
     )
     assert read_roster(path).warnings == (f"{path}: columns not used: 'absense'",)
+
+
+def test_the_scale_of_the_ratings_is_read(read):
+    assert read("player,rating,scale\nAnn,612,Fargo\nBo,521,\n").scale == SCALES["fargo"]
+    assert read("player;rating;scale\nAnn;612;33,5\n").scale.points_per_doubling == 33.5
+    assert read("player,rating\nAnn,612\n").scale is None
+
+
+@pytest.mark.parametrize(("scale", "named"), [("fargoo", "'fargoo'"), ("npl", "'fargo' in line 2")])
+def test_an_unknown_or_a_second_scale_is_refused(read, scale, named):
+    (problem,) = problems_of(read, f"player,rating,scale\nAnn,612,fargo\nBo,521,{scale}\n")
+    assert problem.startswith(":3: scale ")
+    assert named in problem
+
+
+def test_a_cell_with_half_a_file_in_it_is_no_name(read):
+    with pytest.raises(DataError, match=r":3: .*130,000 letters"):
+        read("player,rating\nAnn,80\n" + 130_000 * "a" + ",70\n")
+
+
+@pytest.mark.parametrize(
+    ("title", "scale"), [("Fargo Rating", "fargo"), ("Elo", "elo"), ("Rating", None)]
+)
+def test_the_title_of_the_ratings_may_name_their_scale(tmp_path, title, scale):
+    path = tmp_path / "club.csv"
+    path.write_text(f"Name,{title}\nAnn,700\nBob,420\n", encoding="utf-8")
+    file = read_roster(path)
+    assert (file.scale and file.scale.name, file.levels) == (scale, False)
+
+
+def test_a_title_that_names_another_scale_than_the_column_is_refused(tmp_path):
+    path = tmp_path / "club.csv"
+    path.write_text("Name,Fargo Rating,Scale\nAnn,700,elo\n", encoding="utf-8")
+    with pytest.raises(DataError, match=r"'elo' differs from the title 'Fargo Rating'"):
+        read_roster(path)
+
+
+@pytest.mark.parametrize("title", ["Skill Level", "level"])
+def test_skill_levels_are_known_by_their_title(tmp_path, title):
+    path = tmp_path / "apa.csv"
+    path.write_text(f"Name,{title}\nAnn,7\nBob,4\n", encoding="utf-8")
+    file = read_roster(path)
+    assert (file.scale, file.levels) == (None, True)

@@ -58,3 +58,14 @@ def test_all_problems_are_told_at_once(tmp_path: Path) -> None:
 def test_a_file_that_is_no_schedule_is_refused(tmp_path: Path, text: str, words: str) -> None:
     with pytest.raises(DataError, match=words):
         read_schedule(fixtures(tmp_path, text), CLUB)
+
+
+def test_two_players_who_meet_twice_in_a_week_are_a_warning_whoever_is_named_first(
+    tmp_path: Path,
+) -> None:
+    path = fixtures(tmp_path, "week,player_a,player_b\n1,Bo,Zoë\n2,Zoë,Bo\n1,Zoë,Bo\n")
+    file = read_schedule(path, CLUB)
+    (warning,) = file.warnings
+    assert "fixtures.csv:4: " in warning
+    assert "line 2" in warning
+    assert len(file.schedule.week) == 3

@@ -18,7 +18,9 @@ def read(tmp_path):
 def problems(read, text):
     with pytest.raises(DataError) as caught:
         read(text)
-    return [problem.partition("scores.csv")[2] for problem in caught.value.problems]
+    return [
+        problem.partition("scores.csv")[2].partition(";")[0] for problem in caught.value.problems
+    ]
 
 
 def test_scores_with_dates_in_the_order_of_the_file(read):
@@ -37,27 +39,24 @@ def test_scores_alone(read):
 def test_some_dates_are_no_dates(read):
     file = read("date,score\n2024-09-10,44\n,45\n,46\n")
     assert file.dates is None
-    assert file.warnings[0].endswith("scores.csv:3: 2 dates are missing; no date is used")
+    assert "scores.csv:3: 2 dates" in file.warnings[0]
     one = read("date,score\n2024-09-10,44\n,45\n")
-    assert one.warnings[0].endswith("scores.csv:3: the date is missing; no date is used")
+    assert "scores.csv:3: the date" in one.warnings[0]
 
 
 def test_all_problems_at_once(read):
     text = "date,score\n2024-09-03,fifty\n3/9/2024,48\n2024-02-30,\n2024-09-24,1e12\n"
     assert problems(read, text) == [
-        ":2: score 'fifty' is not a number; write one such as 48",
-        ":3: date '3/9/2024' is not a date; "
-        "write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
-        ":4: score is empty; write one such as 48",
-        ":4: date '2024-02-30' is not a date; "
-        "write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
-        ":5: score 1e+12 is not from -1e+09 to 1e+09; correct it",
+        ":2: score 'fifty' is not a number from -1,000,000,000 to 1,000,000,000",
+        ":3: date '3/9/2024' may have the month first or the day, and no date of the file shows "
+        "which",
+        ":4: score is empty",
+        ":4: date '2024-02-30' is not a date",
+        ":5: score '1e12' is not a number from -1,000,000,000 to 1,000,000,000",
     ]
 
 
 def test_no_scores(read):
-    assert problems(read, "score\n") == [
-        ": has no scores below its header; write one line for each"
-    ]
+    assert problems(read, "score\n") == [": has no scores below its header"]
     (problem,) = problems(read, "date,mark\n2024-09-03,5\n")
-    assert problem.startswith(":1: there is no column 'score' among 'date', 'mark'; add it")
+    assert problem == ":1: there is no column 'score' among 'date', 'mark'"

@@ -11,7 +11,7 @@ from evenbreak.games import Drill
 
 def test_success_goes_up_and_failure_down() -> None:
     drill = Drill([0.9, 0.5, 0.25])
-    assert drill.moves(1) == {2: 0.9, 1: 1 - 0.9}
+    assert drill.moves(1) == {2: 0.9, 1: 0.1}
     assert drill.moves(2) == {3: 0.5, 1: 0.5}
     assert drill.moves(3) == {3: 0.25, 2: 0.75}
     assert drill.start == 1
@@ -27,6 +27,13 @@ def test_as_many_go_up_as_come_down(success: list[float]) -> None:
     limit = stochastic_limit(chain_of(Drill(success))).to_dict()
     for level, (here, above) in enumerate(pairwise(success), 1):
         assert limit[level] * here == pytest.approx(limit[level + 1] * (1 - above), rel=1e-12)
+
+
+def test_the_8_ball_drill_is_the_9_ball_drill_without_its_certain_level() -> None:
+    assert Drill.eight_ball(0.8).success == Drill.progressive(0.8, 8).success[1:]
+    for levels in (0, 8):
+        with pytest.raises(InputError, match="levels"):
+            Drill.eight_ball(0.8, levels)
 
 
 def test_the_progressive_drill() -> None:

@@ -2,8 +2,8 @@
 
 import pytest
 
-from evenbreak.errors import InputError
-from evenbreak.games import Ahead, Match, Race, Rack, alternate_breaks, winner_breaks
+from evenbreak.errors import GameError, InputError
+from evenbreak.games import Ahead, Match, OneBall, Race, Rack, alternate_breaks, winner_breaks
 
 BROKEN = Rack(0.6, 0.5)
 
@@ -34,6 +34,39 @@ def test_a_finished_match_knows_who_would_break_next():
     assert Race(1, 1, Rack(0.5)).next_breaker((1, 0)) == 1
 
 
+class Over:
+    """A game that three players have already played."""
+
+    start = 3
+
+    def moves(self, state):
+        return {} if state else {3: 1.0}
+
+    def winner(self, state):
+        return state or None
+
+    def label(self, state):
+        return f"player {state}"
+
+
+def test_a_game_of_ones_own_is_played_inside_the_match():
+    race = Race(2, 1, OneBall(0.5, 0.25))
+    assert race.start == (0, 0, "S1")
+    assert race.moves(race.start) == {(1, 0, "S1"): 0.5, (0, 0, "S2"): 0.5}
+    assert race.moves((1, 0, "S2")) == {(1, 1): 0.25, (1, 0, "S1"): 0.75}
+    assert race.label((1, 0, "S2")) == "1:0\nS2"
+    assert race.innermost_rack == OneBall(0.5, 0.25)
+    assert not race.break_matters
+
+
+def test_only_players_1_and_2_win_racks():
+    game = Over()
+    game.start = 0
+    with pytest.raises(GameError, match="winner is 3"):
+        Race(2, 1, game).moves((0, 0, 0))
+    assert Race(2, 1, game).label((1, 0, 0)) == "1:0\nplayer 0"
+
+
 def test_sets_of_sets_have_one_innermost_rack():
     deep = Race(2, 2, Ahead(2, 2, Race(3, 3, BROKEN, breaks=winner_breaks)))
     assert deep.innermost_rack is BROKEN
@@ -53,6 +86,9 @@ def test_a_score_must_be_reachable(score):
         (lambda: Race(3, 3, 0.5), "rack is 0.5"),
         (lambda: Race(3, 3, Race(2, 2, Rack(0.5), score=(2, 0))), "rack is a set"),
         (lambda: Ahead(3, 0, Rack(0.5)), "n is 0"),
+        (lambda: Race(3, 3, OneBall(0.5, 0.5), breaks=winner_breaks), "breaks and first_breaker"),
+        (lambda: Race(3, 3, OneBall(0.5, 0.5), first_breaker=2), "breaks and first_breaker"),
+        (lambda: Race(3, 3, Over()), "over at its start"),
         (lambda: Ahead(3, 3, BROKEN, breaks="winner"), "breaks is 'winner'"),
         (lambda: Race(3, 3, Rack(0.5), first_breaker=0), "first_breaker is 0"),
     ],

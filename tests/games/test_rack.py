@@ -50,3 +50,36 @@ def test_arrays_fit_together_or_are_refused() -> None:
     assert Rack([0.5, 0.6], [[0.1], [0.2]]).chance(1, 1).tolist() == [0.5, 0.6]
     with pytest.raises(InputError, match=r"p1 has shape \(2,\), p2 has shape \(3,\)"):
         Rack([0.5, 0.6], [0.1, 0.2, 0.3])
+
+
+def test_a_later_change_to_the_array_changes_nothing() -> None:
+    p, q = np.array([0.5, 0.75]), np.array([0.5, 0.25])
+    rack = Rack(p, p, q1=q)
+    p[0], q[0] = 7.0, 7.0
+    assert rack.p1.tolist() == [0.5, 0.75]
+    assert np.asarray(rack.p2).tolist() == [0.5, 0.75]
+    assert rack.q1.tolist() == [0.5, 0.25]
+
+
+def test_the_chance_of_losing_is_that_of_the_decimal() -> None:
+    assert Rack(0.999999999).chance(2) == 1e-9
+    assert Rack(0.5, [0.9, 1e-20]).chance(1, breaker=2).tolist() == [0.1, 1.0]
+
+
+def test_a_chance_of_losing_below_the_digits_of_p_can_be_given() -> None:
+    rack = Rack(1.0, q1=8.8e-17)
+    assert rack.chance(2) == 8.8e-17
+    assert Rack(0.5, 1.0, q2=1e-20).chance(1, breaker=2) == 1e-20
+
+
+@pytest.mark.parametrize(
+    ("given", "named"),
+    [
+        ({"p1": 0.5, "q1": 0.4}, "p1 and q1"),
+        ({"p1": 0.5, "q2": 0.5}, "q2"),
+        ({"p1": 1, "q1": 2}, "q1"),
+    ],
+)
+def test_chances_that_contradict_are_refused(given: dict[str, float], named: str) -> None:
+    with pytest.raises(InputError, match=named):
+        Rack(**given)

@@ -6,7 +6,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.handicaps import Ladder, chart
 from evenbreak.league.dump_cycle import best_cycle, dump_cycle
-from evenbreak.league.sandbag import dumped_matrix, earnest_matrix
+from evenbreak.league.sandbag_pay import dumped_matrix, earnest_matrix
 from evenbreak.matches import race_win_probability
 
 
@@ -19,7 +19,7 @@ def test_the_counts_alone_say_what_is_won(name, dumped, earnest):
     assert cycle.profit == pytest.approx((4.0 - 1.0) * dumped / 2 / (dumped + earnest), abs=1e-6)
 
 
-def test_who_dumps_nothing_gains_nothing():
+def test_dumping_nothing_gains_nothing():
     cycle = dump_cycle(Ladder("npl"), 0, 6)
     assert cycle.rating_error == pytest.approx(0.0, abs=1e-9)
     assert (cycle.p_win, cycle.profit) == pytest.approx((0.5, 0.0))

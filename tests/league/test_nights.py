@@ -5,7 +5,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import chart, system_of
-from evenbreak.league.nights import nights_of, played_nights
+from evenbreak.league.nights import played_nights
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 
@@ -21,28 +21,30 @@ def results(dates=None, **columns):
 
 
 def test_dates_make_nights_in_their_order():
-    nights = nights_of(results(["2025-02-02", "2025-01-01", "2025-02-02"]))
-    assert [night.tolist() for night in nights] == [[1], [0, 2]]
-    assert [night.tolist() for night in nights_of(results())] == [[0], [1], [2]]
+    dates = ["2025-02-02", "2025-01-01", "2025-02-02"]
+    nights = played_nights(NPL, CLUB, results(dates), chart=TEN)
+    assert [night.rows.tolist() for night in nights] == [[1], [0, 2]]
+    alone = played_nights(NPL, CLUB, results(), chart=TEN)
+    assert [night.rows.tolist() for night in alone] == [[0], [1], [2]]
 
 
 def test_ratings_of_a_night_are_those_before_it():
     nights = played_nights(
         NPL, CLUB, results(["2025-02-02", "2025-01-01", "2025-02-02"]), chart=TEN
     )
-    assert nights[1].moves.before.rating.tolist() == [80, 81, 73]
-    assert nights[1].moves.after.rating.tolist() == [82, 80, 72]
+    assert nights[1].changes.before.rating.tolist() == [80, 81, 73]
+    assert nights[1].changes.after.rating.tolist() == [82, 80, 72]
 
 
 def test_without_dates_each_match_moves_the_next():
     nights = played_nights(NPL, CLUB, results(), chart=TEN)
-    assert [night.moves.before.rating.tolist() for night in nights] == [
+    assert [night.changes.before.rating.tolist() for night in nights] == [
         [80, 80, 74],
         [81, 79, 74],
         [81, 80, 73],
     ]
 
 
-def test_what_cannot_be_is_told_by_its_row():
+def test_a_problem_has_its_row():
     with pytest.raises(InputError, match="row 1 of the results"):
         played_nights(NPL, CLUB, results(race_a=[5, 7, 5], race_b=[5, 7, 5]))

@@ -33,7 +33,7 @@ def test_players_can_be_sent_elsewhere() -> None:
     assert again.drift.tolist() == [0.5, 0.5]
 
 
-def test_who_is_here() -> None:
+def test_players_join_and_leave() -> None:
     club = LeaguePlayers.of([50, 60, 70], joins=[1, 3, 1], leaves=[0, 0, 2])
     here = [club.here(week).tolist() for week in (1, 2, 3)]
     assert here == [[True, False, True], [True, False, True], [True, True, False]]
@@ -47,15 +47,15 @@ def test_who_is_here() -> None:
         ({"rating": [50.5, 60]}, "rating holds 50.5; give whole numbers"),
         ({"rating": [50, 60], "skill": [50]}, r"skill has the shape \(1,\)"),
         ({"rating": [50, 60], "skill": [50, np.nan]}, "skill holds nan"),
-        ({"rating": [50, 60], "skill": ["a", "b"]}, "skill is .*give a number for each"),
-        ({"rating": [50, 60], "absence": 1.5}, "absence holds 1.5; give numbers from 0 to 1"),
-        ({"rating": [50, 60], "day_sd": -1}, "day_sd holds -1"),
-        ({"rating": [50, 60], "joins": 0}, "joins holds 0; give numbers of 1 or more"),
-        ({"rating": [50, 60], "played": -1}, "played holds -1; give numbers of 0 or more"),
+        ({"rating": [50, 60], "skill": ["a", "b"]}, "skill is .*give numbers from"),
+        ({"rating": [50, 60], "absence": 1.5}, "absence .*1.5.*; give numbers from 0 to 1"),
+        ({"rating": [50, 60], "day_sd": -1}, "day_sd .*-1"),
+        ({"rating": [50, 60], "joins": 0}, "joins .*0.*; give whole numbers of 1 or more"),
+        ({"rating": [50, 60], "played": -1}, "played .*-1.*; give whole numbers of 0 or more"),
         ({"rating": [50, 60_000]}, "rating holds 60000"),
         ({"rating": [50, 60], "joins": [1, 4], "leaves": [0, 2]}, "leaves in week 2 and joins in"),
-        ({"rating": [50, 60], "names": ["Ann"]}, "names are 1"),
-        ({"rating": [50, 60], "names": ["Ann", "Ann"]}, "names are 2"),
+        ({"rating": [50, 60], "names": ["Ann"]}, "names is"),
+        ({"rating": [50, 60], "names": ["Ann", "Ann"]}, "names is"),
     ],
 )
 def test_what_is_refused(columns: dict, said: str) -> None:

@@ -42,7 +42,7 @@ def test_a_sum_keeps_its_chunks() -> None:
     assert total.wins_counts.sum() == total.rating_counts.sum() == 5 * 63
 
 
-def test_one_sum_tells_of_the_others() -> None:
+def test_one_sum_fits_the_others() -> None:
     total = reduce(add, parts(2))
     wins = total.wins_counts @ np.arange(total.wins_counts.shape[1])
     assert wins.tolist() == total.wins.tolist()

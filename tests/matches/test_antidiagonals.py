@@ -14,7 +14,7 @@ def test_arrays_have_the_endings_of_plain_numbers(breaks, first):
     endings = race_endings(4, 3, Rack(P1, P2), breaks, first)
     assert endings.win_1.shape == (7, *P1.shape)
     for at in np.ndindex(P1.shape):
-        race = race_odds(4, 3, P1[at], P2[at], breaks, first)
+        race = race_odds(4, 3, Rack(P1[at], P2[at]), breaks, first)
         for array, plain in zip(endings, (race.win_1, race.win_2), strict=True):
             assert array[(slice(3, None), *at)] == pytest.approx(plain, rel=1e-13)
 

@@ -142,7 +142,7 @@ def test_break_formats_may_be_functions():
         ({"break_odds": 0, "breaks": "winner"}, "above 0"),
         ({"break_odds": math.inf, "breaks": "winner"}, "above 0"),
         ({"break_odds": math.nan, "breaks": "winner"}, "above 0"),
-        ({"p2": 0.5, "breaks": "mine"}, "give one of winner"),
+        ({"p2": 0.5, "breaks": "mine"}, "give 'winner'"),
         ({"p2": 0.5, "breaks": "winner", "first_breaker": 3}, "give 1 or 2"),
     ],
 )

@@ -74,7 +74,7 @@ def test_negotiation_of_p5_8(text, p, wins):
         ("9:5 of", "write 9:5"),
         ("of 9:5", "write 9:5"),
         ("9:5 winner", "write 9:5"),
-        ("9-5", "write 9:5"),
+        ("9_5", "write 9:5"),
         ("٩:5", "write 9:5"),
         ("0:5", "not from 1 to 1000"),
         ("9:1001", "not from 1 to 1000"),

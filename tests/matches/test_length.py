@@ -85,7 +85,7 @@ def test_a_match_without_a_longest_length_says_what_it_leaves_out() -> None:
 
 
 def test_mean_and_spread_do_not_lose_digits_where_the_match_is_nearly_certain() -> None:
-    q = 1.0 - (1.0 - 1e-12)
+    q = 1e-12
     length = match_length(Ahead(5, 5, Rack(1.0 - 1e-12)))
     assert length.mean == pytest.approx(5 / (1 - 2 * q), rel=1e-14)
     assert length.sd == pytest.approx((4 * q * (1 - q) * 5 / (1 - 2 * q) ** 3) ** 0.5, rel=1e-10)

@@ -5,7 +5,6 @@ from evenbreak.errors import InputError
 from evenbreak.games import OneBall, Race, Rack, alternate_breaks
 from evenbreak.matches.parameters import (
     at_score,
-    broadcast,
     checked_match,
     first_breaker,
     in_shape,
@@ -33,14 +32,14 @@ def test_the_first_breaker_in_states():
 
 
 def test_p1_and_p2_get_one_shape():
-    match, shape = broadcast(with_rack(SETS, Rack([0.1, 0.2, 0.3], 0.5)))
+    match, shape = at_score(with_rack(SETS, Rack([0.1, 0.2, 0.3], 0.5)), None)
     assert shape == match.innermost_rack.p2.shape == (3,)
-    assert broadcast(SETS) == (SETS, ())
+    assert at_score(SETS, None) == (SETS, ())
 
 
 def test_a_score_replaces_that_of_the_match():
-    assert at_score(SETS, (1, 0)).score == (1, 0)
-    assert at_score(SETS, None) is SETS
+    match, _ = at_score(SETS, (1, 0))
+    assert match.score == (1, 0)
     with pytest.raises(InputError, match="4:0"):
         at_score(SETS, (4, 0))
 

@@ -80,7 +80,7 @@ def test_races(breaks: Any) -> None:
     for m, n, first in product(range(1, 5), range(1, 5), (1, 2)):
         played = list(courses((m, n), breaks, first))
         race = Race(m, n, Rack(float(P1), float(P2)), breaks=breaks, first_breaker=first)
-        odds = race_odds(m, n, float(P1), float(P2), breaks, first)
+        odds = race_odds(m, n, Rack(float(P1), float(P2)), breaks, first)
         by_score = summed((end, chance) for end, _, _, chance in played)
         by_length = summed((racks, chance) for _, racks, _, chance in played)
         assert final_scores(race).probability == pytest.approx(by_score, rel=1e-14, abs=0)
@@ -140,7 +140,7 @@ def test_an_even_race_is_worth_the_same_in_three_break_formats() -> None:
     quarters = (0.0, 0.25, 0.5, 0.75, 1.0)
     formats = [BREAK_FORMATS[name] for name in ("winner", "loser", "alternate")]
     for n, p1, p2, first in product(range(1, 8), quarters, quarters, (1, 2)):
-        scalar = {race_odds(n, n, p1, p2, breaks, first).p_win_1 for breaks in formats}
+        scalar = {race_odds(n, n, Rack(p1, p2), breaks, first).p_win_1 for breaks in formats}
         assert len(scalar) == 1, (n, p1, p2, first, scalar)
     grid = Rack(quarters, np.array(quarters)[:, np.newaxis])
     for n in range(1, 8):
@@ -153,9 +153,9 @@ def test_an_even_race_is_worth_the_same_in_three_break_formats() -> None:
 
 def test_the_break_format_does_change_an_uneven_race_and_the_length() -> None:
     winner, alternate = (
-        race_odds(5, 4, 0.75, 0.5, BREAK_FORMATS[k]) for k in ("winner", "alternate")
+        race_odds(5, 4, Rack(0.75, 0.5), BREAK_FORMATS[k]) for k in ("winner", "alternate")
     )
     assert winner.p_win_1 == 0.7261962890625
     assert alternate.p_win_1 == 0.655517578125
-    means = {race_odds(5, 5, 0.75, 0.75, breaks).mean for breaks in BREAK_FORMATS.values()}
+    means = {race_odds(5, 5, Rack(0.75, 0.75), breaks).mean for breaks in BREAK_FORMATS.values()}
     assert len(means) == len(BREAK_FORMATS)

@@ -36,8 +36,8 @@ def test_mean_and_sd_are_those_of_the_lengths(m, n, p):
 
 def test_the_break_passes_on():
     # Player 1 always wins the break, player 2 never does: winner breaks lets player 1 run out.
-    assert race_odds(3, 3, 1.0, 0.0, winner_breaks).p_win_1 == 1.0
-    assert race_odds(2, 2, 1.0, 1.0, loser_breaks).probability == [0.0, 1.0]
+    assert race_odds(3, 3, Rack(1.0, 0.0), winner_breaks).p_win_1 == 1.0
+    assert race_odds(2, 2, Rack(1.0, 1.0), loser_breaks).probability == [0.0, 1.0]
 
 
 def test_a_score_is_a_shorter_race():
@@ -52,7 +52,7 @@ def test_the_next_breaker_by_place():
 
 
 def test_wins_and_lengths_are_one_distribution():
-    race = race_odds(7, 5, 0.6, 0.4, loser_breaks, 2, (1, 2))
+    race = race_odds(7, 5, Rack(0.6, 0.4), loser_breaks, 2, (1, 2))
     assert race.games == [3, 4, 5, 6, 7, 8]
     assert sum(race.probability) == pytest.approx(1.0, rel=1e-15)
     assert race.p_win_1 + race.p_win_2 == pytest.approx(1.0, rel=1e-15)
@@ -66,14 +66,14 @@ def test_wins_and_lengths_are_one_distribution():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"p1": 1.5}, "p1 is 1.5, not a probability"),
-        ({"p1": float("nan")}, "p1 is nan, not a probability"),
-        ({"p1": [0.5, 0.6]}, r"p1 is \[0.5, 0.6\]; give one number"),
-        ({"p2": 0.5, "breaks": lambda b, w: b + w}, "the next breaker, is 3; give 1"),
-        ({"p2": 0.5, "breaks": "winner"}, "breaks is 'winner'; give a break format"),
+        ({"rack": 1.5}, "p1 is 1.5, not a probability"),
+        ({"rack": float("nan")}, "p1 is nan, not a probability"),
+        ({"rack": [0.5, 0.6]}, r"p1 is an array; give one number"),
+        ({"rack": Rack(0.6, 0.5), "breaks": lambda b, w: b + w}, "the next breaker, is 3; give 1"),
+        ({"rack": Rack(0.6, 0.5), "breaks": "winner"}, "breaks is 'winner'; give a break format"),
         ({"m": -1}, "m is -1; give a whole number"),
         ({"m": 2.5}, r"m is 2\.5; give a whole number"),
-        ({"p2": 0.5}, "breaks is missing"),
+        ({"rack": Rack(0.6, 0.5)}, "breaks is missing"),
         ({"first_breaker": 0}, "first_breaker is 0; give 1 or 2"),
         ({"score": (5, 5)}, "both players"),
         ({"score": (-1, 0)}, "score of player 1 is -1"),
@@ -81,7 +81,7 @@ def test_wins_and_lengths_are_one_distribution():
 )
 def test_wrong_parameters_are_refused(changes, message):
     with pytest.raises(InputError, match=message):
-        race_odds(**({"m": 5, "n": 5, "p1": 0.6} | changes))
+        race_odds(**({"m": 5, "n": 5, "rack": 0.6} | changes))
 
 
 def test_a_level_outside_0_1_is_refused():

@@ -21,7 +21,7 @@ WAYS = {"plain": {}, "scipy": {"_PATIENCE": 0}, "doubling": {"_PATIENCE": 0, "_L
 
 
 @pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("match", MATCHES, ids=str)
+@pytest.mark.parametrize("match", MATCHES, ids=lambda match: type(match).__name__)
 def test_all_ways_find_the_quantiles_of_the_length(
     match: Any, way: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

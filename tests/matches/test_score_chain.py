@@ -31,6 +31,7 @@ def test_a_closed_set_of_states_leads_to_never() -> None:
     rows = {0: {1: 0.5, "x": 0.5}, "x": {"y": 1.0}, "y": {"x": 1.0}}
     chain = ScoreChain(rows)
     assert chain.solve({NEVER: 1.0})[0] == 0.5
+    assert chain.solve({NEVER: 3.0, 1: 1.0})[0] == 2.0
     assert chain.solve({1: 1.0})[0] == 0.5
     assert chain.solve({1: 1.0})["y"] == 0.0
 

@@ -89,8 +89,8 @@ def test_both_tails_of_a_race_are_right(m: int, n: int, p: float) -> None:
     race = Race(m, n, Rack(p))
     one = exact_race(m, n, p)
     assert_right(win_probability(race), one)
-    # 1 - p is what the rack makes of it: the nearest float, which the chance of losing is.
-    assert_right(win_probability(race, player=2), exact_race(n, m, 1 - p))
+    # The chance of losing is that of the decimal p.
+    assert_right(win_probability(race, player=2), exact_race(n, m, float(1 - Fraction(repr(p)))))
     odds = race_odds(m, n, p)
     assert_right(odds.p_win_1, one)
 
@@ -99,8 +99,8 @@ def test_both_tails_of_a_race_are_right(m: int, n: int, p: float) -> None:
 @pytest.mark.parametrize("p1", CHANCES)
 def test_both_tails_are_right_with_breaks(m: int, n: int, p1: float) -> None:
     for p2, breaks in ((0.3, winner_breaks), (1e-12, alternate_breaks), (0.999, loser_breaks)):
-        won = [Fraction(p1), Fraction(1 - p2)]
-        lost = [Fraction(1 - p1), Fraction(p2)]
+        won = [Fraction(repr(p1)), 1 - Fraction(repr(p2))]
+        lost = [1 - Fraction(repr(p1)), Fraction(repr(p2))]
         mass = {(0, 0, 1): Fraction(1)}
         ends = [Fraction(0), Fraction(0)]
         for _ in range(m + n - 1):
@@ -115,7 +115,7 @@ def test_both_tails_are_right_with_breaks(m: int, n: int, p1: float) -> None:
                         after[key] = after.get(key, Fraction(0)) + held * chance
             mass = after
         race = Race(m, n, Rack(p1, p2), breaks=breaks)
-        odds = race_odds(m, n, p1, p2, breaks)
+        odds = race_odds(m, n, Rack(p1, p2), breaks)
         for player, scalar, exact in zip((1, 2), (odds.p_win_1, odds.p_win_2), ends, strict=True):
             assert_right(win_probability(race, player=player), exact)
             assert_right(scalar, exact)
@@ -123,12 +123,12 @@ def test_both_tails_are_right_with_breaks(m: int, n: int, p1: float) -> None:
 
 @given(p=st.floats(1e-9, 1.0), m=GAMES, n=GAMES)
 def test_an_n_ahead_match_is_a_gamblers_ruin(p: float, m: int, n: int) -> None:
-    x = Fraction(p)
-    y = 1 - x
+    rack = Rack(p)
+    x, y = Fraction(rack.chance(1)), Fraction(rack.chance(2))
     # The chance to gain m before losing n is a ratio of two sums of powers of the odds.
     all_ = sum((x ** (m + n - 1 - k) * y**k for k in range(m + n)), Fraction(0))
     one = sum((x ** (m + n - 1 - k) * y**k for k in range(n)), Fraction(0)) / all_
-    match = Ahead(m, n, Rack(p))
+    match = Ahead(m, n, rack)
     assert win_probability(match) == pytest.approx(float(one), rel=1e-12, abs=0)
     assert win_probability(match, player=2) == pytest.approx(float(1 - one), rel=1e-12, abs=0)
 
@@ -246,10 +246,16 @@ def test_wrong_needs_are_refused(p: Any, m: Any, n: Any, message: str) -> None:
 
 
 @pytest.mark.parametrize("ask", [win_probability, match_length, final_scores, match_odds])
-@pytest.mark.parametrize("game", [Rack(0.5), OneBall(0.4, 0.8), 0.5])
-def test_other_games_are_for_the_chains(ask: Any, game: Any) -> None:
-    with pytest.raises(InputError, match=r"give a Race or an Ahead, or solve chain_of"):
-        ask(game)
+@pytest.mark.parametrize("wrong", [Rack(0.5), 0.5])
+def test_what_is_not_a_match_is_refused(ask: Any, wrong: Any) -> None:
+    with pytest.raises(InputError, match=r"give a Race or an Ahead, or ask game_odds"):
+        ask(wrong)
+
+
+@pytest.mark.parametrize("ask", [final_scores, match_odds])
+def test_other_games_have_no_score(ask: Any) -> None:
+    with pytest.raises(InputError, match=r"give a Race or an Ahead, or ask game_odds"):
+        ask(OneBall(0.4, 0.8))
 
 
 @pytest.mark.parametrize("p", [1e-12, 1e-3, 0.999, 1 - 1e-12])

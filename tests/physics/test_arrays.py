@@ -43,20 +43,20 @@ from evenbreak.physics import (
     table_speed,
     throw_angle,
 )
-from evenbreak.physics.arrays import LARGEST, numbers, plain
+from evenbreak.physics.arrays import LARGEST, LEAST, numbers, positive
 
 
 @pytest.mark.parametrize(
     ("value", "said"),
     [
-        (math.nan, "cut is nan; give a finite number"),
-        (-math.inf, "cut is -inf; give a finite number"),
-        ("1.0", "cut is '1.0'; give a finite number"),
-        (1j, "cut is 1j; give a finite number"),
-        (10**400, "give a finite number"),
-        (1e51, "cut is 1e+51; give at most 1e+50"),
-        ([0.0, math.nan], "cut holds values from nan to nan; give a finite number"),
-        ([3.0, -1e60], "cut holds values from -1e+60 to 3.0; give at most 1e+50"),
+        (math.nan, "cut is nan;"),
+        (-math.inf, "cut is -inf;"),
+        ("1.0", "cut is '1.0';"),
+        (1j, "cut is 1j;"),
+        (10**400, "cut is 1000"),
+        (1e51, "cut is 1e+51;"),
+        ([0.0, math.nan], "cut holds nan;"),
+        ([3.0, -1e60], "cut holds -1e+60;"),
     ],
 )
 def test_what_is_no_number_is_refused_by_name(value: object, said: str) -> None:
@@ -68,10 +68,11 @@ def test_what_is_no_number_is_refused_by_name(value: object, said: str) -> None:
 def test_the_ends_of_a_range() -> None:
     assert numbers([0.0, 1.0], "x", low=0.0, high=1.0).tolist() == [0.0, 1.0]
     for wrong in (0.0, -1.0):
-        with pytest.raises(InputError, match="above 0"):
-            numbers(wrong, "x", low=0.0, open_low=True)
-    with pytest.raises(InputError, match="give at least 1e-50"):
-        numbers(5e-324, "x", low=0.0, open_low=True)
+        with pytest.raises(InputError, match="1e-50"):
+            positive(wrong, "x")
+    with pytest.raises(InputError, match="x is 5e-324"):
+        positive(5e-324, "x")
+    assert positive(LEAST, "x") == LEAST
     with pytest.raises(InputError, match="from 0 to 1"):
         numbers(np.nextafter(1.0, 2.0), "x", low=0.0, high=1.0)
     assert numbers(-LARGEST, "x") == -LARGEST
@@ -93,13 +94,8 @@ def test_gravity_pulls_down(gravity: float) -> None:
         partial(rolling_time, 1.0, 0.01),
         partial(table_speed, 7.0),
     ):
-        with pytest.raises(InputError, match=r"gravity is .*; give a finite number above 0"):
+        with pytest.raises(InputError, match=r"gravity is .*; give a number from 1e-50"):
             answer(gravity=gravity)
-
-
-def test_plain() -> None:
-    assert type(plain(np.float64(2.0))) is float
-    assert plain(np.ones((1, 1))).shape == (1, 1)
 
 
 @pytest.mark.parametrize(
@@ -111,7 +107,7 @@ def test_plain() -> None:
         (lambda: aim([0.1, 0.2], [1, 2, 3]), "distance has shape"),
         (lambda: deflection([0.1, 0.2], [1, 2, 3]), "give shapes that broadcast"),
         (lambda: strike([1, 2], [0.1, 0.2, 0.3]), "stick_speed has shape"),
-        (lambda: collide(0.5, None), "topspin is None; give a finite number"),
+        (lambda: collide(0.5, None), "topspin is None"),
     ],
 )
 def test_shapes_that_do_not_fit_are_refused_by_name(ask, message):

@@ -154,10 +154,18 @@ def test_arrays_broadcast_and_scalars_stay_scalars() -> None:
         assert type(where(1.0)) is float
 
 
+def test_a_cut_to_the_left_is_the_mirror_image() -> None:
+    cut, spin = np.linspace(0.01, 1.5, 4)[:, None], np.linspace(-1.0, 1.0, 3)
+    for law in (deflection, deflection_slope):
+        assert law(-cut, spin).tolist() == law(cut, spin).tolist()
+    for shares in (energy_after_hit, energy_in_roll):
+        assert shares(-cut, spin).cue_ball.tolist() == shares(cut, spin).cue_ball.tolist()
+
+
 def test_refusals() -> None:
-    with pytest.raises(InputError, match=r"cut is -0\.1"):
-        deflection(-0.1)
-    with pytest.raises(InputError, match=r"topspin is 0\.0; give a finite number above 0"):
+    with pytest.raises(InputError, match=r"cut is -1\.6"):
+        deflection(-1.6)
+    with pytest.raises(InputError, match=r"topspin is 0\.0; give a number"):
         largest_deflection_cut(0.0)
     with pytest.raises(InputError, match=r"topspin is 2\.6"):
         unit_slope_cut(2.6)

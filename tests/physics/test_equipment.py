@@ -31,5 +31,5 @@ def test_what_floats_is_lighter_than_the_liquid() -> None:
 
 
 def test_only_liquids_that_are_listed() -> None:
-    with pytest.raises(InputError, match="liquid is 'milk'; give 'water' or"):
+    with pytest.raises(InputError, match="liquid is 'milk'; give 'water', "):
         floats_in(BALL_SETS["pool"], "milk")

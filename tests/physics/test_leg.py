@@ -10,14 +10,14 @@ from scipy.integrate import solve_ivp
 
 from evenbreak.errors import InputError
 from evenbreak.physics.leg import leg_until, time_to
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import spin_stop
 from evenbreak.physics.shot import shot
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import strike
 
-BALL, CLOTH, TABLE = Ball(), Cloth(), Table()
-HUGE = Table(length=400.0, width=400.0)
+BALL, CLOTH, TABLE = Ball(), Cloth(), PoolTable()
+HUGE = PoolTable(length=400.0, width=400.0)
 
 few = settings(max_examples=30)
 
@@ -156,7 +156,7 @@ def test_a_ball_that_rolls_along_a_cushion_stays_there():
     assert leg.end > 1.0
 
 
-def test_a_ball_into_a_pocket_is_told_apart_from_one_at_the_cushion():
+def test_a_ball_into_a_pocket_differs_from_one_at_the_cushion():
     to_side = sliding((0.0, -1.0), (1.0, 0.0, 0.0), place=(0.5 * TABLE.length, 0.5))
     beside = sliding((0.0, -1.0), (1.0, 0.0, 0.0), place=(0.5 * TABLE.length + 0.1, 0.5))
     legs = [leg_until("object ball", slide, 0.0, TABLE) for slide in (to_side, beside)]

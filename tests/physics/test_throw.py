@@ -1,6 +1,7 @@
 """Throw: the law of the text, its limit, its signs, and aim."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -93,6 +94,22 @@ def test_english_on_a_full_hit_throws_to_either_side(topspin: float, side: float
     assert throw_angle(0.0, topspin, side) == -throw_angle(0.0, topspin, -side)
 
 
+@given(cuts.filter(bool), spins, spins, laws)
+def test_a_cut_to_the_left_is_the_mirror_image(
+    cut: float, topspin: float, side: float, law: str
+) -> None:
+    for ask in (throw_factor, throw_sensitivity, partial(throw_angle, friction=law)):
+        assert ask(-cut, topspin, -side) == ask(cut, topspin, side)
+    assert gearing_side(-cut) == -gearing_side(cut)
+
+
+@given(st.floats(1e-6, 1.4), st.floats(-1.5, 1.5), st.floats(-1.0, 1.0))
+def test_aiming_to_the_left_is_the_mirror_image(cut: float, topspin: float, side: float) -> None:
+    right, left = aim(cut, 1.0, topspin, side), aim(-cut, 1.0, topspin, -side)
+    assert left.cut == pytest.approx(-right.cut, abs=1e-9)
+    assert left[1:] == pytest.approx(right[1:], abs=1e-9)
+
+
 def test_outside_english_is_negative_and_takes_throw_away() -> None:
     cut = math.radians(30.0)
     without, outside, inside = (throw_angle(cut, 1.0, side) for side in (0.0, -0.3, 0.3))
@@ -117,14 +134,13 @@ def test_sensitivity_is_the_gradient(cut: float, topspin: float, side: float) ->
 
 
 @given(st.floats(0.0, 1.4), st.floats(-1.5, 1.5), st.floats(-1.0, 1.0), laws)
-def test_who_aims_so_is_thrown_where_he_wanted(
+def test_a_shot_aimed_so_is_thrown_to_its_target(
     cut: float, topspin: float, side: float, law: str
 ) -> None:
     found = aim(cut, 1.0, topspin, side, friction=law)
     assert found.cut - found.throw == pytest.approx(cut, abs=1e-9)
-    turned = -side if found.cut < 0.0 else side
-    there = throw_angle(abs(found.cut), topspin, turned, friction=law)
-    if abs(throw_factor(abs(found.cut), topspin, turned)) < 1.0:  # else it may leap just here
+    there = throw_angle(found.cut, topspin, side, friction=law)
+    if abs(throw_factor(found.cut, topspin, side)) < 1.0:  # else it may leap just here
         assert abs(found.throw) == pytest.approx(abs(there), abs=1e-9)
     assert found.offset == pytest.approx(math.tan(found.cut - cut), abs=1e-9)
 
@@ -137,7 +153,7 @@ def test_a_full_hit_without_english_is_aimed_straight() -> None:
 
 
 def test_no_cut_is_thinner_than_a_right_angle() -> None:
-    with pytest.raises(InputError, match="cut is so thin"):
+    with pytest.raises(InputError, match="cut is too thin"):
         aim(math.pi / 2.0, 1.0, 0.0)
 
 
@@ -156,7 +172,7 @@ def test_scalars_and_arrays() -> None:
 @pytest.mark.parametrize(
     ("shot", "options", "said"),
     [
-        ((-0.1,), {}, "cut is -0.1; give a number from 0 to 1.5708"),
+        ((-1.6,), {}, "cut is -1.6; give a number from -1.5708 to 1.5708"),
         ((2.0,), {}, "cut is 2.0"),
         ((0.1, math.nan), {}, "topspin is nan"),
         ((0.1, 1.0, math.inf), {}, "side is inf"),

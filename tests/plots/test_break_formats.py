@@ -34,3 +34,10 @@ def test_a_rack_whose_break_does_not_matter_is_on_the_diagonal():
 def test_arrays_are_refused():
     with pytest.raises(InputError, match="one number"):
         breaks_figure(Rack([0.5, 0.6], 0.5))
+
+
+def test_the_picture_says_what_it_shows():
+    title, dot = breaks_figure(Rack(0.62, 0.55)).get_suptitle().splitlines()
+    assert "long run" in title
+    assert "0.62" in dot
+    assert "0.55" in dot

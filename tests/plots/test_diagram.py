@@ -24,7 +24,8 @@ from evenbreak.games import (
     Series,
     winner_breaks,
 )
-from evenbreak.plots.diagram import draw, image_bytes
+from evenbreak.plots.diagram import draw
+from evenbreak.plots.picture import image_bytes
 
 READABLE = {name: game for name, game in CATALOGUE.items() if len(graph_of(game)) <= 60}
 
@@ -113,18 +114,17 @@ def test_numbers_do_not_cover_each_other_or_leave_the_picture(game: Game) -> Non
     assert all(hypot(a[0] - b[0], a[1] - b[1]) > 0.1 for a, b in itertools.combinations(spots, 2))
 
 
-@pytest.mark.parametrize("kind", ["png", "svg"])
-def test_files_are_the_same_to_the_byte(kind: str) -> None:
+def test_files_are_the_same_to_the_byte() -> None:
     code = (
         "import sys\nfrom evenbreak.games import OneBallLookAhead\n"
-        "from evenbreak.plots.diagram import draw, image_bytes\n"
+        "from evenbreak.plots import draw, image_bytes\n"
         "figure = draw(OneBallLookAhead([0.4, 0.8]), title='Two shots')\n"
-        f"sys.stdout.buffer.write(image_bytes(figure, {kind!r}))"
+        "for kind in ('png', 'svg', 'png', 'svg'):\n"
+        "    sys.stdout.buffer.write(image_bytes(figure, kind))"
     )
     elsewhere = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
     figure = draw(OneBallLookAhead([0.4, 0.8]), title="Two shots")
-    assert image_bytes(figure, kind) == elsewhere.stdout
-    assert image_bytes(figure, kind) == elsewhere.stdout
+    assert 2 * (image_bytes(figure, "png") + image_bytes(figure, "svg")) == elsewhere.stdout
 
 
 def test_a_diagram_that_nobody_could_read_is_refused() -> None:
@@ -137,6 +137,13 @@ def test_a_diagram_that_nobody_could_read_is_refused() -> None:
 def test_a_layout_must_place_every_state() -> None:
     with pytest.raises(InputError, match="no place for state 'S2'"):
         draw(OneBall(0.5, 0.5), layout={"S1": (0, 0), "W": (1, 0), "L": (2, 0)})
+
+
+@pytest.mark.parametrize("place", [(0, float("nan")), (1,), None, "ab", 3])
+def test_a_place_is_two_numbers(place: object) -> None:
+    layout = {"S1": (0, 0), "S2": place, "W": (1, 0), "L": (2, 0)}
+    with pytest.raises(InputError, match="layout of state 'S2'"):
+        draw(OneBall(0.5, 0.5), layout=layout)  # type: ignore[arg-type]
 
 
 def test_words_have_no_circle_and_kinds_say_where_the_game_begins() -> None:
@@ -165,3 +172,53 @@ def test_a_heading_lies_within_the_picture() -> None:
         box = text.get_window_extent()
         assert box.x0 >= 0
         assert box.x1 <= figure.bbox.width
+
+
+class Cutthroat:
+    """Three players with balls left; whoever is shot out leaves, and the last one wins."""
+
+    start = (1, 1, 1)
+
+    def moves(self, balls: tuple[int, ...]) -> dict[tuple[int, ...], float]:
+        left = [player for player in range(3) if balls[player]]
+        if len(left) == 1:
+            return {}
+        return {
+            tuple(0 if player == out else had for player, had in enumerate(balls)): 1 / len(left)
+            for out in left
+        }
+
+    def winner(self, balls: tuple[int, ...]) -> int | None:
+        return balls.index(1) + 1 if sum(balls) == 1 else None
+
+
+class WithLabels(Cutthroat):
+    def label(self, balls: tuple[int, ...]) -> str:
+        return "".join("abc"[player] for player in range(3) if balls[player])
+
+
+def test_tuples_of_your_own_game_are_drawn_as_they_are() -> None:
+    shown = set(texts(draw(Cutthroat())))
+    assert {"(1, 1, 1)", "(0, 1, 1)", "(0, 0, 1)"} <= shown
+    assert not any(":" in text or "breaks" in text for text in shown)
+
+
+def test_a_game_says_how_its_states_are_written() -> None:
+    assert set(texts(draw(WithLabels()))) >= {"abc", "ab", "ac", "bc", "a", "b", "c"}
+
+
+def test_every_winner_has_a_colour_and_a_third_one_a_legend() -> None:
+    figure = draw(Cutthroat())
+    fills = {circle.get_facecolor() for circle in circles(figure)}
+    assert len(fills) == 4  # white, and one for each player
+    legend = figure.axes[0].get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == [
+        "player 1 wins",
+        "player 2 wins",
+        "player 3 wins",
+    ]
+    figure.canvas.draw()
+    box = legend.get_window_extent()
+    assert figure.bbox.y0 <= box.y0
+    assert box.x1 <= figure.bbox.x1
+    assert draw(OneBall(0.5, 0.5)).axes[0].get_legend() is None

@@ -28,3 +28,16 @@ def test_along_p1_at_a_fixed_p2():
     assert curve.get_ydata()[at] == pytest.approx(win_probability(match))
     assert "A breaks" in axes.get_xlabel()
     assert "worth the same" not in [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+def test_the_picture_names_the_players():
+    two = [match_format("2:1"), match_format("4:2")]
+    figure = plot_formats(two, {}, [], p1=0.6, title="Ann against Bo", names=("Ann", "Bo"))
+    (axes,) = figure.axes
+    assert figure.get_suptitle() == "Ann against Bo"
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (
+        "p = P(Ann wins a game)",
+        "P(Ann wins the match)",
+    )
+    (line,) = (line for line in axes.lines if line.get_label() == "Ann against Bo")
+    assert list(line.get_xdata()) == [0.6, 0.6]

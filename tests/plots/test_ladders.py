@@ -1,8 +1,13 @@
+"""Pictures of ladders and systems show the numbers they are given."""
+
+from itertools import combinations
+
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
+from evenbreak.handicaps import Settling
 from evenbreak.plots.ladders import (
-    SettlingCurve,
     SystemPoint,
     ladder_figure,
     systems_figure,
@@ -17,50 +22,55 @@ def curves(axes):
     return {line.get_label(): line.get_xydata() for line in axes.lines}
 
 
-def test_the_law_stands_beside_the_natural_and_the_normal_one():
+def test_errors_stand_beside_the_natural_and_the_normal_ones():
     (axes,) = ladder_figure(LAW, natural=NATURAL, within=1).axes
     drawn = curves(axes)
     law = drawn["this ladder, sd 1.10"]
     assert law.tolist() == [list(pair) for pair in zip(LAW.values, LAW.probability, strict=True)]
-    natural = drawn["opponents rated rightly, sd 0.89"]
+    natural = drawn["correctly rated opponents, sd 0.89"]
     assert natural[:, 1].tolist() == list(NATURAL.probability)
-    bell = drawn["normal law of the same sd"]
+    bell = drawn["normal distribution, same sd"]
     assert bell[:, 1].max() == pytest.approx(1.0 / (LAW.sd * np.sqrt(2.0 * np.pi)))
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert "within 1 point: 80 %" in labels
+    assert "within 1 point: 80%" in labels
 
 
-def test_the_natural_law_is_drawn_once():
+def test_natural_errors_are_drawn_once():
     (axes,) = ladder_figure(LAW).axes
-    assert not any("rightly" in label for label in curves(axes))
+    assert not any("correctly" in label for label in curves(axes))
 
 
-def test_errors_that_never_occur_are_left_out_and_the_normal_law_is_as_high():
+def test_errors_that_never_occur_are_left_out():
     law = Distribution((-2, -1, 0, 1, 2), (0.25, 0.0, 0.5, 0.0, 0.25))
     (axes,) = ladder_figure(law).axes
     drawn = curves(axes)
     assert drawn[f"this ladder, sd {law.sd:.2f}"][:, 0].tolist() == [-2, 0, 2]
     # Half as many errors share the whole probability.
-    bell = drawn["normal law of the same sd"]
+    bell = drawn["normal distribution, same sd"]
     assert bell[:, 1].max() == pytest.approx(2.0 / (law.sd * np.sqrt(2.0 * np.pi)))
 
 
-def test_a_single_error_has_no_normal_law():
+def test_a_single_error_has_no_normal_distribution():
     (axes,) = ladder_figure(Distribution((0,), (1.0,))).axes
-    assert "normal law of the same sd" not in curves(axes)
+    assert "normal distribution, same sd" not in curves(axes)
+
+
+def settling(settled):
+    chances = tuple(np.diff(settled, prepend=0.0))
+    return Settling(-30, 5, newcomer=False, mean=2.0, sd=1.0, chances=chances, tail=0.0)
 
 
 def test_how_newcomers_settle_is_marked_at_half_and_nine_of_ten():
     settled = [0.0, 0.2, 0.5, 0.8, 0.9, 0.99, 1.0, 1.0]
-    axes = ladder_figure(LAW, curve=SettlingCurve(-30, 5, settled)).axes[1]
+    axes = ladder_figure(LAW, curve=settling(settled)).axes[1]
     assert {text.get_text() for text in axes.texts} == {"half: 2 matches", "9 of 10: 4 matches"}
     assert axes.get_xlabel().endswith("-30 points")
     (steps,) = (line for line in axes.lines if line.get_drawstyle() == "steps-post")
-    assert steps.get_ydata().tolist() == settled[:7]
+    assert steps.get_ydata().tolist() == pytest.approx(settled[:7])
 
 
-def test_who_never_settles_within_the_picture_is_not_marked():
-    axes = ladder_figure(LAW, curve=SettlingCurve(-30, 5, [0.0, 0.1, 0.2])).axes[1]
+def test_what_never_settles_within_the_picture_is_not_marked():
+    axes = ladder_figure(LAW, curve=settling([0.0, 0.1, 0.2])).axes[1]
     assert not axes.texts
 
 
@@ -82,3 +92,29 @@ def test_each_system_is_a_point_with_its_name():
     assert "npl_10" in told[0]
     (alone,) = systems_figure(points[:2]).axes
     assert len(alone.get_legend().get_texts()) == 1
+
+
+CROWDED = [  # two that fall together at either end, and a crowd on the right
+    SystemPoint("step 1", 14.7, 62.7, True),
+    SystemPoint("fixed 9", 16.0, 62.0, None),
+    SystemPoint("npl_12", 13.8, 57.3, None),
+    SystemPoint("npl_8", 15.3, 67.1, None),
+    SystemPoint("step 5", 34.0, 10.6, True),
+    SystemPoint("step 6", 37.8, 11.9, False),
+    SystemPoint("elo 16", 33.8, 10.1, None),
+    SystemPoint("step 8", 44.7, 9.4, True),
+]
+
+
+@pytest.mark.parametrize("points", [CROWDED, CROWDED[:4], CROWDED[4:]])
+def test_no_name_covers_another_or_a_mark(points):
+    figure = systems_figure(points, chart="npl_10")
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    axes = figure.axes[0]
+    texts = [text.get_window_extent(canvas.get_renderer()) for text in axes.texts]
+    assert len(texts) == len(points)
+    assert not any(one.overlaps(other) for one, other in combinations(texts, 2))
+    marks = axes.transData.transform([(point.matches, point.sd) for point in points])
+    assert not any(text.contains(*mark) for text in texts for mark in marks)
+    assert axes.get_title().endswith("npl_10")

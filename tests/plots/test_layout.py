@@ -45,6 +45,12 @@ def test_races_lie_on_the_lattice_of_scores() -> None:
     assert all(places[a, b] == (a + b, 0.75 * (a - b)) for a, b in places)
 
 
+def test_pairs_that_are_no_scores_do_not_lie_on_the_lattice() -> None:
+    balls_and_shooter = nx.DiGraph([((9, 1), (9, 2)), ((9, 2), (0, 1)), ((9, 1), (4, 1))])
+    places = positions_of(balls_and_shooter, (9, 1))
+    assert max(x for x, _ in places.values()) <= 4
+
+
 def test_layers_run_from_the_start_with_terminal_nodes_on_outer_rows() -> None:
     graph = nx.DiGraph([("s", "a"), ("s", "b"), ("a", "won"), ("b", "lost"), ("a", "b")])
     graph.nodes["won"]["winner"] = 1

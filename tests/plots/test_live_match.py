@@ -58,3 +58,12 @@ def test_sets_and_one_sided_matches():
 def test_long_matches_name_some_scores_only():
     _, below = plot_course(live_odds(Race(60, 60, Rack(0.5)), [1, 2] * 40)).axes
     assert len(below.get_xticks()) <= 24
+
+
+def test_the_picture_names_match_and_players(odds):
+    figure = plot_course(odds, title="Ann against Bo\nRace 4:3", names=("Ann", "Bo"))
+    assert figure.get_suptitle() == "Ann against Bo\nRace 4:3"
+    above, _ = figure.axes
+    assert above.get_ylabel() == "P(Ann wins the match)"
+    assert [text.get_text().split()[0] for text in above.get_legend().get_texts()] == ["Ann", "Bo"]
+    assert plot_course(odds).get_suptitle() == ""

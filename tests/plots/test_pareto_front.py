@@ -11,12 +11,12 @@ def test_each_chart_is_a_point_and_the_beaten_ones_bear_their_names():
     assert points == {(one.measure.mean_games, one.measure.worst_unfairness) for one in charts}
     names = {text.get_text() for text in axes.texts}
     assert {"npl_8", "npl_20"} <= names
-    assert "largest" in axes.get_ylabel()
+    assert "worst" in axes.get_ylabel()
 
 
 def test_where_nothing_is_beaten_no_such_mark_is_explained():
     charts = pareto("npl", RaceLimits((5, 9), weaker_least=2))
     (axes,) = pareto_figure(charts).axes
-    told = [text.get_text() for text in axes.get_legend().texts]
-    assert not any("fairer" in text for text in told)
-    assert "mean" in axes.get_ylabel()
+    labels = [text.get_text() for text in axes.get_legend().texts]
+    assert not any("fairer" in text for text in labels)
+    assert "average" in axes.get_ylabel()

@@ -22,7 +22,7 @@ def test_scores_mean_band_and_the_new_one_after_them(days):
     (band,) = figure.axes[0].patches
     assert (band.get_y(), band.get_y() + band.get_height()) == pytest.approx(interval[:2])
     assert [text.get_text() for text in figure.legends[0].get_texts()] == [
-        "80 % interval of the true mean",
+        "80% interval of the true mean",
         "scores",
         "mean 48.00",
         "new score 53",
@@ -36,7 +36,7 @@ def test_equal_scores_stand_beside_one_another():
     across = strip.get_xdata()
     assert len(set(np.round(across, 6))) == 100
     assert 0.69 < min(across) < max(across) < 1.31
-    assert figure.axes[0].get_title() == "Practice scores, and their mean with its 95 % interval"
+    assert figure.axes[0].get_title() == "Practice scores, and their mean with its 95% interval"
 
 
 def test_lists_without_intervals():

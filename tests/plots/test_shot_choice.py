@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak import InputError
-from evenbreak.plots.diagram import image_bytes
+from evenbreak.plots.picture import image_bytes
 from evenbreak.plots.shot_choice import shots_figure
 from evenbreak.practice import ShotChoice
 

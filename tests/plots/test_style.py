@@ -1,8 +1,21 @@
 """Plots look alike, and no line needs colour to be told from the others."""
 
-import pytest
+import importlib
+import inspect
+import pkgutil
 
-from evenbreak.plots.style import LINES, label_beside, label_on, new_axes, unit_axis
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from evenbreak import plots
+from evenbreak.plots.style import (
+    LINES,
+    label_beside,
+    label_on,
+    new_axes,
+    unit_axis,
+    write_title,
+)
 
 
 def test_no_two_lines_share_a_colour_or_a_dash() -> None:
@@ -48,3 +61,26 @@ def test_names_of_curves_stand_on_or_beside_their_point() -> None:
     assert on.get_window_extent().contains(x, y)
     assert beside["left"].get_window_extent().x1 < x < beside["right"].get_window_extent().x0
     assert above.get_window_extent().y0 > y
+
+
+def test_a_long_title_is_written_in_lines_that_fit():
+    figure, _ = new_axes("p", "W", size=(6.0, 4.0))
+    write_title(figure, "Race 7:5\n" + "A rated 600, B rated 540, on the Fargo scale " * 3)
+    FigureCanvasAgg(figure).draw()
+    lines = figure.get_suptitle().splitlines()
+    assert lines[0] == "Race 7:5"
+    box = figure._suptitle.get_window_extent()
+    assert 0 <= box.x0 < box.x1 <= figure.bbox.x1
+
+
+def test_every_figure_is_drawn_in_our_own_look() -> None:
+    figures = {
+        function
+        for module in pkgutil.iter_modules(plots.__path__, "evenbreak.plots.")
+        for _, function in inspect.getmembers(importlib.import_module(module.name))
+        if inspect.isfunction(function) and function.__module__ == module.name
+        for returned in [str(inspect.signature(function).return_annotation)]
+        if "Picture" in returned and "tuple" not in returned
+    }
+    assert len(figures) > 20
+    assert [figure.__name__ for figure in figures if not hasattr(figure, "__wrapped__")] == []

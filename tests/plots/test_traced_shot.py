@@ -3,13 +3,13 @@ import math
 import numpy as np
 import pytest
 
-from evenbreak.physics import Table, aimed_shot, pockets, shot, strike, strike_for_speed
+from evenbreak.physics import PoolTable, aimed_shot, pockets, shot, strike, strike_for_speed
 from evenbreak.physics.units import INCH
-from evenbreak.plots.diagram import image_bytes
+from evenbreak.plots.picture import image_bytes
 from evenbreak.plots.traced_shot import shot_on_table
 
 FOUND = shot(strike_for_speed(60 * INCH, -0.3), math.radians(30), 24 * INCH)
-CORNER = pockets(Table())[3]
+CORNER = pockets(PoolTable())[3]
 AIMED = aimed_shot(strike(1.5, -0.2), (0.7, 0.4), (1.2, 0.4), (CORNER.x, CORNER.y))
 
 
@@ -60,16 +60,16 @@ def test_a_word_on_the_end_of_a_way_lies_beside_its_ball(cut):
 
 
 def test_the_angles_are_written():
-    told = words(shot_on_table(FOUND))
-    assert "cut 30.0° to the right" in told
-    assert f"throw {math.degrees(FOUND.throw):.1f}°" in told
-    assert told.count("rests") == 2
+    said = words(shot_on_table(FOUND))
+    assert "cut 30.0° to the right" in said
+    assert f"throw {math.degrees(FOUND.throw):.1f}°" in said
+    assert said.count("stops") == 2
 
 
 def test_an_aimed_shot_shows_target_and_allowance():
     figure = shot_on_table(AIMED)
     assert f"aim {math.degrees(AIMED.turn):.1f}° thinner" in words(figure)
-    assert "falls" in words(figure)
+    assert "drops" in words(figure)
     crosses = [line for line in figure.axes[0].lines if line.get_marker() == "x"]
     assert [np.ravel(line.get_data()) * INCH for line in crosses] == [pytest.approx(AIMED.target)]
 
@@ -77,7 +77,7 @@ def test_an_aimed_shot_shows_target_and_allowance():
 def test_english_that_throws_the_ball_backward_asks_for_a_fuller_hit():
     english = strike(1.5, 0.2, -0.4)
     figure = shot_on_table(
-        aimed_shot(english, (0.7, 0.6), (1.0, 0.6), (CORNER.x, Table().width - CORNER.y))
+        aimed_shot(english, (0.7, 0.6), (1.0, 0.6), (CORNER.x, PoolTable().width - CORNER.y))
     )
     assert "° fuller" in words(figure)
     assert "throw \N{MINUS SIGN}" in words(figure)
@@ -85,7 +85,7 @@ def test_english_that_throws_the_ball_backward_asks_for_a_fuller_hit():
 
 def test_a_shot_that_hits_nothing_is_drawn_too():
     figure = shot_on_table(shot(strike(0.01), 0.3, 0.5))
-    assert [axes.get_title() for axes in figure.axes] == ["", "As it was aimed", ""]
+    assert [axes.get_title() for axes in figure.axes] == ["", "As aimed", ""]
     assert "no hit" in words(figure)
 
 
@@ -101,7 +101,7 @@ def test_the_key_has_only_what_is_drawn_ghost_balls_as_they_are_drawn():
     assert key_of(FOUND)[:4] == [
         *("cue ball, slides", "cue ball, rolls", "object ball, slides", "object ball, rolls")
     ]
-    soft = shot(strike_for_speed(0.1, 0.4), 0.3, 0.5)  # rolls from the tip on, and rests
+    soft = shot(strike_for_speed(0.1, 0.4), 0.3, 0.5)  # rolls from the tip on, and stops
     assert key_of(soft) == ["cue ball, rolls", "line of centres", "tangent line", "ghost ball"]
     figure = shot_on_table(AIMED)
     ghosts = [one for one in figure.axes[-1].get_legend().legend_handles if hasattr(one, "radius")]

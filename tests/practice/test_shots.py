@@ -34,6 +34,29 @@ P5_22 = [
 ]
 
 
+@given(CHANCES, CHANCES, st.lists(CHANCES, max_size=4))
+def test_a_choice_with_later_shots_is_the_game_with_these_shots(p1, p2, later):
+    shot = ShotChoice("1", p1, p2, later)
+    game = OneBallLookAhead([p1, p2, *later])
+    assert shot.win("all shots") == pytest.approx(chance_of_winning(game), rel=1e-12, abs=1e-15)
+    if not later:
+        assert shot.win("all shots") == pytest.approx(shot.win("two shots"), rel=1e-12, abs=1e-15)
+
+
+@given(INNER, INNER, st.lists(INNER, max_size=4))
+def test_with_the_p2_found_a_choice_with_later_shots_wins_that_often(p1, p2, later):
+    win = ShotChoice("1", p1, p2, later).win("all shots")
+    found = ShotChoice("1", p1, 0.5, later).break_even_p2(win, "all shots")
+    assert found == pytest.approx(p2, abs=1e-9)
+
+
+def test_later_shots_must_be_chances():
+    with pytest.raises(InputError, match=r"later\[1\]"):
+        ShotChoice("1", 0.5, 0.5, (0.5, 1.5))
+    with pytest.raises(InputError, match="look_ahead"):
+        one_ball_win(0.5, 0.5, look_ahead="all shots")
+
+
 def chance_of_winning(game):
     """Return P(player 1 wins) by the game's graph."""
     limit = stochastic_limit(chain_of(game))
@@ -224,9 +247,10 @@ def test_a_shot_may_have_fractions():
         (lambda: break_even_p2(0.5, 0.5, look_ahead=2), "'infinite' or 'two shots'"),
         (lambda: ShotChoice("bank", 0.5, "often"), "p2 is 'often'"),
         (lambda: compare_shots([]), "shots is empty"),
+        (lambda: compare_shots([(0.4, 0.6)]), "a shot is (0.4, 0.6)"),
         (
             lambda: compare_shots([ShotChoice("", 0.5, 0.5)], look_ahead=""),
-            "'infinite' or 'two shots'",
+            "'two shots' or 'all shots'",
         ),
     ],
 )

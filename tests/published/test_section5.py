@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from collections import Counter
 from decimal import Decimal
 from fractions import Fraction
@@ -10,25 +11,21 @@ from statistics import NormalDist, mean, pstdev
 
 import pytest
 
+from evenbreak.handicaps import chart
+from evenbreak.handicaps.charts.off_rule import off_rule
+from evenbreak.source_text.answers import SECTION_5, compute, section_5_findings
+from evenbreak.source_text.findings import verdict_of
 from evenbreak.source_text.published import (
     PublishedNumber,
     errata,
-    further_numbers,
-    p5_6_tables,
     published_numbers,
 )
-from evenbreak.source_text.section5.index import slips_of
-from evenbreak.source_text.section5.numbers import (
-    ANSWERS,
-    compute,
-    deciding_tolerance,
-    findings,
-    verdict_of,
-)
+from evenbreak.source_text.section5.page import slips_of
 from places import SHARED
 
 SEED = SHARED / "seed" / "section5_numbers.csv"
-NUMBERS = [*published_numbers(), *further_numbers()]
+TABLES = ("P(p;m,n)", "W(p;m,n)")
+NUMBERS = [row for row in published_numbers() if row.quantity not in TABLES]
 
 
 def name_of(row: PublishedNumber) -> str:
@@ -44,9 +41,10 @@ def test_computed_number_has_the_verdict_that_is_expected(row: PublishedNumber) 
 
 
 @pytest.mark.parametrize("p", ["1/2", "2/3"])
-@pytest.mark.parametrize("quantity", ["P(p;m,n)", "W(p;m,n)"])
+@pytest.mark.parametrize("quantity", TABLES)
 def test_cells_of_the_four_tables(quantity: str, p: str) -> None:
-    cells = [row for row in p5_6_tables() if row.quantity == quantity and f"p={p} " in row.inputs]
+    cells = [row for row in published_numbers() if row.quantity == quantity]
+    cells = [row for row in cells if f"p={p} " in row.inputs]
     assert len(cells) == 100
     for row in cells:
         assert verdict_of(row, float(compute(*row[:3]))) == row.verdict, row
@@ -55,7 +53,7 @@ def test_cells_of_the_four_tables(quantity: str, p: str) -> None:
 def test_every_number_of_the_list_is_computed() -> None:
     if not SEED.exists():
         pytest.skip("the list of printed numbers lies beside the repository only in development")
-    found = {finding.published[:3]: finding for finding in findings()}
+    found = {finding.published[:3]: finding for finding in section_5_findings()}
     with SEED.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     for row in rows:
@@ -74,8 +72,8 @@ def looser(row: dict[str, str]) -> bool:
 
 
 def test_all_that_is_computed_is_printed_somewhere() -> None:
-    asked = {row[:2] for row in (*NUMBERS, *p5_6_tables())}
-    assert set(ANSWERS) == asked
+    asked = {row[:2] for row in published_numbers()}
+    assert {key for part in SECTION_5 for key in part.ANSWERS} == asked
 
 
 def test_errata_are_explained_where_they_occur() -> None:
@@ -107,18 +105,16 @@ def test_what_is_right_in_place_of_a_wrong_number() -> None:
     assert found == {key: pytest.approx(values, rel=1e-12) for key, values in right.items()}
 
 
-def test_verdict_of_a_wrong_number() -> None:
-    row = PublishedNumber("P", "q", "", Decimal("0.90"), Decimal("0.0101"), "agrees", "")
-    assert verdict_of(row, 0.909) == "agrees"
-    assert verdict_of(row, 0.92) == "differs"
-    erratum = row._replace(verdict="erratum")
-    assert verdict_of(erratum, 0.909) == "erratum"
-    assert verdict_of(erratum, 0.904) == "agrees"
-    assert verdict_of(row._replace(printed=None), 0.5) == "derived"
-    known = PublishedNumber("P", "q", "", Decimal("0.457"), Decimal("0.0006"), "erratum", "")
-    assert deciding_tolerance(known) == Decimal("0.0005")
-    assert verdict_of(known, 0.45644) == "erratum"
-    assert verdict_of(known, 0.4566) == "agrees"
+def test_the_slip_of_table_5_6_names_the_races_that_are_off_the_rule() -> None:
+    (slip,) = slips_of("Table 5.6")
+    charts = re.findall(r"([^()]+) \(chart (\d+)\)", slip.printed)
+    for races, number in charts:
+        for place in off_rule(chart(f"npl_{number}"), "npl"):
+            m, n = place.race
+            assert f"{m}:{n} " in races
+            assert f" {place.difference}" in races
+            assert "{}:{}".format(*place.nearest) in slip.correct
+    assert [number for _, number in charts] == ["8", "10", "12", "20"]
 
 
 def test_w_of_p5_7_is_right_at_the_printed_p_alone() -> None:
@@ -136,18 +132,7 @@ def findings_of(problem: str) -> list[PublishedNumber]:
 
 
 def test_order_is_that_of_the_text() -> None:
-    places = list(dict.fromkeys(finding.published.problem for finding in findings()))
+    places = list(dict.fromkeys(finding.published.problem for finding in section_5_findings()))
     assert places[:4] == ["P5.1", "P5.2", "P5.3", "P5.4"]
     assert places[-4:] == ["P5.25", "Table 5.5", "NPL", "P5.27"]
     assert Counter(places).most_common(1)[0][1] == 1
-
-
-def test_exact_numbers_are_computed_exactly() -> None:
-    assert compute("P5.4", "P(p;3,1)", "p=2/3") == Fraction(32, 81)
-    assert compute("P5.6", "W(p;m,n)", "p=2/3 m=3 n=2") == Fraction(16, 27)
-    assert compute("P5.13", "shot probability", "mean run 24") == Fraction(24, 25)
-
-
-def test_unknown_quantity_is_a_key_error() -> None:
-    with pytest.raises(KeyError):
-        compute("P5.4", "W(p;3,1)", "p=2/3")

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 from scipy.special import expit
+from scipy.stats import binomtest
 
 from evenbreak.ratings.calibration import (
     bootstrap_ratio,
@@ -104,3 +105,9 @@ def test_games_that_are_worth_less_make_wider_intervals():
     (all_worth,), (half_worth,) = (calibration(p, won, games, worth=w) for w in (1.0, 0.5))
     assert (all_worth.low, all_worth.high) == pytest.approx(wilson(0.6, 100))
     assert (half_worth.low, half_worth.high) == pytest.approx(wilson(0.6, 50))
+
+
+@pytest.mark.parametrize(("won", "games"), [(5, 10), (0, 7), (37, 40)])
+def test_wilson_is_that_of_scipy(won, games):
+    exact = binomtest(won, games).proportion_ci(method="wilson")
+    assert wilson(won / games, games) == pytest.approx((exact.low, exact.high))

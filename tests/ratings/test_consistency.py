@@ -4,25 +4,25 @@ import pytest
 from evenbreak.ratings import Results, find_problems
 
 WRONG = [
-    # columns of one row beside Ann - Bo, the column blamed, words of the message
-    ({"score": (-3, 7)}, "score_a", "score_a is -3, below zero; write 0, 1, 2, ..."),
+    # columns of one row beside Ann - Bo, the column blamed, what the message quotes
+    ({"score": (-3, 7)}, "score_a", "score_a is -3"),
     ({"score": (7, -1)}, "score_b", "score_b is -1"),
-    ({"race": (-7, 7)}, "race_a", "race_a is -7, below zero; write 1, 2, 3, ..."),
-    ({"race": (7, 0)}, "race_b", "race_b is empty, but race_a is not; give both, or neither"),
-    ({"race": (0, 7)}, "race_a", "race_a is empty, but race_b is not"),
-    ({"score": (8, 5), "race": (7, 7)}, "score_a", "more than the race (8-5 in a race 7:7)"),
-    ({"score": (5, 6), "race": (7, 5)}, "score_b", "more than the race (5-6 in a race 7:5)"),
-    ({"score": (7, 5), "race": (7, 5)}, "score_b", "both players reached their race"),
-    ({"score": (6, 4), "race": (7, 5)}, "score_a", "nobody reached the race (6-4 in a race 7:5)"),
-    ({"winner": 2}, "winner", "winner is b, but a won more games (7-5); write a, or give race_a"),
-    ({"score": (3, 3), "winner": 1}, "winner", "winner is a, but the score is tied (3-3)"),
+    ({"race": (-7, 7)}, "race_a", "race_a is -7"),
+    ({"race": (7, 0)}, "race_b", "race_b is empty"),
+    ({"race": (0, 7)}, "race_a", "race_a is empty"),
+    ({"score": (8, 5), "race": (7, 7)}, "score_a", "8-5 in a race 7:7"),
+    ({"score": (5, 6), "race": (7, 5)}, "score_b", "5-6 in a race 7:5"),
+    ({"score": (7, 5), "race": (7, 5)}, "score_b", "7-5 in a race 7:5"),
+    ({"score": (6, 4), "race": (7, 5)}, "score_a", "6-4 in a race 7:5"),
+    ({"winner": 2}, "winner", "winner is b, but a won more games (7-5)"),
+    ({"score": (3, 3), "winner": 1}, "winner", "3-3"),
     ({"score": (4, 5), "race": (7, 5), "winner": 1}, "winner", "but b reached the race"),
     ({"racks": "ab"}, "racks", "racks 'ab' is 1-1, but the score is 7-5"),
-    ({"racks": "a/b"}, "racks", "other letters than a and b"),
+    ({"racks": "a/b"}, "racks", "'a/b'"),
     (
         {"score": (2, 1), "race": (2, 2), "racks": "aab"},
         "racks",
-        "goes on after the race was won (2-1 in a race 2:2)",
+        "2-1 in a race 2:2",
     ),
 ]
 
@@ -71,10 +71,10 @@ def test_it_does_not_matter_who_is_called_a(cells):
     assert len(find_problems(row(**swapped))) == 1
 
 
-def test_nobody_plays_himself():
+def test_no_player_is_on_both_sides():
     (problem,) = find_problems(Results.from_names(["Ann"], ["Ann"], [7], [5]))
     assert problem.column == "player_b"
-    assert problem.message.startswith("'Ann' plays against himself or herself; correct")
+    assert problem.message.startswith("'Ann'")
 
 
 def test_problems_come_in_the_order_of_the_rows():

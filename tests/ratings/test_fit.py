@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.errors import AccuracyError, InputError
+from evenbreak.errors import InputError
 from evenbreak.ratings import Results, fit
-from evenbreak.ratings import posterior as posterior_module
 from places import SHARED
 
 SEASON = SHARED / "data" / "snooker_2016_17_results.csv"
@@ -105,7 +104,7 @@ def test_players_of_different_components_are_not_compared():
     ratings = fit(Results.from_names(["A", "C"], ["B", "D"], [7, 7], [2, 3]))
     with pytest.raises(InputError, match="'A' and 'D' are not connected"):
         ratings.win_probability("A", "D")
-    with pytest.raises(InputError, match="'X' is not among the rated"):
+    with pytest.raises(InputError, match="'X'"):
         ratings.win_probability("A", "X")
     assert ratings.win_probability("A", "B") + ratings.win_probability("B", "A") == 1
 
@@ -216,17 +215,11 @@ def test_an_anchor_is_a_number():
 
 @pytest.mark.parametrize(
     ("names", "scores", "words"),
-    [(("A", "B"), (-1, 5), "negative score"), (("A", "A"), (7, 5), "against himself")],
+    [(("A", "B"), (-1, 5), "negative score"), (("A", "A"), (7, 5), "one player only")],
 )
 def test_results_that_cannot_be_are_refused(names, scores, words):
     with pytest.raises(InputError, match=words):
         fit(Results.from_names([names[0]], [names[1]], [scores[0]], [scores[1]]))
-
-
-def test_giving_up_is_said(monkeypatch):
-    monkeypatch.setattr(posterior_module, "_MOST_STEPS", 1)
-    with pytest.raises(AccuracyError, match="after 1 Newton steps"):
-        fit(random_season(np.random.default_rng(3), 20, 60))
 
 
 def test_a_long_chain_of_whitewashes_converges():

@@ -189,7 +189,7 @@ def test_a_component_without_a_named_player_stays_at_the_centre():
 @pytest.mark.parametrize(
     ("anchor", "words"),
     [
-        ({"X": 80}, "'X' is not among the players"),
+        ({"X": 80}, "'X'"),
         ({"A": math.nan}, "anchor of 'A' is nan"),
         ({"A": "high"}, "anchor of 'A' is 'high'"),
         ("high", "anchor is 'high'"),
@@ -210,3 +210,33 @@ def test_players_who_never_met_have_no_difference():
 def test_a_break_advantage_is_points_or_fit(value):
     with pytest.raises(InputError, match="break_advantage"):
         fit(league(np.random.default_rng(7)), break_advantage=value)
+
+
+@pytest.mark.parametrize("scale", ["npl", 0.01, 1e6])
+def test_the_strongest_come_first_on_any_scale(scale):
+    season = Results.from_names(["Ann", "Bo", "Di"], ["Bo", "Cy", "Ed"], [3, 4, 5], [7, 7, 5])
+    ratings = fit(season, scale=scale)
+    order = ratings.strongest_first()
+    assert [ratings.players[k] for k in order] == ["Cy", "Bo", "Di", "Ed", "Ann"]
+
+
+def test_everybody_is_in_the_frame_the_strongest_first():
+    season = Results.from_names(
+        ["Bo", "Bo", "Cy", "Di", "Ann"],
+        ["Ann", "Cy", "Ann", "Ed", "Cy"],
+        [4, 7, 3, 0, 0],
+        [7, 5, 7, 5, 0],
+        forfeit=[False, False, False, True, False],
+    )
+    ratings = fit(season, scale="fargo")
+    frame = ratings.to_frame()
+    assert set(frame["scale"]) == {"fargo"}
+    # Di and Ed, who only forfeited, stand at the anchor and keep the order of names.
+    assert frame["player"].tolist() == ["Ann", "Di", "Ed", "Bo", "Cy"]
+    assert frame["games"].tolist() == [21, 0, 0, 23, 22]
+    assert (frame["won"] + frame["lost"]).tolist() == frame["games"].tolist()
+    assert frame["component"].tolist() == [1, 2, 3, 1, 1]
+    assert frame["rating"].tolist() == sorted(ratings.rating, reverse=True)
+    assert dict(zip(frame["player"], frame["standard_error"], strict=True)) == dict(
+        zip(ratings.players, ratings.standard_error, strict=True)
+    )

@@ -3,7 +3,7 @@
 import pytest
 
 from evenbreak.ratings import Results, walk_forward
-from evenbreak.ratings.handicap_fairness import spot_fairness
+from evenbreak.ratings.handicap_fairness import handicap_fairness
 
 
 def test_spots_are_counted_from_the_side_that_gives():
@@ -13,7 +13,7 @@ def test_spots_are_counted_from_the_side_that_gives():
         date=[f"2024-09-0{day}" for day in range(1, 6)],
     )  # fmt: skip
     told = walk_forward(results)
-    one, two, every = spot_fairness(told)
+    one, two, every = handicap_fairness(told)
     assert (one.spot, one.matches, one.won) == (1, 1, 1)
     assert (two.spot, two.matches, two.won) == (2, 3, 2)
     assert (every.spot, every.matches, every.won, every.share) == (None, 4, 3, 0.75)
@@ -26,4 +26,4 @@ def test_even_races_have_no_spot():
     results = Results.from_names(
         ["Ann"] * 2, ["Bo"] * 2, [7, 6], [4, 7], date=["2024-09-03", "2024-09-04"]
     )
-    assert spot_fairness(walk_forward(results)) == []
+    assert handicap_fairness(walk_forward(results)) == []

@@ -25,30 +25,30 @@ def random_pairs(rng, players, pairs):
     return low, (low + rng.integers(1, players, pairs)) % players
 
 
-def mixed(rng, players=700):
+def mixed(rng, players=350):
     return random_pairs(rng, players, 30 * players)
 
 
-def divisions(rng, players=1200, size=60, bridges=40):
+def divisions(rng, players=600, size=60, bridges=20):
     low = rng.integers(0, players, 20 * players)
     high = low - low % size + (low % size + rng.integers(1, size, len(low))) % size
     across = random_pairs(rng, players, bridges)
     return np.concatenate((low, across[0])), np.concatenate((high, across[1]))
 
 
-def thin(rng, players=1000):
-    return random_pairs(rng, players, 1300)
+def thin(rng, players=500):
+    return random_pairs(rng, players, 650)
 
 
-def star(_, players=900):
+def star(_, players=450):
     return np.zeros(players - 1, dtype=int), np.arange(1, players)
 
 
-def path(_, players=900):
+def path(_, players=450):
     return np.arange(players - 1), np.arange(1, players)
 
 
-def islands(_, players=1000):
+def islands(_, players=500):
     return np.arange(0, players // 2, 2), np.arange(1, players // 2, 2)
 
 
@@ -107,10 +107,10 @@ def test_fronts_eliminate_every_player_once_and_children_first(league):
 def test_a_league_in_divisions_is_cut_up_and_a_mixed_one_is_not():
     rng = np.random.default_rng(5)
     low, high = divisions(rng)
-    cut = fronts_of(laplacian(1200, low, high, np.ones(len(low)), 1.0))
+    cut = fronts_of(laplacian(600, low, high, np.ones(len(low)), 1.0))
     assert max(len(front.pivots) + len(front.rows) for front in cut) < 200
     low, high = mixed(rng)
-    assert len(fronts_of(laplacian(700, low, high, np.ones(len(low)), 1.0))) == 1
+    assert len(fronts_of(laplacian(350, low, high, np.ones(len(low)), 1.0))) == 1
 
 
 @pytest.mark.parametrize("size", [1, 2, 5])

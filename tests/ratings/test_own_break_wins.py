@@ -1,4 +1,4 @@
-"""How scores may have come about, against all sequences of racks written out."""
+"""In how many ways a score can come about, against all sequences of racks written out."""
 
 import math
 from collections import Counter
@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from evenbreak.ratings.own_break_wins import split_of, stacked
+from evenbreak.ratings.own_break_wins import BreakWinsTerms, break_wins
 
 
 def written_out(form, first, games, last):
@@ -32,20 +32,22 @@ def test_against_all_sequences(form, first, last):
     for games in product(range(6), range(6)):
         if games[last - 1] == 0:
             continue
-        split = split_of(form, first, games, last)
+        wins = break_wins(form, first, games, last)
         got = {
-            (split.broke_a, int(k)): round(math.exp(count))
-            for k, count in zip(split.won, split.log_count, strict=True)
+            (wins.broke_a, int(k)): round(math.exp(count))
+            for k, count in zip(wins.won, wins.log_count, strict=True)
         }
         assert got == dict(written_out(form, first, games, last)), games
 
 
 def test_the_derivatives_are_those_of_the_sums():
-    splits = stacked([split_of("winner", 1, (7, 5), 1), split_of("alternate", 2, (3, 9), 2)])
+    splits = BreakWinsTerms.of(
+        [break_wins("winner", 1, (7, 5), 1), break_wins("alternate", 2, (3, 9), 2)]
+    )
     low, at, high = (splits.log_sums(0.3 + step) for step in (-1e-5, 0.0, 1e-5))
     np.testing.assert_allclose((high[0] - low[0]) / 2e-5, at[1], rtol=1e-6)
     np.testing.assert_allclose((high[1] - low[1]) / 2e-5, at[2], rtol=1e-6)
 
 
-def test_without_splits_there_are_no_sums():
-    assert all(part.shape == (0,) for part in stacked([]).log_sums(0.1))
+def test_without_matches_there_are_no_sums():
+    assert all(part.shape == (0,) for part in BreakWinsTerms.of([]).log_sums(0.1))

@@ -6,7 +6,8 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.files.results import read_results
 from evenbreak.ratings import Results, best_prior, fit
-from evenbreak.ratings.prior import WIDTHS
+from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.prior import AS_GOOD, WIDTHS
 from places import SHARED
 
 SEASON = SHARED / "data" / "snooker_2016_17_results.csv"
@@ -28,6 +29,33 @@ def test_the_width_is_near_the_one_that_skills_were_drawn_with(spread):
     choice = best_prior(season(spread, np.random.default_rng(1)))
     assert spread / 2 < choice.prior_sd < spread * 2
     assert choice.log_loss[choice.tried.index(choice.prior_sd)] == min(choice.log_loss)
+    assert choice.learnt
+    assert choice.low <= choice.prior_sd <= choice.high < 4 * choice.low
+
+
+@pytest.mark.parametrize("matches", [3, 6])
+def test_a_few_matches_do_not_choose_a_prior(matches):
+    results = season(0.2, np.random.default_rng(5), players=4, days=matches, a_day=1)
+    choice = best_prior(results)
+    assert not choice.learnt
+    assert choice.prior_sd == PRIOR_SD
+
+
+def test_the_range_holds_the_widths_that_lose_little():
+    choice = best_prior(season(0.7, np.random.default_rng(6), players=8, days=8, a_day=3))
+    lost = (np.array(choice.log_loss) - min(choice.log_loss)) * choice.predicted
+    good = [width for width, loss in zip(choice.tried, lost, strict=True) if loss <= AS_GOOD]
+    assert (choice.low, choice.high) == (good[0], good[-1])
+
+
+def test_choosing_as_it_goes_costs_little_but_something():
+    choice = best_prior(season(0.7, np.random.default_rng(1)))
+    assert min(choice.log_loss) < choice.as_it_went < min(choice.log_loss) + 0.02
+
+
+def test_a_width_that_was_not_tried_is_not_chosen():
+    few = season(0.7, np.random.default_rng(2), players=4, days=3, a_day=1)
+    assert best_prior(few, widths=[0.01, 0.1, 0.3]).prior_sd == 0.3
 
 
 def test_the_loss_is_that_of_predicting_day_by_day():
@@ -60,7 +88,9 @@ def test_who_wins_races_is_predicted_too():
     )
     choice = best_prior(results)
     assert choice.predicted == 5
-    assert choice.prior_sd == max(WIDTHS)  # who always wins is best rated as high as may be
+    # Who always wins is best rated as high as may be, but five matches are no reason to.
+    assert choice.log_loss[-1] == min(choice.log_loss)
+    assert (choice.prior_sd, choice.learnt) == (PRIOR_SD, False)
     assert list(choice.tried) == sorted(WIDTHS)
 
 
@@ -75,7 +105,7 @@ def test_decay_enters_the_choice():
     [
         (None, "2 of 2 matches have no date"),
         (["2026-01-01", "NaT"], "1 of 2 matches have no date"),
-        (["2026-01-01"] * 2, "no two days"),
+        (["2026-01-01"] * 2, "two days"),
     ],
 )
 def test_days_are_needed(dates, words):

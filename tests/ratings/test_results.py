@@ -19,6 +19,11 @@ def test_names_become_positions_in_the_order_of_the_names():
     assert len(results) == 4
 
 
+def test_a_season_prints_in_one_line():
+    assert repr(season()).count("\n") == 0
+    assert f"{len(season()):,} matches" in repr(season())
+
+
 def test_forfeits_and_empty_rows_are_left_out_and_counted_apart():
     played = season(forfeit=[False, True, False, False]).played()
     assert (len(played.results), played.forfeits, played.empty) == (2, 1, 1)
@@ -58,9 +63,7 @@ def test_no_rows_are_results_too():
 
 
 def test_columns_of_other_lengths_are_refused():
-    with pytest.raises(
-        InputError, match=r"forfeit has the shape \(1,\); give one value for each of 4"
-    ):
+    with pytest.raises(InputError, match=r"forfeit has shape \(1,\); give one value for each of 4"):
         season(forfeit=[True])
 
 
@@ -81,3 +84,37 @@ def test_players_out_of_range_are_refused():
 def test_a_name_is_listed_once():
     with pytest.raises(InputError, match="players holds a name twice"):
         Results(("Ann", "Ann"), [0], [1], [1], [0])
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("forfeit", [False, np.nan, False, False]),
+        ("forfeit", ["no", "no", "no", "no"]),
+        ("unscored", ["no", "no", "no", "no"]),
+        ("winner", [257, 0, 0, 0]),
+        ("race_a", [7, 7.5, 7, 7]),
+        ("date", [20260131] * 4),
+        ("racks", ["ab", np.nan, "", ""]),
+        ("event", ["League", None, "", ""]),
+    ],
+)
+def test_what_a_column_cannot_hold_is_refused(name, values):
+    with pytest.raises(InputError, match=f"^{name} is .*; give "):
+        season(**{name: values})
+
+
+@pytest.mark.parametrize("score", [2.5, np.nan, np.inf, "7", None])
+def test_scores_are_whole_numbers(score):
+    with pytest.raises(InputError, match=r"^score_a is .*; give whole numbers"):
+        Results.from_names(["Ann"], ["Bo"], [score], [5])
+    with pytest.raises(InputError, match=r"^score_b is .*; give whole numbers"):
+        Results.from_names(["Ann"], ["Bo"], [7], [score])
+    assert Results.from_names(["Ann"], ["Bo"], [7.0], [5]).score_a.tolist() == [7]
+
+
+def test_names_are_text():
+    with pytest.raises(InputError, match="holds nan, which is not text"):
+        Results.from_names(["Ann", np.nan], ["Bo", "Cy"], [7, 7], [5, 5])
+    with pytest.raises(InputError, match="players holds 1, which is not text"):
+        Results((1, 2), [0], [1], [7], [5])

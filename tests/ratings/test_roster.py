@@ -47,7 +47,7 @@ def test_position():
         ((["Ann", "Ann"], [1, 2]), "each name once"),
         ((["Ann"], [1, 2]), "one value for each of 1 players"),
         ((["Ann"], [np.inf]), "NaN for a new player"),
-        ((["Ann"], ["x"]), "a number for each player"),
+        ((["Ann"], ["x"]), "rating is"),
         ((["Ann"], [1.0], None, [np.nan]), "give whole numbers"),
         ((["Ann"], [1.0], None, np.array([1.5])), "give whole numbers"),
         ((["Ann"], [1.0], [-1.0]), "give 0 or more"),
@@ -76,3 +76,10 @@ def test_matches_are_kept_and_not_stated_where_nobody_says_them():
 def test_matches_are_counts():
     with pytest.raises(InputError, match="matches is negative somewhere"):
         Roster(["Ann"], [92], matches=[-2])
+    with pytest.raises(InputError, match="games is negative somewhere"):
+        Roster(["Ann"], [92], games=[-2])
+
+
+def test_ratings_are_not_text():
+    with pytest.raises(InputError, match=r"rating is .*; give numbers"):
+        Roster(["Ann", "Bo"], ["92", "71.5"])

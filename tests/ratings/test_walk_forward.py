@@ -145,9 +145,9 @@ def test_an_unfinished_race_has_no_winner():
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"date": None}, "no dates; add a column date"),
-        ({"date": ["2024-09-03"] * 2}, "games of 1 date; give two"),
-        ({"date": ["NaT"] * 2}, "games of 0 dates; give two"),
+        ({"date": None}, "no dates"),
+        ({"date": ["2024-09-03"] * 2}, "1 date;"),
+        ({"date": ["NaT"] * 2}, "0 dates;"),
     ],
 )
 def test_without_an_order_in_time_nothing_can_be_validated(change, words):

@@ -2,8 +2,8 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.ratings import Results
-from evenbreak.ratings.results import FORMATS
-from evenbreak.ratings.who_broke import count_broken
+from evenbreak.ratings.results_frame import FORMATS
+from evenbreak.ratings.who_broke import breakers, count_broken
 
 
 def counts(racks="", form="", first=0, score=None):
@@ -57,3 +57,20 @@ def test_no_columns_no_breakers():
 def test_racks_beyond_the_score_are_refused():
     with pytest.raises(InputError, match="find_problems"):
         counts("aab", "winner", 1, score=(1, 1))
+
+
+@pytest.mark.parametrize(
+    ("form", "first", "expected"),
+    [
+        ("winner", 2, [2, 1, 2, 2, 1]),
+        ("loser", 2, [2, 2, 1, 1, 2]),
+        ("alternate", 2, [2, 1, 2, 1, 2]),
+        ("a", 1, [1, 1, 1, 1, 1]),
+        ("b", 2, [2, 2, 2, 2, 2]),
+        ("", 1, [1, 0, 0, 0, 0]),
+        ("winner", 0, [0, 1, 2, 2, 1]),
+        ("alternate", 0, [0, 0, 0, 0, 0]),
+    ],
+)
+def test_breakers_rack_by_rack(form, first, expected):
+    assert breakers("abbaa", form, first) == expected

@@ -10,13 +10,23 @@ from evenbreak.sheets.html_page import html_page, shown_name
 POLICY = re.compile(r'Content-Security-Policy" content="([^"]*)"')
 
 
-def test_the_policy_allows_the_style_of_the_page_and_nothing_else():
-    page = html_page("answer.html", title="x", answer="<p>y</p>").decode()
+NOTHING = {"heading": ["x"], "links": [], "sections": [], "below": "", "made_of": ""}
+
+
+def digest(text):
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+@pytest.mark.parametrize("search", [True, False])
+def test_the_policy_allows_the_style_and_the_search_of_the_page_and_nothing_else(search):
+    page = html_page(search=search, **NOTHING).decode()
     style = re.search(r"<style>(.*)</style>", page, re.DOTALL)[1]
-    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
+    script = re.search(r"<script>(.*)</script>", page, re.DOTALL)
+    assert bool(script) == search
     assert POLICY.search(page)[1].replace("&#39;", "'").split("; ") == [
         "default-src 'none'",
-        f"style-src 'sha256-{digest}'",
+        f"style-src '{digest(style)}'",
+        *([f"script-src '{digest(script[1])}'"] if search else []),
         "base-uri 'none'",
         "form-action 'none'",
     ]
@@ -27,8 +37,16 @@ def test_the_policy_allows_the_style_of_the_page_and_nothing_else():
 
 def test_what_a_template_shows_must_be_given_and_is_escaped():
     with pytest.raises(UndefinedError):
-        html_page("answer.html", answer="")
-    assert "<title>&lt;b&gt;</title>" in html_page("answer.html", title="<b>", answer="").decode()
+        html_page(heading=["x"])
+    page = html_page(**{**NOTHING, "heading": ["<b>"]}).decode()
+    assert "<title>&lt;b&gt;</title>" in page
+
+
+def test_a_screen_in_the_dark_has_dark_paper_and_print_has_none():
+    style = html_page(**NOTHING).decode()
+    assert "@media screen and (prefers-color-scheme: dark)" in style
+    colours = re.findall(r"#[0-9a-f]{3,6}\b", style.partition("* {")[2].partition("</style>")[0])
+    assert not colours, "a colour that does not change in the dark"
 
 
 @pytest.mark.parametrize(

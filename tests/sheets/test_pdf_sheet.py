@@ -11,7 +11,7 @@ from evenbreak.answers.report import report_answer
 from evenbreak.ratings.results import Results
 from evenbreak.sheets.pdf_layout import MOST_ON_A_PAGE
 from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH
-from evenbreak.sheets.pdf_sheet import MOST_PAIRED, sheet_pages, sheet_pdf
+from evenbreak.sheets.pdf_sheet import sheet_pages, sheet_pdf
 from leagues import league, sheet_of, two_groups
 
 
@@ -88,8 +88,9 @@ def test_a_season_is_named_and_explained():
 def test_the_paper_says_what_the_terminal_says():
     (page,), sheet = pages_of(league(5))
     words = " ".join(texts(page))
-    first, how_to_read, about_ratings = report_answer(sheet).sentences
-    assert how_to_read in words
+    answer = report_answer(sheet)
+    first, about_ratings = answer.sentences
+    assert answer.parts[1].title in words
     assert about_ratings in words
     assert first.removeprefix(sheet.offered.in_words).strip() in words
 
@@ -108,12 +109,13 @@ def test_bars_are_two_standard_errors_either_way():
         assert end - dot == pytest.approx(2 * error * inch, abs=1e-3)
 
 
-def test_more_players_than_paper_holds_are_counted():
+def test_more_players_than_paper_holds_are_counted(monkeypatch):
+    monkeypatch.setattr("evenbreak.sheets.pdf_sheet.MOST_ON_SHEET", 48)
     pages, _ = pages_of(league(50), top=49)
     words = " ".join(texts(pages[0]))
     assert "1 of 49 paired players" in words
     assert "place among all 50 players" in words
-    assert len({name for page in pages for pair in races_on(page) for name in pair}) == MOST_PAIRED
+    assert len({name for page in pages for pair in races_on(page) for name in pair}) == 48
 
 
 def test_players_who_cannot_be_compared_have_a_dash():
@@ -123,6 +125,20 @@ def test_players_who_cannot_be_compared_have_a_dash():
     assert found["Player 1", "Player 3"] == found["Player 3", "Player 1"] == "-"
     assert found.items() >= sheet.races.items()
     assert len(sheet.races) == 4
+
+
+def test_players_who_never_met_have_their_group_beside_them():
+    (page,), sheet = pages_of(two_groups())
+    words = texts(page)
+    assert "group" in words
+    for player, group in zip(sheet.rated["player"], sheet.rated["component"], strict=True):
+        (y,) = (text.get_position()[1] for text in page.axes[0].texts if text.get_text() == player)
+        on_line = [t for t in page.axes[0].texts if t.get_position()[1] == pytest.approx(y)]
+        rightmost = max(on_line, key=lambda text: text.get_position()[0])
+        assert rightmost.get_text() == str(group)
+        assert rightmost.get_position()[0] <= WIDTH - MARGIN + 1e-9
+    (one_group,), _ = pages_of(league(3))
+    assert "group" not in texts(one_group)
 
 
 def test_a_sheet_without_any_race_can_be_printed():

@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from python_calamine import CalamineWorkbook
 
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
@@ -16,12 +17,11 @@ from evenbreak.ratings.results import Results
 from evenbreak.sheets.workbook import check_workbook, race_table, report_tables, workbook_bytes
 from leagues import league, sheet_of
 
-calamine = pytest.importorskip("python_calamine", reason="reads workbooks back")
 pytest.importorskip("xlsxwriter", reason="writes workbooks")
 
 
 def read_back(content):
-    book = calamine.CalamineWorkbook.from_filelike(io.BytesIO(content))
+    book = CalamineWorkbook.from_filelike(io.BytesIO(content))
     return {name: book.get_sheet_by_name(name).to_python() for name in book.sheet_names}
 
 

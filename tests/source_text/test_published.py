@@ -9,8 +9,6 @@ import pytest
 
 from evenbreak.source_text.published import (
     errata,
-    further_numbers,
-    p5_6_tables,
     physics_errata,
     physics_numbers,
     published_numbers,
@@ -19,7 +17,7 @@ from places import SHARED
 
 SEED = SHARED / "seed"
 VERDICTS = {"agrees", "erratum", "derived"}
-READERS = [published_numbers, further_numbers, p5_6_tables, physics_numbers]
+REA25S = [published_numbers, physics_numbers]
 
 
 def seed_rows(name):
@@ -55,7 +53,7 @@ def test_every_number_of_the_list_is_here_with_its_tolerance_and_verdict():
         )
         for row in seed_rows("section5_numbers.csv")
     ]
-    assert [tuple(row[:6]) for row in published_numbers()] == listed
+    assert set(listed) <= {tuple(row[:6]) for row in published_numbers()}
 
 
 def test_every_slip_of_the_list_is_here():
@@ -71,20 +69,19 @@ def test_every_slip_of_the_list_is_here():
 
 def test_how_many_there_are():
     assert Counter(row.verdict for row in published_numbers()) == {
-        "agrees": 336,
-        "derived": 15,
-        "erratum": 5,
+        "agrees": 796,
+        "derived": 25,
+        "erratum": 9,
     }
-    assert len(p5_6_tables()) == 400
 
 
-@pytest.mark.parametrize("reader", READERS)
+@pytest.mark.parametrize("reader", REA25S)
 def test_problem_quantity_and_inputs_name_a_number(reader):
     names = Counter(row[:3] for row in reader())
     assert [name for name, count in names.items() if count > 1] == []
 
 
-@pytest.mark.parametrize("reader", READERS)
+@pytest.mark.parametrize("reader", REA25S)
 def test_rows_are_whole(reader):
     for row in reader():
         assert row.problem, row
@@ -96,12 +93,30 @@ def test_rows_are_whole(reader):
         assert row.verdict != "erratum" or row.note, row
 
 
+def test_what_the_value_of_a_number_is():
+    assert {row.value_is for row in published_numbers()} == {"printed"}
+    for row in physics_numbers():
+        assert row.value_is in {"printed", "formula", "words", ""}, row
+        assert (row.value_is == "") == (row.printed is None), row
+        assert row.verdict != "formula" or row.value_is == "formula", row
+
+
+def test_damage_to_the_copy_is_not_called_a_slip():
+    copies = {slip.printed for slip in physics_errata() if slip.class_ == "copy"}
+    assert any(text.startswith("T = T_0 + M_f/(3 M_s)") for text in copies)
+    assert any("omega_bv" in text for text in copies)
+
+
 def test_digits_are_kept_as_printed():
     printed = {row[:3]: str(row.printed) for row in published_numbers()}
     assert printed["P5.22", "W infinite look-ahead", "p1=0.9 p2=0.9"] == "0.90"
     assert printed["Table 5.5", "d9", "p=0.5 p_i=p^(i-1)"] == "0.000"
     assert printed["Table 5.2", "mean run", "p=0.8"] == "4.0"
     assert printed["Table 5.4", "W alternate breaks", "row=10 p1=0.95 p2=0.94"] == "0.505"
+
+
+def p5_6_tables():
+    return [row for row in published_numbers() if row.quantity in ("P(p;m,n)", "W(p;m,n)")]
 
 
 def test_cells_of_the_four_tables_are_the_exact_values_rounded():
@@ -129,7 +144,7 @@ def test_four_tables_have_each_cell_once():
 
 
 @pytest.mark.parametrize("slips", [errata, physics_errata])
-def test_slips_are_told_whole_in_one_line_each(slips):
+def test_slips_are_complete_in_one_line_each(slips):
     for slip in slips():
         assert slip.where, slip
         assert slip.printed, slip
@@ -150,18 +165,16 @@ def test_what_is_no_slip_is_called_a_remark():
 
 def test_every_number_called_a_slip_is_among_the_slips():
     places = " ".join(slip.where for slip in errata() if slip.class_ == "slip")
-    for row in (*published_numbers(), *further_numbers()):
+    for row in published_numbers():
         assert row.verdict != "erratum" or row.problem in places, row
 
 
 @pytest.mark.parametrize(
     "name",
     [
-        "p5_6_tables.csv",
         "physics_errata.csv",
         "physics_numbers.csv",
         "section5_errata.csv",
-        "section5_further.csv",
         "section5_numbers.csv",
     ],
 )

@@ -198,24 +198,24 @@ def test_a_weight_of_none_leaves_its_value_out() -> None:
 @pytest.mark.parametrize(
     ("values", "weights", "message"),
     [
-        ([], None, "values is empty; give one number or more"),
-        (3, None, "values is 3; give a list of numbers"),
-        ("123", None, "values is '123'; give a list of numbers"),
-        ([1, math.nan], None, "values holds nan; give finite numbers"),
-        ([1, -math.inf], None, "values holds -inf; give finite numbers"),
-        ([1, "2"], None, "values holds '2'; give finite numbers"),
-        ([1, None], None, "values holds None; give finite numbers"),
-        ([10**400], None, f"values holds {10**400}; give finite numbers"),
-        ([1, 2], [1], "weights has 1 entries for 2 values; give one each"),
-        ([1, 2], [1, -1], "weights holds -1; give weights of 0 or more"),
-        ([1, 2], [1, math.nan], "weights holds nan; give finite numbers"),
-        ([1, 2], [0, 0], "weights are all 0; give at least one value a weight"),
+        ([], None, "values is empty"),
+        (3, None, "values is 3"),
+        ("123", None, "values is '123'"),
+        ([1, math.nan], None, "values[1] is nan"),
+        ([1, -math.inf], None, "values[1] is -inf"),
+        ([1, "2"], None, "values[1] is '2'"),
+        ([1, None], None, "values[1] is None"),
+        ([10**400], None, f"values[0] is {10**400}"),
+        ([1, 2], [1], "weights has 1 entries for 2 values"),
+        ([1, 2], [1, -1], "weights[1] is -1"),
+        ([1, 2], [1, math.nan], "weights[1] is nan"),
+        ([1, 2], [0, 0], "weights are all 0"),
     ],
 )
 def test_wrong_samples_are_refused(values: Any, weights: Any, message: str) -> None:
     with pytest.raises(InputError) as caught:
         Distribution.of(values, weights)
-    assert str(caught.value) == message
+    assert str(caught.value).startswith(message)
 
 
 def test_weights_that_overflow_are_refused() -> None:
@@ -229,11 +229,11 @@ def test_weights_that_overflow_are_refused() -> None:
         ((), (), "values is empty"),
         ((1, 1), (0.5, 0.5), "values do not increase; sort them, or use Distribution.of"),
         ((2, 1), (0.5, 0.5), "values do not increase"),
-        ((1, math.nan), (0.5, 0.5), "values holds nan"),
+        ((1, math.nan), (0.5, 0.5), r"values\[1\] is nan"),
         ((1, 2), (1,), "probability has 1 entries for 2 values"),
-        ((1, 2), (1.5, -0.5), "probability holds 1.5; give numbers from 0 to 1"),
+        ((1, 2), (1.5, -0.5), "probability.* is 1.5"),
         ((1, 2), (0.5, 0.6), "probability sums to 1.1; make it sum to 1"),
-        ((1, 2), (0.5, math.nan), "probability holds nan"),
+        ((1, 2), (0.5, math.nan), "probability.* is nan"),
         ((1, 2), (Fraction(1, 3), Fraction(1, 3)), "probability sums to 0.666"),
     ],
 )
@@ -249,18 +249,18 @@ def test_a_quantile_is_of_a_probability(q: Any) -> None:
 
 
 def test_between_wants_two_numbers() -> None:
-    with pytest.raises(InputError, match="the ends are nan and 3; give two numbers"):
+    with pytest.raises(InputError, match="the ends are nan and 3"):
         Distribution.of([1]).between(math.nan, 3)
 
 
 @pytest.mark.parametrize(
     ("moments", "message"),
     [
-        ((0, 1, 1), "n is 0; give a whole number, 1 or more"),
-        ((2.5, 1, 1), "n is 2.5; give a whole number, 1 or more"),
-        ((2, math.nan, 1), "mean holds nan; give finite numbers"),
-        ((2, 1, -1), "sd is -1; give a standard deviation, 0 or more"),
-        ((2, 1, math.inf), "sd holds inf"),
+        ((0, 1, 1), "n is 0"),
+        ((2.5, 1, 1), "n is 2.5"),
+        ((2, math.nan, 1), "mean is nan"),
+        ((2, 1, -1), "sd is -1"),
+        ((2, 1, math.inf), "sd is inf"),
     ],
 )
 def test_wrong_moments_are_refused(moments: Any, message: str) -> None:
@@ -269,5 +269,5 @@ def test_wrong_moments_are_refused(moments: Any, message: str) -> None:
 
 
 def test_something_is_needed_to_merge() -> None:
-    with pytest.raises(InputError, match="parts is empty; give one Moments or more"):
+    with pytest.raises(InputError, match="parts is empty"):
         merge([])

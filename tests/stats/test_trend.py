@@ -32,10 +32,10 @@ def test_a_slope_of_chance_is_called_one():
 @pytest.mark.parametrize(
     ("times", "scores", "remedy"),
     [
-        ([0, 1], [5, 6], "scores holds 2 scores; give three or more"),
-        ([0, 1], [5, 6, 7], "times holds 2 numbers, but scores 3; give as many"),
-        ([1, 1, 1], [5, 6, 7], "times are all 1; give two or more"),
-        ([0, 1, 2], [5, 5, 5], "scores are all 5; give scores that differ"),
+        ([0, 1], [5, 6], "scores holds 2 scores"),
+        ([0, 1], [5, 6, 7], "times holds 2 numbers, but scores 3"),
+        ([1, 1, 1], [5, 6, 7], "times are all 1"),
+        ([0, 1, 2], [5, 5, 5], "scores are all 5"),
         ([1, 2, np.nan], [5, 6, 7], "times holds nan"),
     ],
 )

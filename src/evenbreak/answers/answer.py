@@ -6,172 +6,20 @@ An `Answer` is made once, in one module a question, and shown by the renderers o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.answers.faces.to_html import to_html
+from evenbreak.answers.faces.to_json import as_dict
+from evenbreak.answers.faces.to_text import to_text
+from evenbreak.answers.parts import Part, Quantities, Table
 
 if TYPE_CHECKING:
     import pandas as pd
 
 SCHEMA_VERSION = 1
 """Of an answer's JSON; it changes when a key changes its meaning."""
-
-Show: TypeAlias = Callable[[Any], str]
-"""A value as a person reads it."""
-
-
-@dataclass(frozen=True)
-class Column:
-    """A column of a table.
-
-    Parameters
-    ----------
-    name
-        its name in files and JSON, with the unit in it; or several names, where a person reads
-        as one what files keep apart, such as a race: its values are then tuples.
-    words
-        what a person reads above it, its lines parted by line breaks; None: it is in files only.
-    show
-        a value as a person reads it; None is shown empty, whatever this says.
-    left
-        whether a person finds it flush left.
-    detail
-        whether only those read it who ask for details.
-    exact
-        whether CSV has its numbers with all their digits, in place of six decimals.
-    """
-
-    name: str | tuple[str, ...]
-    words: str | None = None
-    show: Show = str
-    left: bool = False
-    detail: bool = False
-    exact: bool = False
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names in files, of one column or several."""
-        return (self.name,) if isinstance(self.name, str) else self.name
-
-    def text(self, value: Any) -> str:
-        """Return a value as a person reads it."""
-        return "" if value is None else self.show(value)
-
-
-@dataclass(frozen=True)
-class Table:
-    """Rows of values with named columns.
-
-    Parameters
-    ----------
-    name
-        its key in JSON; empty for a view of numbers that JSON holds elsewhere.
-    columns
-        what stands in each row.
-    rows
-        the values, a row at a time; whatever can be gone through more than once.
-    title
-        a line above it.
-    """
-
-    name: str
-    columns: Sequence[Column]
-    rows: Iterable[Sequence[Any]]
-    title: str = ""
-
-    def shown(self, *, verbose: bool = False) -> list[tuple[int, Column]]:
-        """Return the columns that a person reads, each with its place in a row."""
-        return [
-            (k, column)
-            for k, column in enumerate(self.columns)
-            if column.words is not None and (verbose or not column.detail)
-        ]
-
-    @property
-    def names(self) -> list[str]:
-        """The columns of its CSV."""
-        return [name for column in self.columns for name in column.names]
-
-    def records(self) -> Iterator[list[Any]]:
-        """Yield the rows as files hold them: a value for each of `names`."""
-        wide = [len(column.names) for column in self.columns]
-        for row in self.rows:
-            record: list[Any] = []
-            for value, many in zip(row, wide, strict=True):
-                if isinstance(value, tuple):
-                    record += value
-                else:
-                    record += [value] * many  # one value, or None for all
-            yield record
-
-    def to_dicts(self) -> list[dict[str, Any]]:
-        """Return the rows as JSON holds them."""
-        return [dict(zip(self.names, record, strict=True)) for record in self.records()]
-
-    def to_frame(self) -> pd.DataFrame:
-        """Return it as a DataFrame with the columns of its CSV."""
-        import pandas as pd
-
-        return pd.DataFrame(list(self.records()), columns=self.names)
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """One number, or a plain word, with its name.
-
-    Parameters
-    ----------
-    name
-        its key in JSON, its row in CSV.
-    value
-        None where there is none; it is then not shown.
-    words
-        what a person calls it; None: it is in files only.
-    show
-        the value as a person reads it.
-    note
-        what stands behind it, such as an interval.
-    detail
-        whether only those read it who ask for details.
-    """
-
-    name: str
-    value: Any
-    words: str | None = None
-    show: Show = str
-    note: str = ""
-    detail: bool = False
-
-
-@dataclass(frozen=True)
-class Quantities:
-    """Quantities, a line each.
-
-    Parameters
-    ----------
-    of
-        the quantities.
-    title
-        a line above them.
-    in_json
-        False for a view of numbers that JSON holds elsewhere.
-    """
-
-    of: Sequence[Quantity]
-    title: str = ""
-    in_json: bool = True
-
-    def shown(self, *, verbose: bool = False) -> list[Quantity]:
-        """Return those that a person reads."""
-        return [
-            one
-            for one in self.of
-            if one.words is not None and one.value is not None and (verbose or not one.detail)
-        ]
-
-
-Part: TypeAlias = str | Quantities | Table
-"""A paragraph, or numbers."""
 
 
 @dataclass(frozen=True)
@@ -196,6 +44,7 @@ class Answer:
     schema_version
         of its JSON.
 
+    >>> from evenbreak.answers.parts import Quantity
     >>> from evenbreak.answers.wording import chance
     >>> win = Quantity("p_win_a", 0.875, "A wins the match", chance)
     >>> answer = Answer("race 7:7", ["A wins 7 matches of 8.", Quantities([win])])
@@ -217,6 +66,9 @@ class Answer:
     csv: Quantities | Table | None = None
     schema_version: int = SCHEMA_VERSION
 
+    def __repr__(self) -> str:
+        return f"<Answer: {self.heading.partition(chr(10))[0]}>"
+
     @property
     def sentences(self) -> list[str]:
         """The paragraphs, those of the details left out."""
@@ -230,8 +82,6 @@ class Answer:
 
     def to_dict(self) -> dict[str, Any]:
         """Return what its JSON holds: plain numbers, words, lists and dicts."""
-        from evenbreak.answers.faces.to_json import as_dict
-
         return as_dict(self)
 
     def to_frame(self) -> pd.DataFrame:
@@ -248,12 +98,8 @@ class Answer:
 
     def __str__(self) -> str:
         """Return the answer as a terminal shows it."""
-        from evenbreak.answers.faces.to_text import to_text
-
         return to_text(self).rstrip("\n")
 
     def _repr_html_(self) -> str:
         """Return the answer as a notebook shows it."""
-        from evenbreak.answers.faces.to_html import to_html
-
         return to_html(self)

@@ -1,18 +1,14 @@
 """What each break format is worth to two players in the long run."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import chance, count_of, decimals, listed, percent
-from evenbreak.practice.breaks import compare_break_formats
-
-if TYPE_CHECKING:
-    from evenbreak.games.rack import Rack
-    from evenbreak.practice.breaks import BreakFormatValue
+from evenbreak.games.rack import Rack
+from evenbreak.practice.breaks import BreakFormatValue, compare_break_formats
 
 USUAL = ("winner", "loser", "alternate")
 
@@ -36,9 +32,9 @@ def breaks_answer(
 
     >>> from evenbreak.games import Rack
     >>> print(breaks_answer(Rack(0.9, 0.5), lose=2).sentences[0])
-    A does best with winner breaks, winning 83 % of the racks, and B with loser breaks, ...
-    At these stakes A gains with winner and alternate breaks and loses with loser breaks.
-    In 100 racks with winner breaks A comes out 50 points ahead on average, give or take 17.
+    A does best with winner breaks, winning 83% of the racks; B does best with loser breaks, ...
+    At these stakes A comes out ahead with winner and alternate breaks and behind with loser breaks.
+    Over 100 racks with winner breaks, A comes out 50 points ahead on average, give or take 17.
     """
     values = compare_break_formats(rack, win=win, lose=lose, first_breaker=first_breaker)
     usual = [value for value in values if value.name in USUAL]
@@ -52,20 +48,20 @@ def breaks_answer(
         Column("memory", "left after\na rack", _four, detail=True),
     ]
     return Answer(
-        f"A wins {rack.p1:g} of the racks that A breaks, B wins {rack.chance(2, breaker=2):g} of "
-        f"the racks that B breaks\nA gains {win:g} for each rack won and loses {lose:g} for each "
-        "rack lost",
+        f"The breaker wins a rack with probability {rack.p1:g} (A) or "
+        f"{rack.chance(2, breaker=2):g} (B)\nA wins {win:g} for each rack won and pays {lose:g} "
+        "for each rack lost",
         [
             f"{_who_gains(usual)}\n{_in_a_session(usual[0])}",
             Table("formats", columns, [_row(value, lose) for value in values]),
-            "'Even if a win pays': the points for a rack won that make the stakes even. 'First "
-            "break': how many more racks A wins over a whole session by breaking first.",
+            "'Even if a win pays': what A should get for a rack won to make the stakes fair. "
+            "'First break': how many more racks A wins in a long session by breaking first.",
         ],
         [
-            "'Spread of points': over N racks the standard deviation of A's points is this number "
-            "times the square root of N. 'Left after a rack': the share of the first break's "
-            "effect that reaches the next rack (the second eigenvalue of the chain of breakers); "
-            "below 0 the advantage changes sides."
+            "'Spread of points': multiply it by the square root of N for the standard deviation of "
+            "A's points over N racks. 'Left after a rack': how much of the first break's effect is "
+            "left one rack later (the second eigenvalue of the chain of breakers); below 0, the "
+            "advantage changes sides."
         ],
     )
 
@@ -88,20 +84,20 @@ def _who_gains(usual: Sequence[BreakFormatValue]) -> str:
     """Return which of the usual formats suits whom, and where the stakes turn."""
     for value in usual:
         if math.isinf(value.first_break):
-            return f"With {value.name} breaks whoever breaks first breaks every rack."
+            return f"With {value.name} breaks, the player who breaks first breaks every rack."
     best, worst = usual[0], usual[-1]
     if best.share - worst.share < SAME:
         return "Winner, loser and alternate breaks are worth the same to both."
     text = (
-        f"A does best with {best.name} breaks, winning {percent(best.share)} of the racks, and B "
-        f"with {worst.name} breaks, winning {percent(1.0 - worst.share)}."
+        f"A does best with {best.name} breaks, winning {percent(best.share)} of the racks; B does "
+        f"best with {worst.name} breaks, winning {percent(1.0 - worst.share)}."
     )
     gains = [value.name for value in usual if value.points > SAME]
     losses = [value.name for value in usual if value.points < -SAME]
     if gains and losses:
         text += (
-            f"\nAt these stakes A gains with {listed(gains)} breaks "
-            f"and loses with {listed(losses)} breaks."
+            f"\nAt these stakes A comes out ahead with {listed(gains)} breaks "
+            f"and behind with {listed(losses)} breaks."
         )
     return text
 
@@ -110,13 +106,13 @@ def _in_a_session(best: BreakFormatValue) -> str:
     points = round(100 * best.points)
     ahead = f"{count_of(abs(points), 'point')} {'ahead' if points > 0 else 'behind'}"
     return (
-        f"In 100 racks with {best.name} breaks A comes out {ahead if points else 'even'} on "
+        f"Over 100 racks with {best.name} breaks, A comes out {ahead if points else 'even'} on "
         f"average, give or take {10 * best.sd_points:,.0f}."
     )
 
 
 def _who(breaks: str) -> str:
-    return breaks.upper() if breaks in ("a", "b") else breaks
+    return f"always {breaks.upper()}" if breaks in ("a", "b") else breaks
 
 
 def _four(value: float) -> str:

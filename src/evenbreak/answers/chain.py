@@ -1,20 +1,16 @@
 """Where a chain ends, or what it does in the long run."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import chance, count_of, games, listed
-from evenbreak.chains.limits import stochastic_limit
+from evenbreak.chains.chain import Chain
+from evenbreak.chains.limits import Limit, stochastic_limit
 from evenbreak.chains.passage_times import steps_to_absorption
 from evenbreak.chains.powers import propagate
 from evenbreak.errors import AccuracyError
-
-if TYPE_CHECKING:
-    from evenbreak.chains.chain import Chain
-    from evenbreak.chains.limits import Limit
 
 NAMED = 5
 """States that a sentence names, the likeliest ones."""
@@ -89,8 +85,8 @@ def _mean_steps(chain: Chain) -> tuple[float | None, list[str]]:
     try:
         return steps_to_absorption(chain).mean, []
     except AccuracyError as error:
-        doubt = f"the mean number of steps could not be worked out ({error}); absorption may be "
-        return None, [doubt + "certain all the same"]
+        doubt = f"the mean number of steps could not be calculated ({error}); absorption may be "
+        return None, [doubt + "certain nevertheless"]
 
 
 def _in_the_end(limit: Limit, kinds: Sequence[str], mean_steps: float | None) -> str:

@@ -1,13 +1,14 @@
 """The chart by rating difference that the fairest races come to."""
 
-from __future__ import annotations
-
 import math
-from typing import Any, NamedTuple
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
 
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.scale_words import decimals_of
-from evenbreak.matches.win import race_win_probability
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from evenbreak.ratings.scale import Scale
 
 MOST_BANDS = 40
@@ -28,7 +29,9 @@ class Band(NamedTuple):
     p_after: float
 
 
-def chart_bands(offered: OfferedRaces, scale: Scale, furthest: float) -> list[Band]:
+def chart_bands(
+    offered: OfferedRaces, scale: Scale, furthest: float, error: float = 0.0
+) -> list[Band]:
     """Return the chart of races by rating difference that the fairest races come to.
 
     Parameters
@@ -40,6 +43,8 @@ def chart_bands(offered: OfferedRaces, scale: Scale, furthest: float) -> list[Ba
         what a rating difference means.
     furthest
         the difference, in points, up to which the chart goes.
+    error
+        the standard error of a difference, over which chances are averaged.
 
     Returns
     -------
@@ -61,40 +66,18 @@ def chart_bands(offered: OfferedRaces, scale: Scale, furthest: float) -> list[Ba
     # One step beyond, so that the furthest pair is in a band even where one begins with it.
     last = math.ceil(furthest / unit) + 1
 
-    def race(step: int) -> tuple[int, int]:
-        fairest = offered.fairest(scale.win_probability(step * unit))
-        return fairest.race_1, fairest.race_2
-
-    def chance(step: int, needs: tuple[int, int]) -> float:
-        return float(race_win_probability(scale.win_probability(step * unit), *needs))
-
     # From one band to the next the stronger gives one game more, or the weaker gets one.
-    if race(0)[1] - race(last)[1] >= MOST_BANDS:
+    _, (most, least) = offered.fairest([0.0, last * unit], error, scale)
+    if most - least >= MOST_BANDS:
         return []
-    bands: list[Band] = []
-    first, needs = 0, race(0)
-    while first < last:
-        after = _first_other(race, first, last, needs)
-        bands.append(
-            Band(
-                round(first * unit, decimals),
-                round(after * unit, decimals),
-                *needs,
-                chance(first, needs),
-                chance(after, needs),
-            )
-        )
-        first, needs = after, race(after)
+    difference = np.arange(last + 1) * unit
+    stronger, weaker = offered.fairest(difference, error, scale)
+    starts = np.flatnonzero(np.diff(stronger) | np.diff(weaker)) + 1
+    bands = []
+    for first, after in pairwise([0, *starts[starts < last].tolist(), last]):
+        m, n = int(stronger[first]), int(weaker[first])
+        ends = np.round(difference[[first, after]], decimals)
+        chances = win_given_ratings(difference[[first, after]], error, m, n, scale=scale)
+        (low, high), (p_low, p_high) = ends.tolist(), chances.tolist()
+        bands.append(Band(low, high, m, n, p_low, p_high))
     return bands
-
-
-def _first_other(race: Any, first: int, last: int, needs: tuple[int, int]) -> int:
-    """Return the first step after `first` with another race, or `last`: no race comes twice."""
-    low, high = first, last
-    while high - low > 1:
-        middle = (low + high) // 2
-        if race(middle) == needs:
-            low = middle
-        else:
-            high = middle
-    return high

@@ -1,17 +1,14 @@
 """Choosing the players of a sheet: by name, or those who play most."""
 
-from __future__ import annotations
-
-from collections.abc import Iterable, Sequence
-
-import numpy as np
+from collections.abc import Sequence
 
 from evenbreak.errors import InputError
 from evenbreak.files.known_names import KnownNames
+from evenbreak.files.player_names import clean_name
 from evenbreak.files.problems import quoted
-from evenbreak.files.results_columns import clean_name
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.roster import Roster
 
 
 def most_active(ratings: Ratings, top: int) -> list[int]:
@@ -25,15 +22,12 @@ def most_active(ratings: Ratings, top: int) -> list[int]:
     return order[:top]
 
 
-def by_strength(ratings: Ratings, players: Iterable[int]) -> list[int]:
-    """Return players (positions in `ratings.players`), the strongest first, equals by name."""
-    # Rounded in log-odds, so that neither the scale nor the last bits decide.
-    strength = np.round(ratings.scale.log_odds(ratings.rating - ratings.anchor), 9)
-    return sorted(players, key=lambda k: (-strength[k], k))
-
-
 def find_players(
-    ratings: Ratings | Results, names: Sequence[str], *, said: str = "players"
+    ratings: Ratings | Results | Roster,
+    names: Sequence[str],
+    *,
+    said: str = "players",
+    where: str = "the results",
 ) -> list[int]:
     """Return the positions of the named players, each once; upper and lower case may differ.
 
@@ -45,11 +39,13 @@ def find_players(
         as a person typed them.
     said
         the parameter or option that named them, for the error.
+    where
+        where they should stand, for the error.
 
     Raises
     ------
     InputError
-        if names are not in the results; it lists all of them, each with similar names.
+        if names are not among the players; it lists all of them, each with similar names.
     """
     known = KnownNames(ratings.players)
     found: dict[int, None] = {}
@@ -62,6 +58,6 @@ def find_players(
             found[place] = None
     if unknown:
         raise InputError(
-            f"{said}: not in the results: {', '.join(unknown)}; write names as the results do"
+            f"{said}: not in {where}: {', '.join(unknown)}; write names as they stand there"
         )
     return list(found)

@@ -1,17 +1,11 @@
 """The comeback table: a player's chance at every score that can still come."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Column, Part, Table
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.games.ahead import Ahead
-from evenbreak.games.rack import Rack
-
-if TYPE_CHECKING:
-    from evenbreak.games.match import Match
-    from evenbreak.matches.live import LiveOdds
+from evenbreak.games.match import Match
+from evenbreak.matches.live import LiveOdds
 
 Score = tuple[int, int]
 Cells = Mapping[Score, float]
@@ -30,7 +24,7 @@ def comeback_tables(match: Match, odds: LiveOdds, names: tuple[str, str]) -> Ite
         score, *inner = odds.now.scores if (odds.now.breaker or 0) == breaker else ((-1, -1),)
         here = [moment for moment in moments if (moment.breaker or 0) == breaker]
         breaks = f", {names[breaker - 1]} to break" if breaker else ""
-        if isinstance(match.rack, Rack):
+        if not isinstance(match.rack, Match):
             cells = {moment.scores[0]: moment.p_win_1 for moment in here}
             yield _matrix(f"by score{breaks}", cells, isinstance(match, Ahead), score, names)
             continue

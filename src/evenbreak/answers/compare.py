@@ -1,18 +1,15 @@
 """Match formats side by side: which is better for whom, and at what strength that changes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, listed, percent, signed
-
-if TYPE_CHECKING:
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.matches.crossings import Crossing, Crossings
-    from evenbreak.matches.formats import MatchFormat
-    from evenbreak.matches.odds import MatchOdds
+from evenbreak.matches.crossings import Crossing, Crossings
+from evenbreak.matches.formats import MatchFormat
+from evenbreak.matches.odds import MatchOdds
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""
@@ -62,11 +59,14 @@ def compare_answer(
     if len(compared) > 1:
         parts.append(_turns(names, pairs, players, _stays(axis, hold)))
     formats = Table("", [Column(name) for name in _COLUMNS], [_row(one) for one in compared])
+    if players.taken_as_right:
+        parts.append(players.taken_as_right)
     return Answer(
         players.description,
         parts,
         warnings=players.doubts,
         data={
+            **players.named,
             "formats": [
                 {
                     **dict(zip(_COLUMNS, _row(one), strict=True)),
@@ -119,7 +119,7 @@ def _formats(compared: Sequence[Compared], players: TwoPlayers, axis: str) -> Ta
         Column("from_even", "from even", signed(4)),
         Column("mean_games", "games, on\naverage", games),
         Column("games_p90", "9 of 10\nend within"),
-        Column("even", f"even at {axis}"),
+        Column("even", f"even if\n{axis} is"),
     ]
     rows = [
         (

@@ -1,23 +1,24 @@
 """The fairest race of each pair of rated players."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING
 
-from evenbreak.answers.chosen_players import by_strength
+import numpy as np
+import pandas as pd
+
 from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.roster_matchups import roster_matchups
+from evenbreak.files.csv_writer import DECIMALS
+from evenbreak.handicaps.charts.given_ratings import MOST_DOUBLINGS
 from evenbreak.ratings.fitted import Ratings
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-NOT_LINKED = "no race: no chain of opponents links the two"
+from evenbreak.ratings.roster import Roster
 
 
 def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRaces) -> pd.DataFrame:
     """Return the fairest race of each pair of players, the stronger of the two first.
+
+    The races are those of `roster_matchups` for the list of ratings that a report writes, so a
+    pair has the same race here and wherever that list is read.
 
     Parameters
     ----------
@@ -31,34 +32,22 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
     Returns
     -------
     pandas.DataFrame
-        player_a, player_b; p_game_a = P(a wins a game | the ratings are right); race_a,
-        race_b, the games that each needs; p_win_a = P(a wins that race); mean_games and
-        games_p90, its mean length and the games within which 90 % of such races end;
-        note. Where no chain of opponents links the two, their ratings cannot be
-        compared: there are no numbers then, and the note says so.
+        the frame of `roster_matchups`. Where no chain of opponents links the two, their ratings
+        cannot be compared: there are no numbers then, and the note says so.
     """
-    import pandas as pd
-
-    rows = [_row(ratings, a, b, offered) for a, b in combinations(by_strength(ratings, players), 2)]
-    columns = {
-        "player_a": "object",
-        "player_b": "object",
-        "p_game_a": "float64",
-        "race_a": "Int64",
-        "race_b": "Int64",
-        "p_win_a": "float64",
-        "mean_games": "float64",
-        "games_p90": "Int64",
-        "note": "object",
-    }
-    return pd.DataFrame(rows, columns=list(columns)).astype(columns)
+    order = ratings.strongest_first(players)
+    pairs = np.array(list(combinations(order, 2)), dtype=np.int64).reshape(-1, 2)
+    return roster_matchups(_as_listed(ratings), pairs, scale=ratings.scale, offered=offered).frame
 
 
-def _row(ratings: Ratings, a: int, b: int, offered: OfferedRaces) -> tuple[object, ...]:
-    names = ratings.players[a], ratings.players[b]
-    if ratings.component[a] != ratings.component[b]:
-        return (*names, *[None] * 6, NOT_LINKED)
-    p = ratings.scale.win_probability(float(ratings.rating[a] - ratings.rating[b]))
-    race = offered.fairest(p)
-    numbers = (race.race_1, race.race_2, race.p_win_1, race.mean_games, race.games_p90)
-    return (*names, p, *numbers, "")
+def _as_listed(ratings: Ratings) -> Roster:
+    """Return the ratings as their list has them: rounded, with an error for each player."""
+    # An error beyond this says that nothing is known; numbers would not change much.
+    most = MOST_DOUBLINGS * ratings.scale.points_per_doubling / 2.0
+    return Roster(
+        ratings.players,
+        np.round(ratings.rating, DECIMALS),
+        np.minimum(np.round(ratings.quasi_error, DECIMALS), most),
+        ratings.games + ratings.races_won + ratings.races_lost,
+        component=ratings.component,
+    )

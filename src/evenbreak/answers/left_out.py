@@ -1,7 +1,5 @@
 """What a fair-race sheet does not include, and why."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
@@ -11,6 +9,8 @@ from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.sheet import Sheet
 from evenbreak.answers.wording import count_of
 from evenbreak.ratings.fitted import Ratings
+
+NOTHING_LEFT_OUT = "Nothing: every match in the file was used, and every player is on this sheet."
 
 
 def left_out(
@@ -56,7 +56,7 @@ def _unlinked(sheet: Sheet) -> Iterator[Remark]:
             "rated at the mean until there are results",
             idle,
         )
-    why = "nothing links the two, not even opponents of opponents"
+    why = "no chain of opponents links them"
     if apart := int(sheet.paired["race_a"].isna().sum()):
         yield Remark(f"the races of {count_of(apart, 'pair')}", why)
     elif (groups := count_groups(ratings)) > 1:
@@ -79,5 +79,5 @@ def _not_shown(sheet: Sheet, listed: int | None, in_table: int | None) -> Iterat
     if paired < rated:
         yield Remark(
             f"the races of {count_of(rated - paired, 'rated player')}",
-            "not chosen to be paired; ratings.csv has their ratings",
+            "they were not chosen; ratings.csv has their ratings",
         )

@@ -1,22 +1,22 @@
 """A match under way: how it stands, what the next game is worth, how it went."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.comebacks import comeback_tables
 from evenbreak.answers.odds import match_words
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, percent, signed
-
-if TYPE_CHECKING:
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.games.match import Match
-    from evenbreak.matches.live import LiveOdds, Standing
-
+from evenbreak.games.match import Match
+from evenbreak.matches.live import LiveOdds, Standing
 
 _PLACE = ("score_a", "score_b", "set_a", "set_b", "next_break")
+
+
+LARGE_SWING = 0.15
+"""How much a game must change a chance to be called the turning point."""
 
 
 def live_answer(
@@ -50,12 +50,13 @@ def live_answer(
     *_, last = course.records()
     return Answer(
         f"{players.description}\n{_standing_words(match, now, players)}",
-        [part for part in parts if part],
+        [part for part in [*parts, players.taken_as_right] if part],
         warnings=players.doubts,
         data={
             "now": dict(zip(course.names, last, strict=True)),
             course.name: course.to_dicts(),
             to_come.name: to_come.to_dicts(),
+            **players.named,
         },
         csv=to_come if comebacks else course,
     )
@@ -95,9 +96,9 @@ def _now(now: Standing, players: TwoPlayers) -> Quantities:
             Quantity(
                 "p_win_a_if_b", other, f"{a} wins the match if {b} wins the next game", chance
             ),
-            Quantity("leverage", now.leverage, "leverage of the next game: the difference", chance),
+            Quantity("leverage", now.leverage, "what the next game is worth (leverage)", chance),
             Quantity("mean_racks_left", now.mean_racks, "games left, on average", games),
-            Quantity("racks_left_p90", now.racks_p90, "9 of 10 matches end within", games),
+            Quantity("racks_left_p90", now.racks_p90, "9 out of 10 matches end within", games),
         ],
         in_json=False,
     )
@@ -157,8 +158,9 @@ def _turning_point(odds: LiveOdds, players: TwoPlayers) -> str:
     before, after = (
         moment.p_win_1 if winner == 1 else moment.p_win_2 for moment in odds.course[most : most + 2]
     )
+    turned = "was the turning point" if after - before >= LARGE_SWING else "changed the odds most"
     return (
-        f"Game {most + 1} was the turning point: it took {players.names[winner - 1]}'s chance from "
+        f"Game {most + 1} {turned}: it took {players.names[winner - 1]}'s chance from "
         f"{percent(before)} to {percent(after)}."
     )
 

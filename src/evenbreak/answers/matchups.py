@@ -1,31 +1,32 @@
 """Which race each pair of a round plays, who wins it how often, and how long it takes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict, dataclass
+from typing import Any
 
-from evenbreak.answers.answer import Answer, Column, Part, Table
+import pandas as pd
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.remarks import Remarks
 from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.round import AT_A_TIME, Round
 from evenbreak.answers.round_words import (
+    about_levels,
     about_method,
-    about_model,
     about_pairs,
     about_players,
+    about_time,
     doubtful,
     evening_words,
+    game_model,
     least_even,
     races_of,
+    ratings_words,
     which_races,
 )
-from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.wording import chance, decimals, race
 from evenbreak.files.csv_writer import rows_of
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
@@ -45,7 +46,8 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
     >>> asked = {"scale": SCALES["npl"], "chart": chart("npl_10")}
     >>> tonight = Round(file=file, roster=club, pairs=all_pairs(club), **asked)
     >>> matchups_answer(tonight).sentences[0]
-    'Races by the chart npl_10. The race is 6:4 for Ann against Bo: Ann wins 53 % of the time.'
+    'The races come from the chart npl_10. The race is 6:4 for Ann against Bo: Ann wins 53% of
+    the time.'
     """
     at_once = len(tonight.pairs) <= AT_A_TIME
     frame = tonight.matchups.frame if at_once else None
@@ -55,20 +57,36 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
         least = "" if frame is None else least_even(races_of(frame, prefix))
         parts.append(f"{which_races(tonight, prefix)} {least}".rstrip())
     if tonight.evening:
-        parts.append("\n".join(map(evening_words, tonight.evening)))
+        parts.append("\n".join([*map(evening_words, tonight.evening), about_time(tonight)]))
     parts.append(table)
+    if tonight.pace is not None and not tonight.evening:
+        parts.append(about_time(tonight))
     if doubtful(tonight):
-        parts.append("A wins: the chance, averaged over how far the ratings may be off.")
+        parts.append("'A wins' is averaged over how far the ratings may be off.")
+    parts += [" ".join(about_levels(tonight))] if tonight.levels is not None else []
     remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
-    parts += ["\n".join(f"- {remark}" for remark in remarks)] if remarks else []
+    parts += [Remarks(remarks)] if remarks else []
+    method = list(about_method(tonight))
     return Answer(
-        f"Races for {file_name(tonight.file)}\nRatings {scale_words(tonight.scale)}",
+        f"Races for {file_name(tonight.file)}\n{ratings_words(tonight)}",
         parts,
-        details=["\n".join([*map(str, about_method(tonight)), about_model(tonight)])],
+        details=[*([Remarks(method)] if method else []), game_model(tonight)],
         warnings=[*tonight.file.warnings, *warnings],
-        data={"evening": tonight.evening},
+        data={
+            "evening": tonight.evening,
+            "pace": _pace(tonight),
+            "levels": tonight.levels
+            and dict(zip(tonight.levels.levels, tonight.levels.strengths, strict=True)),
+        },
         csv=table,
     )
+
+
+def _pace(tonight: Round) -> dict[str, Any] | None:
+    """Return what the minutes assume, in minutes and standard deviations of logarithms."""
+    if tonight.pace is None:
+        return None
+    return {**asdict(tonight.pace), "turnover": tonight.turnover.mean}
 
 
 def _table(tonight: Round) -> Table:
@@ -89,7 +107,7 @@ def _race_columns(tonight: Round, prefix: str, *, both: bool) -> Iterator[Column
     yield Column(f"{prefix}p_win_a_plug_in", sure, chance, detail=True)
     if prefix:
         yield Column(f"{prefix}unfairness")
-    timed = tonight.minutes_per_game is not None
+    timed = tonight.pace is not None
     within = None if both else "9 of 10\nwithin"
     average = "" if both else ",\naverage"
     yield Column(f"{prefix}mean_games", None if timed else f"games{average}", decimals(1))

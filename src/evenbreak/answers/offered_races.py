@@ -1,13 +1,14 @@
 """Which races players are offered, and the fairest of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
+from numpy.typing import ArrayLike
+
 from evenbreak.answers.wording import count_of
+from evenbreak.arrays import Ints
 from evenbreak.errors import InputError
-from evenbreak.games.rack import Rack
-from evenbreak.handicaps.charts.fair import FairRace, fair_races
+from evenbreak.handicaps.charts.given_ratings import fair_races_given_ratings
+from evenbreak.ratings.scale import Scale
 
 
 @dataclass(frozen=True)
@@ -39,9 +40,15 @@ class OfferedRaces:
                 f"games is {self.games!r} and race_to is {self.race_to!r}; give exactly one of them"
             )
 
-    def fairest(self, p: float) -> FairRace:
-        """Return the race nearest to even, given P(player 1 wins a game)."""
-        return fair_races(Rack(p), games=self.games, race_to=self.race_to, top=1)[0]
+    def fairest(self, gap: ArrayLike, error: ArrayLike, scale: Scale) -> tuple[Ints, Ints]:
+        """Return (m, n), the races nearest to even for these rating differences.
+
+        Chances are averaged over how far each difference may be off, `error` being its
+        standard error; 0 takes the ratings as right.
+        """
+        return fair_races_given_ratings(
+            gap, error, games=self.games, race_to=self.race_to, scale=scale
+        )
 
     @property
     def in_words(self) -> str:
@@ -51,5 +58,5 @@ class OfferedRaces:
             return f"The fairest races in which the stronger player needs {needs}."
         low, high = self.games
         span = f"{low:,} to " if low < high else ""
-        text = f"The fairest races whose longest possible match has {span}{count_of(high, 'game')}"
-        return f"{text}; each pair gets the most even of them." if low < high else f"{text}."
+        text = f"The fairest races whose longest match has {span}{count_of(high, 'game')}"
+        return f"{text}; each pair gets the most even one." if low < high else f"{text}."

@@ -1,20 +1,18 @@
-"""Remarks: what a sheet leaves out or takes for granted, and why."""
+"""Remarks: what an answer leaves out or takes for granted, and why."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.wording import some_of
-from evenbreak.files.results import ResultsFile
-from evenbreak.files.roster import RosterFile
 
 MOST_NAMES = 5
+"""The most names that a remark lists."""
 
 
 class Remark(NamedTuple):
-    """Something worth knowing about a sheet, and what there is to say of it.
+    """Something worth knowing about an answer, and what there is to say of it.
 
     Attributes
     ----------
@@ -54,12 +52,21 @@ class Remark(NamedTuple):
         return f"{self.heading}: {self.why}."
 
 
-def warnings_of(file: ResultsFile | RosterFile) -> Iterator[Remark]:
-    """Yield the warnings about a file, without the file's folder, which is private."""
-    for warning in file.warnings:
-        text = warning.removeprefix(f"{file.source}:")
-        if text == warning:
-            yield Remark("Warning", warning)
-        else:  # after the name comes a blank, or the number of a line
-            why = text.lstrip() if text.startswith(" ") else f"line {text}"
-            yield Remark(f"Warning about {file_name(file)}", why)
+class Remarks(str):
+    """A paragraph that is a list of remarks.
+
+    >>> print(Remarks([Remark("New players", "taken as 80", ["Ann"])], "Assumed"))
+    Assumed:
+    - New players (Ann): taken as 80.
+    """
+
+    items: tuple[Remark, ...]
+    above: str
+
+    def __new__(cls, items: Iterable[Remark], above: str = "") -> Remarks:
+        """Make the paragraph."""
+        listed = tuple(items)
+        head = [f"{above}:"] if above else []
+        self = super().__new__(cls, "\n".join([*head, *(f"- {item}" for item in listed)]))
+        self.items, self.above = listed, above
+        return self

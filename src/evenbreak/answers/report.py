@@ -1,34 +1,43 @@
 """The fair-race sheet as an answer: the races, the ratings behind them, what was left out."""
 
-from __future__ import annotations
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
+import pandas as pd
 
-from evenbreak.answers.answer import Answer, Column, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.left_out import left_out
+from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.rate import prior_warnings
+from evenbreak.answers.remarks import Remarks
 from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.scale_words import decimals_of
-from evenbreak.answers.sheet import NO_RACE, Sheet
+from evenbreak.answers.sheet import MOST_ON_SHEET, NO_RACE, Sheet
 from evenbreak.answers.sheet_words import (
-    about_model,
     about_ratings,
     how_even,
     how_rated,
     how_to_read,
     played,
+    rating_model,
     source_and_dates,
 )
 from evenbreak.files.csv_writer import rows_of
 
-if TYPE_CHECKING:
-    import pandas as pd
-
-MOST_SHOWN = 30
-"""Players whose races are shown; JSON and files hold all."""
+MOST_ACROSS = 30
+"""Players whose races are a table on a terminal; of more only the ratings are shown there."""
 
 
-def report_answer(sheet: Sheet) -> Answer:
+def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None = None) -> Answer:
     """Return a fair-race sheet as an answer.
+
+    Parameters
+    ----------
+    sheet
+        the sheet.
+    across
+        up to how many players the races are shown as a table.
+    listed
+        how many players the face lists with their ratings, if it lists others than those.
 
     >>> from evenbreak.answers.offered_races import OfferedRaces
     >>> from evenbreak.files.results import ResultsFile
@@ -36,22 +45,28 @@ def report_answer(sheet: Sheet) -> Answer:
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
     >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
     >>> answer = report_answer(Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2]))
-    >>> answer.sentences[1]
+    >>> answer.parts[1].title
     "Find your row and your opponent's column. 7:6 means that you need 7 games and your opponent 6."
     """
-    shown = sheet.strongest(MOST_SHOWN)
-    items = list(left_out(sheet, in_table=len(shown.listed)))
+    shown = sheet.strongest(MOST_ON_SHEET)
+    many = len(shown.listed)
+    races = (
+        _race_table(shown)
+        if many <= across
+        else f"sheet.pdf has the races between the {many} players listed below."
+    )
+    items = list(left_out(sheet, listed=listed, in_table=many))
     return Answer(
         f"Fair races from {source_and_dates(sheet)}\n{played(sheet)}",
         [
             " ".join([sheet.offered.in_words, *how_even(shown.paired)]),
-            how_to_read(shown.paired),
-            _race_table(shown),
+            races,
             " ".join([*about_ratings(sheet), how_rated(sheet)]),
             _ratings_table(shown),
-            *(["\n".join(["Left out:", *(f"- {item}" for item in items)])] if items else []),
+            *([Remarks(items, "Left out")] if items else []),
         ],
-        details=[about_model(sheet)],
+        details=[rating_model(sheet)],
+        warnings=list(prior_warnings(sheet.file, sheet.ratings, sheet.choice)),
         csv=Table("matchups", _columns(sheet.paired), rows_of(sheet.paired)),
         data={
             "ratings": _records(sheet.rated),
@@ -78,7 +93,7 @@ def _race_table(sheet: Sheet) -> Table:
         )
         for place, name in zip(places, names, strict=True)
     ]
-    return Table("", columns, rows)
+    return Table("", columns, rows, how_to_read(sheet.paired))
 
 
 def _ratings_table(sheet: Sheet) -> Table:

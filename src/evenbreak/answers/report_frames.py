@@ -1,44 +1,15 @@
-"""The tables that `evenbreak report` writes: ratings.csv and summary.csv."""
-
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+"""The table that `evenbreak report` writes as summary.csv."""
 
 import numpy as np
+import pandas as pd
 
 from evenbreak import __version__
-from evenbreak.answers.chosen_players import by_strength
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import RosterFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-
-def ratings_frame(ratings: Ratings) -> pd.DataFrame:
-    """Return every player's rating, the strongest first.
-
-    Returns
-    -------
-    pandas.DataFrame
-        player; rating, standard_error and quasi_error in points of the scale; games, won
-        and lost in the matches that were used; component: players with the same number are
-        linked by a chain of opponents, and only their ratings can be compared.
-    """
-    import pandas as pd
-
-    order = by_strength(ratings, range(len(ratings.players)))
-    columns = ("rating", "standard_error", "quasi_error", "games", "won", "lost", "component")
-    return pd.DataFrame(
-        {
-            "player": [ratings.players[k] for k in order],
-            **{name: np.asarray(getattr(ratings, name))[order] for name in columns},
-        }
-    )
 
 
 def summary_frame(
@@ -50,8 +21,6 @@ def summary_frame(
     component, so the rating of a player without games; the standard deviation of the prior
     is given in natural log-odds and in points of the scale.
     """
-    import pandas as pd
-
     scale = ratings.scale
     first, last = dates_of(file.results, ratings.as_of)
     rows: dict[str, object] = {

@@ -4,36 +4,38 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
-from evenbreak.answers.fair_pairs import NOT_LINKED
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
 from evenbreak.files.problems import Problems, quoted
 from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.level_chart import LevelChart
-from evenbreak.handicaps.charts.uncertain import (
+from evenbreak.handicaps.charts.given_ratings import (
     MOST_DOUBLINGS,
-    fairest_races,
     length_given_ratings,
     win_given_ratings,
 )
+from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.level_scale import LevelScale
 from evenbreak.matches.evening import Length
+from evenbreak.matches.minutes import match_minutes
+from evenbreak.matches.pace import Pace
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 FAIR_WITHIN = 0.1
 """How far from 1/2 the chance of a fair race may be."""
+
+NOT_LINKED = "no race: no chain of opponents links the two"
+"""The note on a pair whose ratings cannot be compared."""
 
 NOT_FAIR = "no race allowed is fair"
 """How the note begins on a pair whose fairest race is not within `FAIR_WITHIN`."""
@@ -89,8 +91,9 @@ class Races:
     """The race of each pair, who wins it and how long it lasts.
 
     `p_win` is P(A wins | the ratings and their errors), `plug_in` P(A wins | the ratings are
-    right); `mean` and `p90` are the mean length and the games within which 90 % of such races
-    end; `lengths` has the distribution of each race's length.
+    right); `mean` and `p90` are the mean length and the games within which 90% of such races
+    end; `minutes` has the same two in minutes, if there is a pace, and `lengths` the distribution
+    of each race's length.
     """
 
     m: Ints
@@ -100,16 +103,23 @@ class Races:
     mean: Floats
     p90: Ints
     lengths: Sequence[Length]
+    minutes: tuple[Floats, Floats] | None
 
     @classmethod
-    def of(cls, gap: Floats, error: Floats, m: Ints, n: Ints, scale: Scale) -> Races:
+    def of(
+        cls, gap: Floats, error: Floats, m: Ints, n: Ints, scale: Scale, pace: Pace | None = None
+    ) -> Races:
         """Return the races m:n of pairs with these differences and standard errors."""
         mean, p90 = np.zeros(len(gap)), np.zeros(len(gap), dtype=np.int64)
+        minutes = np.zeros((2, len(gap)))
         lengths: list[Length] = [Length([], [])] * len(gap)
         for race in np.unique(np.column_stack([m, n]), axis=0).tolist():
             of_race = np.flatnonzero((m == race[0]) & (n == race[1]))
             length = length_given_ratings(gap[of_race], error[of_race], *race, scale=scale)
             mean[of_race], p90[of_race] = length.mean, length.quantile(0.9)
+            if pace is not None:
+                timed = match_minutes(length.games, length.probability, pace)
+                minutes[:, of_race] = timed.mean, timed.quantile(0.9)
             for place, chances in zip(of_race.tolist(), length.probability, strict=True):
                 lengths[place] = Length(length.games, chances)
         return cls(
@@ -120,6 +130,7 @@ class Races:
             mean,
             p90,
             lengths,
+            None if pace is None else (minutes[0], minutes[1]),
         )
 
 
@@ -143,6 +154,9 @@ class RosterMatchups:
     best_lengths: Sequence[Length] | None
     linked: NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        return f"<RosterMatchups of {len(self.frame):,} pairs>"
+
 
 def roster_matchups(
     roster: Roster,
@@ -150,8 +164,9 @@ def roster_matchups(
     *,
     scale: Scale,
     chart: Chart | LevelChart | None = None,
+    levels: LevelScale | None = None,
     offered: OfferedRaces | None = None,
-    minutes_per_game: float | None = None,
+    pace: Pace | None = None,
 ) -> RosterMatchups:
     """Return the races of pairs of players, their chances and their lengths.
 
@@ -166,10 +181,12 @@ def roster_matchups(
         what the points mean.
     chart
         the league's chart; ratings are rounded to whole points to look it up.
+    levels
+        how strong the levels are, where ratings are skill levels; None: ratings are strengths.
     offered
         the races among which the fairest is sought.
-    minutes_per_game
-        how long a game takes; None: no minutes.
+    pace
+        how fast matches are played; None: no minutes.
 
     Returns
     -------
@@ -189,8 +206,6 @@ def roster_matchups(
         if neither a chart nor races are offered, a player has no rating, or the chart has no
         such level.
     """
-    import pandas as pd
-
     if chart is None and offered is None:
         raise InputError("chart and offered are missing; give one of them at least")
     if np.isnan(roster.rating).any():
@@ -198,7 +213,8 @@ def roster_matchups(
     a, b = pairs[:, 0], pairs[:, 1]
     linked = _linked(roster, a, b)
     a, b = a[linked], b[linked]
-    gap = roster.rating[a] - roster.rating[b]
+    strength = roster.rating if levels is None else levels.strength(roster.rating)
+    gap = strength[a] - strength[b]
     known = np.nan_to_num(roster.standard_error)
     error = np.hypot(known[a], known[b])
     stated = ~np.isnan(roster.standard_error)
@@ -210,12 +226,11 @@ def roster_matchups(
     }
     by_chart = best = None
     if chart is not None:
-        by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale)
-        columns |= _columns("chart_", by_chart, minutes_per_game)
+        by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale, pace)
+        columns |= _columns("chart_", by_chart)
     if offered is not None:
-        found = fairest_races(gap, error, games=offered.games, race_to=offered.race_to, scale=scale)
-        best = Races.of(gap, error, *found, scale)
-        columns |= _columns("", best, minutes_per_game)
+        best = Races.of(gap, error, *offered.fairest(gap, error, scale), scale, pace)
+        columns |= _columns("", best)
     everyone = {
         "player_a": [roster.players[k] for k in pairs[:, 0].tolist()],
         "player_b": [roster.players[k] for k in pairs[:, 1].tolist()],
@@ -238,6 +253,11 @@ def _linked(roster: Roster, a: Ints, b: Ints) -> NDArray[np.bool_]:
     return linked
 
 
+def cannot_be_compared(roster: Roster, a: int, b: int) -> bool:
+    """Return whether no chain of opponents links two players of a list."""
+    return not _linked(roster, np.array([a]), np.array([b]))[0]
+
+
 def _by_chart(chart: Chart | LevelChart, rating: Floats, a: Ints, b: Ints) -> tuple[Ints, Ints]:
     points = _whole(rating)
     if isinstance(chart, LevelChart):
@@ -251,7 +271,7 @@ def _whole(rating: Floats) -> Floats:
     return rounded
 
 
-def _columns(prefix: str, races: Races, minutes: float | None) -> dict[str, Any]:
+def _columns(prefix: str, races: Races) -> dict[str, Any]:
     columns: dict[str, Any] = {
         "race_a": races.m,
         "race_b": races.n,
@@ -261,8 +281,8 @@ def _columns(prefix: str, races: Races, minutes: float | None) -> dict[str, Any]
     if prefix:
         columns["unfairness"] = np.abs(races.p_win - 0.5)
     columns |= {"mean_games": races.mean, "games_p90": races.p90}
-    if minutes is not None:
-        columns |= {"mean_minutes": races.mean * minutes, "minutes_p90": races.p90 * minutes}
+    if races.minutes is not None:
+        columns |= dict(zip(("mean_minutes", "minutes_p90"), races.minutes, strict=True))
     return {prefix + name: values for name, values in columns.items()}
 
 

@@ -1,9 +1,7 @@
 """The races of a round: who meets whom, what they may play, and when it is all over."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple, TypeAlias
 
@@ -15,7 +13,9 @@ from evenbreak.answers.roster_matchups import RosterMatchups, roster_matchups
 from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.level_scale import LevelScale
 from evenbreak.matches.evening import evening
+from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 
@@ -29,7 +29,7 @@ class EveningEnd(NamedTuple):
     """When all matches that have a race are over, in minutes.
 
     `races` is chart or best; `runs` is how often the evening was simulated, 0 where the
-    answer is exact, and `mean_minutes_error` the standard error that this leaves.
+    answer is calculated, and the errors are the standard errors that this leaves.
     """
 
     races: str
@@ -40,6 +40,7 @@ class EveningEnd(NamedTuple):
     exact: bool
     runs: int
     mean_minutes_error: float
+    minutes_p90_error: float
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -54,10 +55,12 @@ class Round:
         its players, the new ones filled in.
     pairs
         places in the roster, shape (k, 2).
-    scale, chart, offered, minutes_per_game
+    scale, chart, levels, offered, pace
         as for `roster_matchups`.
     tables
-        on how many tables the round is played, if its end is asked for.
+        on how many tables the round is played, if its end is asked for; it needs a pace.
+    turnover
+        the time between two matches on a table.
     seed
         for an evening that has to be simulated.
     listed
@@ -69,11 +72,16 @@ class Round:
     pairs: NDArray[Any]
     scale: Scale
     chart: AnyChart | None = None
+    levels: LevelScale | None = None
     offered: OfferedRaces | None = None
-    minutes_per_game: float | None = None
+    pace: Pace | None = None
     tables: int | None = None
+    turnover: Turnover = field(default_factory=Turnover)
     seed: int = 0
     listed: bool = False
+
+    def __repr__(self) -> str:
+        return f"<Round of {len(self.pairs):,} pairs of {len(self.roster):,} players>"
 
     @property
     def kinds(self) -> dict[str, AnyChart | OfferedRaces]:
@@ -82,11 +90,6 @@ class Round:
         if self.chart is not None:
             by_chart["chart_"] = self.chart
         return by_chart if self.offered is None else {**by_chart, "": self.offered}
-
-    @property
-    def names(self) -> set[str]:
-        """The players who meet somebody."""
-        return {self.roster.players[place] for place in np.unique(self.pairs).tolist()}
 
     def in_parts(self) -> Iterator[RosterMatchups]:
         """Yield the races, so many pairs at a time that memory is no concern."""
@@ -104,16 +107,16 @@ class Round:
             pairs,
             scale=self.scale,
             chart=self.chart,
+            levels=self.levels,
             offered=self.offered,
-            minutes_per_game=self.minutes_per_game,
+            pace=self.pace,
         )
 
     @cached_property
     def evening(self) -> list[EveningEnd]:
         """When all is over, by each kind of race; empty where that is not asked for."""
-        if self.tables is None:
+        if self.tables is None or self.pace is None:
             return []
-        minutes = self.minutes_per_game or 1.0
         answer = self.matchups
         players = [(int(a), int(b)) for a, b in self.pairs[answer.linked]]
         ends = []
@@ -121,17 +124,25 @@ class Round:
             if not lengths:
                 continue
             rng = np.random.default_rng(self.seed)
-            end = evening(lengths, tables=self.tables, players=players, rng=rng)
+            end = evening(
+                lengths,
+                self.pace,
+                turnover=self.turnover,
+                tables=self.tables,
+                players=players,
+                rng=rng,
+            )
             ends.append(
                 EveningEnd(
                     kind,
                     len(lengths),
                     self.tables,
-                    end.mean * minutes,
-                    end.p90 * minutes,
+                    end.mean,
+                    end.p90,
                     end.exact,
                     end.runs,
-                    end.mean_error * minutes,
+                    end.mean_error,
+                    end.p90_error,
                 )
             )
         return ends

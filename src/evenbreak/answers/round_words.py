@@ -1,23 +1,19 @@
 """The sentences of a round's races, each said once for the terminal and the page."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
 
-from evenbreak.answers.fair_pairs import NOT_LINKED
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.remarks import Remark
-from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR
+from evenbreak.answers.roster_matchups import FAIR_WITHIN, NOT_FAIR, NOT_LINKED
 from evenbreak.answers.round import EveningEnd, Round
-from evenbreak.answers.scale_words import game_chance
+from evenbreak.answers.scale_words import game_chance, scale_words
 from evenbreak.answers.wording import clock, count_of, percent, race
-
-if TYPE_CHECKING:
-    import pandas as pd
-    from numpy.typing import NDArray
+from evenbreak.matches.pace import Pace
 
 FEW_GAMES = 20
 """A rating that rests on fewer games is no more than a guess."""
@@ -36,7 +32,11 @@ def races_of(frame: pd.DataFrame, prefix: str) -> pd.DataFrame:
 def which_races(tonight: Round, prefix: str) -> str:
     """Return where the races of one kind come from."""
     way = tonight.kinds[prefix]
-    return way.in_words if isinstance(way, OfferedRaces) else f"Races by the chart {way.name}."
+    return (
+        way.in_words
+        if isinstance(way, OfferedRaces)
+        else f"The races come from the chart {way.name}."
+    )
 
 
 def least_even(paired: pd.DataFrame) -> str:
@@ -46,7 +46,7 @@ def least_even(paired: pd.DataFrame) -> str:
     >>> pairs = {"player_a": ["Ann", "Cy"], "player_b": ["Bo", "Di"]}
     >>> races = {"race_a": [7, 4], "race_b": [5, 6], "p_win_a": [0.52, 0.41]}
     >>> print(least_even(pd.DataFrame(pairs | races)))
-    The least even is 6:4 for Di against Cy: Di wins 59 % of the time.
+    The least even race is 6:4 for Di against Cy: Di wins 59% of the time.
     """
     offered = paired.dropna(subset=["race_a"])
     if not len(offered):
@@ -55,22 +55,50 @@ def least_even(paired: pd.DataFrame) -> str:
     a, b, needs, p = worst.player_a, worst.player_b, (worst.race_a, worst.race_b), worst.p_win_a
     if p < 0.5:
         a, b, needs, p = b, a, needs[::-1], 1.0 - p
-    which = "The least even is" if len(offered) > 1 else "The race is"
+    which = "The least even race is" if len(offered) > 1 else "The race is"
     return f"{which} {race(needs)} for {a} against {b}: {a} wins {percent(p)} of the time."
 
 
 def evening_words(end: EveningEnd) -> str:
     """Return when an evening ends.
 
-    >>> print(evening_words(EveningEnd("chart", 4, 2, 110.2, 120.0, True, 0, 0.0)))
-    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 evenings in 10 end within 2 h 00.
+    >>> print(evening_words(EveningEnd("chart", 4, 2, 110.2, 120.0, True, 0, 0.0, 0.0)))
+    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 out of 10 evenings end within
+    2 h 00.
     """
     return (
         f"{KINDS[end.races]}, {count_of(end.matches, 'match', 'matches')} on "
         f"{count_of(end.tables, 'table')} {'take' if end.matches > 1 else 'takes'} "
-        f"{clock(end.mean_minutes)} on average; 9 evenings in 10 end within "
+        f"{clock(end.mean_minutes)} on average; 9 out of 10 evenings end within "
         f"{clock(end.minutes_p90)}."
     )
+
+
+def about_time(tonight: Round) -> str:
+    """Return what the minutes assume, in a sentence; empty if there are none."""
+    if tonight.pace is None:
+        return ""
+    between = tonight.turnover.mean if tonight.evening else None
+    return time_words(tonight.pace, between)
+
+
+def time_words(pace: Pace, turnover: float | None = None) -> str:
+    """Return what a pace and a turnover assume.
+
+    >>> from evenbreak.matches import PACES
+    >>> print(time_words(PACES["9-ball"]))
+    Times assume 9-ball: 5.6 minutes a game and 3.8 more a match on average; two matches of
+    three come within 29% of that.
+    """
+    which = f"{pace.discipline}: " if pace.discipline else ""
+    more = f" and {pace.overhead:.2g} more a match" if pace.overhead else ""
+    text = (
+        f"Times assume {which}{pace.per_game:.2g} minutes a game{more} on average; two matches of "
+        f"three come within {percent(pace.log_sd)} of that"
+    )
+    if turnover is None:
+        return f"{text}."
+    return f"{text}, and {turnover:.3g} minutes pass between two matches on a table."
 
 
 def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
@@ -79,15 +107,14 @@ def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
     if apart:
         yield Remark(
             f"{count_of(len(apart), 'pair')} without a race",
-            "nothing links the two players, not even opponents of opponents, so their ratings "
-            "cannot be compared",
+            "no chain of opponents links the two players, so their ratings cannot be compared",
             apart,
         )
     uneven = _pairs(frame[frame["note"].str.startswith(NOT_FAIR)])
     if uneven:
         yield Remark(
             f"{count_of(len(uneven), 'pair')} without a fair race",
-            f"even the fairest race allowed leaves one of them below {percent(0.5 - FAIR_WITHIN)}",
+            f"even the fairest race allowed leaves one player below {percent(0.5 - FAIR_WITHIN)}",
             uneven,
         )
 
@@ -118,7 +145,7 @@ def about_players(tonight: Round) -> Iterator[Remark]:
         yield _remark(tonight, silent & here, "without a standard error", exact)
     few = (read.games > 0) & (read.games < FEW_GAMES) & silent & here
     if few.any():
-        yield _remark(tonight, few, f"with fewer than {FEW_GAMES} games", f"{exact} all the same")
+        yield _remark(tonight, few, f"with fewer than {FEW_GAMES} games", f"{exact} nevertheless")
 
 
 def _remark(tonight: Round, which: NDArray[np.bool_], what: str, why: str) -> Remark:
@@ -134,18 +161,17 @@ def about_method(tonight: Round) -> Iterator[Remark]:
         )
     if doubtful(tonight):
         yield Remark(
-            "How far a rating may be off (±, one standard error)",
-            "each chance and each length is averaged over it, the errors of two players taken as "
-            "independent and normal",
+            "Uncertainty of the ratings (±, one standard error)",
+            "each chance and each length is averaged over it, with the errors of two players taken "
+            "as independent and normal",
         )
-    if tonight.minutes_per_game is not None:
-        yield Remark(f"{tonight.minutes_per_game:g} minutes a game", "without pauses")
     for end in tonight.evening:
         if not end.exact:
             yield Remark(
                 f"When it ends {KINDS[end.races][:1].lower()}{KINDS[end.races][1:]}",
                 f"from {end.runs:,} simulated evenings; the standard error of the average is "
-                f"{end.mean_minutes_error:.2g} minutes",
+                f"{end.mean_minutes_error:.2g} minutes, that of the 90% point "
+                f"{end.minutes_p90_error:.2g}",
             )
 
 
@@ -154,7 +180,41 @@ def doubtful(tonight: Round) -> bool:
     return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
 
 
-def about_model(tonight: Round) -> str:
-    """Return the model in a sentence."""
+def ratings_words(tonight: Round) -> str:
+    """Return what the ratings are, in a few words."""
+    if tonight.levels is not None:
+        return f"Ratings are skill levels of {tonight.levels.chart}"
+    return f"Ratings {scale_words(tonight.scale)}"
+
+
+def about_levels(tonight: Round) -> Iterator[str]:
+    """Yield how strong skill levels are taken to be, and what that means for the chances."""
+    if tonight.levels is None:
+        return
+    name, times = tonight.levels.chart, tonight.levels.odds_of_a_level
+    yield (
+        f"How strong a level is comes from the chart itself (`evenbreak chart audit {name}`): with "
+        f"the strengths that make its races as even as possible, one level more multiplies the "
+        f"odds of winning a game by {times:.2f} on average. All players are taken to be average "
+        "for their level."
+    )
+    yield (
+        "So the chances show which races favour a player by the chart's own measure, not whether "
+        "your players have the right levels."
+    )
+
+
+def game_model(tonight: Round) -> str:
+    """Return how a game's chance follows from two ratings, in a sentence."""
+    if tonight.levels is not None:
+        placed = ", ".join(
+            f"{level} at {strength:.2f}"
+            for level, strength in zip(tonight.levels.levels, tonight.levels.strengths, strict=True)
+        )
+        return (
+            f"Levels lie at these strengths: {placed}; a player d stronger wins a game with "
+            f"probability 1/(1 + 2^(\N{MINUS SIGN}d/{tonight.scale.points_per_doubling:.3g})), "
+            "independently of every other game, whoever breaks."
+        )
     text = game_chance(tonight.scale)
     return f"{text[:1].upper()}{text[1:]}, independently of every other game, whoever breaks."

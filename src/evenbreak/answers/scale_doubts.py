@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from evenbreak.answers.scale_words import NAMES
+from evenbreak.ratings.scale import Scale
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from evenbreak.ratings.scale import Scale
 
 USUAL = {"npl": (20, 130), "fargo": (200, 850)}
 """Where most ratings of a scale lie."""
@@ -26,9 +28,9 @@ def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:
 
     >>> from evenbreak.ratings import SCALES
     >>> two_ratings_doubts(SCALES["npl"], 612, 521)
-    ['most npl ratings are between 20 and 130; for fargo ratings add --scale fargo']
+    ['most NPL ratings are between 20 and 130; for Fargo ratings add --scale fargo']
     >>> two_ratings_doubts(SCALES["fargo"], 1750, 1612)
-    ['most fargo ratings are between 200 and 850; for elo ratings add --scale elo']
+    ['most Fargo ratings are between 200 and 850; for Elo ratings add --scale elo']
     """
     if scale.name in USUAL and max(ratings) > 1000:
         other = "elo"
@@ -40,8 +42,8 @@ def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:
         return []
     low, high = USUAL[scale.name]
     return [
-        f"most {scale.name} ratings are between {low} and {high}; "
-        f"for {other} ratings add --scale {other}"
+        f"most {NAMES[scale.name]} ratings are between {low} and {high}; "
+        f"for {NAMES[other]} ratings add --scale {other}"
     ]
 
 
@@ -59,9 +61,10 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
 
     >>> from evenbreak.ratings import SCALES
     >>> league_doubts(SCALES["npl"], [560, 600, 640], "say which with --scale")
-    ['npl ratings average about 80, but these average about 600; say which with --scale']
+    ['NPL ratings average about 80, but these average about 600; say which with --scale']
     >>> league_doubts(SCALES["npl"], [70, 80, 94, 560], "")
-    ['1 of 4 ratings is more than 180 points from the median of 87; are all on the same scale?']
+    ['1 of 4 ratings is more than 180 points from the median of 87; are they all on the same
+    scale?']
     """
     import numpy as np
 
@@ -73,15 +76,15 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
     middle = float(np.median(known))  # one slip makes no other scale
     if scale.centre and abs(middle - scale.centre) > FAR * scale.points_per_doubling:
         doubts.append(
-            f"{scale.name} ratings average about {scale.centre:g}, but these average about "
-            f"{middle:.0f}; {remedy}"
+            f"{NAMES.get(scale.name, scale.name)} ratings average about {scale.centre:g}, but "
+            f"these average about {middle:.0f}; {remedy}"
         )
     edge = APART * scale.points_per_doubling
     apart = int((np.abs(known - middle) > edge).sum())
     if apart:
         doubts.append(
             f"{apart:,} of {len(known):,} ratings {'is' if apart == 1 else 'are'} more than "
-            f"{edge:.0f} points from the median of {middle:.0f}; are all on the same scale?"
+            f"{edge:.0f} points from the median of {middle:.0f}; are they all on the same scale?"
         )
     return doubts
 
@@ -98,8 +101,8 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
 
     >>> from evenbreak.ratings import SCALES
     >>> starter_doubts(SCALES["fargo"], [92, 71, float("nan")])
-    ['new players start at 500, the middle of the fargo scale, but the other ratings go from 71 to
-    92; say with --starter what a new player starts with']
+    ['new players start at 500, the middle of the Fargo scale, but the other ratings go from 71 to
+    92; give the rating of a new player with --starter']
     """
     import numpy as np
 
@@ -111,7 +114,7 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
     if least - edge <= scale.centre <= most + edge:
         return []
     return [
-        f"new players start at {scale.centre:g}, the middle of the {scale.name} scale, but the "
-        f"other ratings go from {least:g} to {most:g}; say with --starter what a new player "
-        "starts with"
+        f"new players start at {scale.centre:g}, the middle of the "
+        f"{NAMES.get(scale.name, scale.name)} scale, but the other ratings go from {least:g} to "
+        f"{most:g}; give the rating of a new player with --starter"
     ]

@@ -1,13 +1,10 @@
 """Scales in words: one that ratings come from, and one that a league's own ratings are put on."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import Scale
 
+NAMES = {"npl": "NPL", "fargo": "Fargo", "elo": "Elo"}
 LIKE = {"npl": "an NPL-like scale", "fargo": "a Fargo-like scale", "elo": "an Elo-like scale"}
 
 
@@ -16,9 +13,9 @@ def scale_words(scale: Scale) -> str:
 
     >>> from evenbreak.ratings import scale_of
     >>> scale_words(scale_of("fargo"))
-    'on the fargo scale (100 points double the odds)'
+    'on the Fargo scale (100 points double the odds)'
     """
-    return f"on the {scale.name} scale ({_points(scale)})"
+    return f"on the {NAMES.get(scale.name, scale.name)} scale ({_points(scale)})"
 
 
 def like_scale_words(scale: Scale) -> str:

@@ -5,23 +5,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import pandas as pd
 
 from evenbreak.answers.chart_bands import Band, chart_bands
 from evenbreak.answers.fair_pairs import matchups_frame
 from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.answers.report_frames import ratings_frame, summary_frame
+from evenbreak.answers.report_frames import summary_frame
 from evenbreak.answers.sure_pairs import SurePair, sure_pairs
 from evenbreak.answers.wording import race
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 NO_RACE = "-"
 """Stands for the race of two players who cannot be compared."""
+
+
+MOST_ON_SHEET = 96
+"""Players on one sheet, whatever its form: 16 pages of paper."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +38,7 @@ class Sheet:
     offered
         the races to choose from.
     rated, paired
-        the tables of `ratings_frame` and `matchups_frame`.
+        the tables of `Ratings.to_frame` and `matchups_frame`.
     choice
         how the prior was chosen, if it was.
 
@@ -65,7 +68,10 @@ class Sheet:
     ) -> Sheet:
         """Return the sheet that pairs these players (positions in `ratings.players`)."""
         paired = matchups_frame(ratings, players, offered)
-        return cls(file, ratings, offered, ratings_frame(ratings), paired, choice)
+        return cls(file, ratings, offered, ratings.to_frame(), paired, choice)
+
+    def __repr__(self) -> str:
+        return f"<Sheet of {len(self.paired):,} pairs of {len(self.listed):,} players>"
 
     def strongest(self, most: int) -> Sheet:
         """Return the sheet with the races of the strongest players only."""
@@ -87,15 +93,23 @@ class Sheet:
     @cached_property
     def sure(self) -> list[SurePair]:
         """How well the difference of each pair is known, the best known first."""
-        return sure_pairs(self.ratings, self.paired)
+        return sure_pairs(self.paired, self.ratings.scale)
 
     @cached_property
     def bands(self) -> list[Band]:
-        """The chart that the races come to, empty if there is none."""
+        """The chart that the races come to, empty if there is none.
+
+        It is that of a pair whose difference is known as well as for half of the pairs.
+        """
         if not self.sure:
             return []
         furthest = max(pair.difference for pair in self.sure)
-        return chart_bands(self.offered, self.ratings.scale, furthest)
+        return chart_bands(self.offered, self.ratings.scale, furthest, self.typical_error)
+
+    @property
+    def typical_error(self) -> float:
+        """The standard error of the difference of half of the pairs, or less; 0 without pairs."""
+        return self.sure[(len(self.sure) - 1) // 2].error if self.sure else 0.0
 
     @cached_property
     def summary(self) -> pd.DataFrame:

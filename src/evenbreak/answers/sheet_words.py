@@ -1,17 +1,14 @@
 """The sentences of a fair-race sheet, each said once for text, paper, page and workbook."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import pandas as pd
 
 from evenbreak.answers.report_frames import count_groups, dates_of, file_name
 from evenbreak.answers.scale_words import game_chance, like_scale_words
 from evenbreak.answers.sheet import Sheet
 from evenbreak.answers.wording import count_of, percent, race
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def source_and_dates(sheet: Sheet) -> str:
@@ -51,16 +48,16 @@ def how_even(paired: pd.DataFrame) -> Iterator[str]:
     if len(offered):
         low, high = percent(offered["p_win_a"].min()), percent(offered["p_win_a"].max())
         wins = f"{low} of the time" if low == high else f"between {low} and {high} of the time"
-        yield f"The stronger player wins {wins}."
+        yield (f"The stronger player wins {wins}, averaged over how far the ratings may be off.")
         which = "The longest of these races" if len(offered) > 1 else "The race"
         yield (
-            f"{which} lasts {offered['mean_games'].max():.1f} games on average; 9 of 10 such "
+            f"{which} lasts {offered['mean_games'].max():.1f} games on average; 9 out of 10 such "
             f"matches end within {offered['games_p90'].max()}."
         )
     if missing := len(paired) - len(offered):
         yield (
-            f"A dash marks {count_of(missing, 'pair')} without a race: nothing links the two "
-            "players, not even opponents of opponents, so their ratings cannot be compared."
+            f"A dash marks {count_of(missing, 'pair')} without a race: no chain of "
+            "opponents links the two players, so their ratings cannot be compared."
         )
 
 
@@ -72,10 +69,7 @@ def about_ratings(sheet: Sheet) -> Iterator[str]:
         "they are not official ratings."
     )
     if (groups := count_groups(ratings)) > 1:
-        yield (
-            f"{groups:,} groups of players have never met, not even through others: compare "
-            "ratings within a group only."
-        )
+        yield (f"{groups:,} groups of players have never met: compare ratings within a group only.")
     if idle := int(ratings.idle.sum()):
         yield f"{count_of(idle, 'more player has', 'more players have')} no games yet."
 
@@ -96,9 +90,9 @@ def how_rated(sheet: Sheet) -> str:
     ratings = sheet.ratings
     prior = float(ratings.scale.points(ratings.prior_sd))
     text = f"Every player starts at {ratings.anchor:g}, give or take {prior:.4g}"
-    if sheet.choice is not None:
+    if sheet.choice is not None and sheet.choice.learnt:
         text += (
-            f": of {len(sheet.choice.tried)} spreads this one predicted "
+            f": of {len(sheet.choice.tried)} values tried, this one predicted "
             f"{sheet.choice.predicted:,} later results best"
         )
     as_of = "" if ratings.as_of is None else f", as of {ratings.as_of}"
@@ -107,8 +101,8 @@ def how_rated(sheet: Sheet) -> str:
     return f"{text}{as_of}."
 
 
-def about_model(sheet: Sheet) -> str:
-    """Return the model in a sentence."""
+def rating_model(sheet: Sheet) -> str:
+    """Return how the ratings were estimated, in a sentence or two."""
     ratings = sheet.ratings
     alike = ", and early and late matches count alike" if ratings.half_life is None else ""
     races = ", and on the chance of a race where only its winner is known"

@@ -1,17 +1,10 @@
 """A match of straight pool: who wins it, how long it takes, and the spot that makes it even."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-from evenbreak.answers.answer import Answer, Quantities, Quantity
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, games, percent
-from evenbreak.matches.straight_pool import straight_pool_odds
-from evenbreak.matches.straight_pool_spot import even_spot
-
-if TYPE_CHECKING:
-    from evenbreak.matches.straight_pool import StraightPool, StraightPoolOdds
-    from evenbreak.matches.straight_pool_spot import Spot
+from evenbreak.matches.straight_pool import StraightPool, StraightPoolOdds, straight_pool_odds
+from evenbreak.matches.straight_pool_spot import Spot, even_spot
 
 
 def straight_answer(match: StraightPool, averages: tuple[float, float] | None = None) -> Answer:
@@ -26,12 +19,14 @@ def straight_answer(match: StraightPool, averages: tuple[float, float] | None = 
 
     >>> from evenbreak.matches import StraightPool
     >>> print(straight_answer(StraightPool(100, 100, 0.9, 0.85)).sentences[0])
-    A wins the match 89 % of the time. The winner needs 11.8 innings on average.
-    For an even match B should need 60 points: A then wins 50 % of the time.
+    A wins the match 89% of the time. The winner needs 11.8 innings on average.
+    For an even match, B should play to 60 points: A then wins 50% of the time.
     """
     odds, spot = straight_pool_odds(match), even_spot(match)
-    spotted = None if spot.points is None else _with(match, spot.weaker, spot.points)
-    even_a, even_b = spotted or (None, None)
+    even_a = even_b = None
+    if spot.points is not None:
+        even_a, even_b = match.points_1, match.points_2
+        even_a, even_b = (spot.points, even_b) if spot.weaker == 1 else (even_a, spot.points)
     return Answer(
         _heading(match, averages),
         [
@@ -47,17 +42,11 @@ def straight_answer(match: StraightPool, averages: tuple[float, float] | None = 
                     Quantity("p_win_b", odds.p_win_2, "B wins the match", chance),
                     Quantity("p_never_ends", odds.p_never_ends),
                     Quantity("mean_innings", odds.mean_innings, "innings, on average", games),
-                    Quantity(
-                        "sd_innings",
-                        odds.sd_innings,
-                        "innings, standard deviation",
-                        games,
-                        detail=True,
-                    ),
+                    statistic("sd_innings", odds.sd_innings, "innings, standard deviation", games),
                     Quantity("innings_p50", odds.innings_p50, "half of the matches end within"),
-                    Quantity("innings_p90", odds.innings_p90, "9 of 10 matches end within"),
-                    Quantity("even_points_a", even_a, "even match: A needs"),
-                    Quantity("even_points_b", even_b, "even match: B needs"),
+                    Quantity("innings_p90", odds.innings_p90, "9 out of 10 matches end within"),
+                    Quantity("even_points_a", even_a, "even match: A plays to"),
+                    Quantity("even_points_b", even_b, "even match: B plays to"),
                     Quantity("p_win_a_even", spot.p_win_1, "even match: A wins", chance),
                 ]
             ),
@@ -65,14 +54,9 @@ def straight_answer(match: StraightPool, averages: tuple[float, float] | None = 
     )
 
 
-def _with(match: StraightPool, player: int, points: int) -> tuple[int, int]:
-    """Return what A and B need, one of them other points than now."""
-    return (points, match.points_2) if player == 1 else (match.points_1, points)
-
-
 def _heading(match: StraightPool, averages: tuple[float, float] | None) -> str:
     if averages is not None:
-        text = f"A averages {averages[0]:g} balls an inning, B averages {averages[1]:g}"
+        text = f"A averages {averages[0]:g} balls an inning, B {averages[1]:g}"
     else:
         text = f"A makes a shot with probability {match.p1:g}, B with {match.p2:g}"
     text += f"; {' AB'[match.first]} shoots first\n"
@@ -80,7 +64,7 @@ def _heading(match: StraightPool, averages: tuple[float, float] | None) -> str:
         text += (
             f"The first shot of an inning goes in {match.safety_1:g} times as often as the others\n"
         )
-    return text + f"A needs {match.points_1} points, B needs {match.points_2}"
+    return text + f"A plays to {match.points_1} points, B to {match.points_2}"
 
 
 def _in_words(match: StraightPool, odds: StraightPoolOdds, spot: Spot) -> str:
@@ -94,8 +78,8 @@ def _in_words(match: StraightPool, odds: StraightPoolOdds, spot: Spot) -> str:
     if spot.points is None or spot.p_win_1 is None:
         return f"{text}No spot makes this match even."
     if spot.points == (match.points_1, match.points_2)[spot.weaker - 1]:
-        return f"{text}No other number of points brings it nearer to even."
+        return f"{text}No other spot brings it nearer to even."
     return (
-        f"{text}For an even match {' AB'[spot.weaker]} should need "
+        f"{text}For an even match, {' AB'[spot.weaker]} should play to "
         f"{count_of(spot.points, 'point')}: A then wins {percent(spot.p_win_1)} of the time."
     )

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from evenbreak.answers.scale_doubts import two_ratings_doubts
-from evenbreak.answers.scale_words import scale_words
+from evenbreak.answers.scale_words import decimals_of, scale_words
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale
@@ -34,10 +35,12 @@ class TwoPlayers:
         what the chances come from, if they come from ratings.
     names
         what the two are called.
+    errors
+        how far each rating may be off (standard errors), if they come from a list.
 
     >>> from evenbreak.ratings import scale_of
     >>> print(TwoPlayers.rated(612, 521, scale_of("fargo")).description)
-    A rated 612, B rated 521, on the fargo scale (100 points double the odds)
+    A rated 612, B rated 521, on the Fargo scale (100 points double the odds)
     >>> print(TwoPlayers(Rack(0.6, 0.5), "winner", 2).description)
     The breaker wins a game with probability 0.6 (A) or 0.5 (B); winner breaks, B breaks first
     """
@@ -48,14 +51,20 @@ class TwoPlayers:
     ratings: tuple[float, float] | None = None
     scale: Scale | None = None
     names: tuple[str, str] = ("A", "B")
+    errors: tuple[float, float] | None = None
 
     @classmethod
     def rated(
-        cls, rating_a: float, rating_b: float, scale: Scale, names: tuple[str, str] = ("A", "B")
+        cls,
+        rating_a: float,
+        rating_b: float,
+        scale: Scale,
+        names: tuple[str, str] = ("A", "B"),
+        errors: tuple[float, float] | None = None,
     ) -> TwoPlayers:
         """Return two players of whom the ratings are known."""
-        rack = Rack(scale.win_probability(rating_a - rating_b))
-        return cls(rack, ratings=(rating_a, rating_b), scale=scale, names=names)
+        rack = scale.rack(rating_a - rating_b)
+        return cls(rack, ratings=(rating_a, rating_b), scale=scale, names=names, errors=errors)
 
     @property
     def break_format(self) -> BreakFormat | None:
@@ -66,6 +75,40 @@ class TwoPlayers:
     def p_game_a(self) -> float | None:
         """P(A wins a game), or None where that depends on who breaks."""
         return None if self.rack.break_matters else float(self.rack.p1)
+
+    @property
+    def difference(self) -> float:
+        """The rating of A minus that of B, 0 where there are none."""
+        first, second = self.ratings or (0.0, 0.0)
+        return first - second
+
+    @property
+    def error(self) -> float:
+        """The standard error of the difference of the ratings, 0 where they are taken as right."""
+        return math.hypot(*self.errors) if self.errors else 0.0
+
+    @property
+    def named(self) -> dict[str, str]:
+        """The names, for JSON, where the players have any."""
+        a, b = self.names
+        return {} if (a, b) == ("A", "B") else {"player_a": a, "player_b": b}
+
+    @property
+    def averaged(self) -> str:
+        """The sentence that chances are averaged over errors, '' where there are none."""
+        if not self.error:
+            return ""
+        return "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
+
+    @property
+    def taken_as_right(self) -> str:
+        """The sentence that the ratings are taken as right, '' where they are not in doubt."""
+        if not self.error:
+            return ""
+        return (
+            "Both ratings are taken as right here; evenbreak odds averages over how far they may "
+            "be off."
+        )
 
     @property
     def doubts(self) -> list[str]:
@@ -79,8 +122,8 @@ class TwoPlayers:
         """Who they are, in a line."""
         a, b = self.names
         if self.ratings is not None and self.scale is not None:
-            first, second = self.ratings
-            return f"{a} rated {first:g}, {b} rated {second:g}, {scale_words(self.scale)}"
+            first, second = (self._rating(k) for k in (0, 1))
+            return f"{a} rated {first}, {b} rated {second}, {scale_words(self.scale)}"
         if self.breaks is None:
             return f"{a} wins a game with probability {self.rack.p1:g}"
         p1, p2 = self.rack.p1, self.rack.p2
@@ -92,3 +135,11 @@ class TwoPlayers:
         if self.first_breaker != usual or not always:
             text += f", {self.names[self.first_breaker - 1]} breaks first"
         return text
+
+    def _rating(self, k: int) -> str:
+        """Return a rating as text, with its error if it has one."""
+        if self.ratings is None or self.scale is None or self.errors is None:
+            return f"{(self.ratings or (0.0, 0.0))[k]:g}"
+        decimals = decimals_of(self.scale)
+        error = f" \N{PLUS-MINUS SIGN} {self.errors[k]:.{decimals}f}" if self.errors[k] else ""
+        return f"{self.ratings[k]:.{decimals}f}{error}"

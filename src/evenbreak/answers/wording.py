@@ -1,11 +1,9 @@
 """Numbers and lists as people read them: chances, decimals, counts, times, names."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
-from evenbreak.answers.answer import Show
+from evenbreak.answers.parts import Show
 
 
 def chance(p: float) -> str:
@@ -21,15 +19,17 @@ def percent(p: float) -> str:
     """Return a probability in a sentence, in per cent; never 0 or 100 where it is neither.
 
     >>> percent(0.653), percent(0.0042), percent(0.99999), percent(1.0), percent(3e-9)
-    ('65 %', '0.4 %', 'more than 99.9 %', '100 %', 'less than 0.1 %')
+    ('65%', '0.4%', 'more than 99.9%', '100%', 'less than 0.1%')
+    >>> percent(0.01), percent(0.0103)  # a round value, as it was given, and a calculated one
+    ('1%', '1.0%')
     """
-    if p in (0.0, 1.0):
-        return f"{100 * p:.0f} %"
+    if p == round(p, 2):
+        return f"{100 * p:.0f}%"
     if p < 0.001:
-        return "less than 0.1 %"
+        return "less than 0.1%"
     if p > 0.999:
-        return "more than 99.9 %"
-    return f"{100 * p:.1f} %" if p < 0.0995 or p >= 0.995 else f"{100 * p:.0f} %"
+        return "more than 99.9%"
+    return f"{100 * p:.1f}%" if p < 0.0995 or p >= 0.995 else f"{100 * p:.0f}%"
 
 
 def decimals(places: int) -> Show:
@@ -66,6 +66,15 @@ def games(value: float) -> str:
     return f"{value:.2f}" if isinstance(value, float) else f"{value:,}"
 
 
+def yes_or_no(truth: bool) -> str:
+    """Return a truth as a word.
+
+    >>> yes_or_no(True), yes_or_no(False)
+    ('yes', 'no')
+    """
+    return "yes" if truth else "no"
+
+
 def race(needs: tuple[int, int]) -> str:
     """Return a race.
 
@@ -73,6 +82,17 @@ def race(needs: tuple[int, int]) -> str:
     '7:5'
     """
     return f"{needs[0]}:{needs[1]}"
+
+
+def range_words(first: int, last: int | None) -> str:
+    """Return a range of whole numbers, which may be open-ended.
+
+    >>> range_words(7, 18), range_words(7, 7), range_words(49, None)
+    ('7 to 18', '7', '49 and more')
+    """
+    if last is None:
+        return f"{first} and more"
+    return f"{first} to {last}" if last > first else str(first)
 
 
 def count_of(number: int, one: str, many: str = "") -> str:
@@ -112,3 +132,31 @@ def clock(minutes: float) -> str:
     """
     whole = round(minutes)
     return f"{whole} min" if whole < 60 else f"{whole // 60} h {whole % 60:02d}"
+
+
+def how_often(p: float) -> str:
+    """Return how often something of probability p happens.
+
+    >>> how_often(0.012), how_often(0.3), how_often(1.0)
+    ('about 1 time in 83', 'about 30 times in 100', 'nearly always')
+    """
+    if p > 0.99:
+        return "nearly always"
+    if p < 0.001:
+        return "less than 1 time in 1000"
+    if p < 0.1:
+        return f"about 1 time in {1 / p:.0f}"
+    return f"about {100 * p:.0f} times in 100"
+
+
+def luck_words(p: float) -> str:
+    """Return whether something is luck, if luck alone does it with probability p.
+
+    >>> luck_words(0.3), luck_words(0.02)
+    ('this may well be luck', 'this is probably not luck')
+    """
+    if p >= 0.1:
+        return "this may well be luck"
+    if p >= 0.05:
+        return "this could be luck"
+    return "this is probably not luck" if p >= 0.01 else "this is not luck"

@@ -12,11 +12,13 @@ Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
-from evenbreak.chains.arcs import reachable
+from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.chain import check_chain
+from evenbreak.chains.exact import exact_absorption
 from evenbreak.chains.factorisation import Factorisation
 
 if TYPE_CHECKING:
@@ -25,7 +27,17 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 
-def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
+@overload
+def absorption(
+    chain: Chain, start: Any = None, *, exact: Literal[False] = False
+) -> NDArray[np.float64]: ...
+
+
+@overload
+def absorption(chain: Chain, start: Any = None, *, exact: bool) -> NDArray[Any]: ...
+
+
+def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> NDArray[Any]:
     """Return the probability of ending in each class, given the start; shape (classes,).
 
     Classes are numbered as in `chain.structure`; those that are not closed have 0. Each
@@ -34,22 +46,31 @@ def absorption(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     error of 1e-6 at least, and if that is all that can be said, `chain.transient.residual`
     is not None but says by how much the equations are missed.
 
+    With `exact` the entries are fractions (see `stochastic_limit`).
+
     Raises
     ------
     AccuracyError
         if an entry cannot be guaranteed.
+    ChainError
+        with `exact`, if the arcs of a state do not sum to exactly 1.
 
     >>> from evenbreak.chains import chain_of
     >>> chain = chain_of([("play", "won", 0.25), ("play", "lost", 0.5), ("play", "play", 0.25)])
     >>> absorption(chain, "play")[chain.structure.label].round(3).tolist()
     [0.0, 0.333, 0.667]
+    >>> absorption(chain, "play", exact=True)[1:].tolist()
+    [Fraction(1, 3), Fraction(2, 3)]
     """
+    check_chain(chain)
+    if exact:
+        return exact_absorption(chain, start)
     structure = chain.structure
     v = chain.density(start)
     arrivals = _arrivals(chain, v)
     # Along a very long path rounding adds up in one direction; the sum shows how much.
     arrivals *= v.sum() / arrivals.sum()
-    return np.bincount(structure.label, arrivals, structure.count).astype(np.float64, copy=False)
+    return sums(structure.label, arrivals, structure.count)
 
 
 def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
@@ -68,6 +89,7 @@ def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     >>> expected_visits(chain_of([("miss", "miss", 0.75), ("miss", "in", 0.25)]), "miss")
     array([ 4., inf])
     """
+    check_chain(chain)
     v = chain.density(start)
     states = chain.transient.states
     visits = np.zeros(len(chain))
@@ -103,9 +125,5 @@ def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
     arrivals = v.copy()
     arrivals[states] = 0.0
     if len(states) and v[states].any():
-        visits = np.zeros(len(chain))
-        visits[states] = chain.transient.visits(v[states])
-        flow = chain.arcs.matrix() @ visits
-        flow[states] = 0.0
-        arrivals += flow
+        arrivals += chain.transient.arrivals(v[states])
     return arrivals

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     Places: TypeAlias = NDArray[np.integer[Any]]
     """Positions of states, or numbers of classes."""
 
+_FEW_TERMS = 4
+"""So few values are added up one after the other."""
+
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
@@ -50,7 +53,7 @@ class Arcs:
     @cached_property
     def outflow(self) -> NDArray[np.float64]:
         """The probability to leave each state in a step: the sum of its arcs, shape (n,)."""
-        return _sums(self.sources, self.chances, self.size)
+        return sums(self.sources, self.chances, self.size)
 
     def among(self, states: Places) -> tuple[Arcs, NDArray[np.float64]]:
         """Return the arcs among some states, renumbered, and each state's chance to leave them.
@@ -66,7 +69,7 @@ class Arcs:
         own = sources >= 0
         inner = own & (targets >= 0)
         leaving = own & ~inner
-        leak = _sums(sources[leaving], self.chances[leaving], len(states))
+        leak = sums(sources[leaving], self.chances[leaving], len(states))
         return _arcs(len(states), sources[inner], targets[inner], self.chances[inner]), leak
 
     def matrix(self) -> csc_array:
@@ -93,6 +96,30 @@ def arcs_of(matrix: csc_array) -> Arcs:
     if not keep.all():
         sources, targets, chances = sources[keep], targets[keep], chances[keep]
     return _arcs(size, sources, targets, chances)
+
+
+def sums(place: Places, values: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+    """Return the sum of the `values` at each place; shape (size,).
+
+    If no value is negative, each sum is right to about one rounding, however many values it
+    adds up; if some are, to one rounding of the sum of their sizes. The values are cut in two
+    at one bit for each place. The upper parts are added without rounding; what the lower
+    parts lose is too small to show (Rump, Ogita and Oishi 2008, "Accurate floating-point
+    summation").
+
+    >>> float(sums(np.zeros(10**6, dtype=int), np.full(10**6, 1e-6), 1)[0])
+    1.0
+    """
+    if len(values) <= _FEW_TERMS or np.bincount(place).max() <= _FEW_TERMS:
+        return np.bincount(place, values, size).astype(np.float64, copy=False)
+    with np.errstate(over="ignore"):
+        cut = np.ldexp(2.0, np.frexp(np.bincount(place, np.abs(values), size))[1])
+    if not np.isfinite(cut).all():
+        return np.asarray(np.bincount(place, values, size))
+    cut = cut[place]
+    upper = (cut + values) - cut
+    rest = np.bincount(place, values - upper, size)
+    return np.asarray(np.bincount(place, upper, size) + rest)
 
 
 def reachable(
@@ -133,7 +160,3 @@ def _arcs(
     indptr = np.zeros(size + 1, dtype=np.int32)
     np.cumsum(np.bincount(sources, minlength=size), out=indptr[1:])
     return Arcs(size, indptr, sources, targets, chances)
-
-
-def _sums(place: Places, chances: NDArray[np.float64], size: int) -> NDArray[np.float64]:
-    return np.bincount(place, chances, size).astype(np.float64, copy=False)

@@ -6,24 +6,34 @@ after one step. Everything else in this package is a function of a `Chain`.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from scipy.sparse import csc_array, issparse
 
-from evenbreak.chains.arcs import Arcs, arcs_of
+from evenbreak.chains.arcs import Arcs, arcs_of, sums
 from evenbreak.chains.birth_death import BirthDeath, birth_death_of
+from evenbreak.chains.paths import random_paths
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
+from evenbreak.checks import whole
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
+    import pandas as pd
     from numpy.typing import NDArray
-    from scipy.sparse import csc_array
+
+    from evenbreak.chains.arcs import Places
 
 _SUM_TOLERANCE = 1e-9
+_ROUNDING = 1e-15
+"""Arcs that miss a sum of 1 by no more than this are left as they are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,32 +47,49 @@ class Chain:
     states
         the states, in the order of the matrix; hashable and distinct.
     matrix
-        sparse CSC of shape (n, n), column-stochastic; an absorbing state has the self-loop 1.
+        shape (n, n), column-stochastic: entry [i, j] is the chance of i, given j. Kept in
+        sparse CSC form, to which any other sparse matrix and a numpy array are converted. An
+        absorbing state has the self-loop 1. Where the arcs of a state miss a sum of 1, its
+        self-loop becomes what the others leave over, or without one all arcs are scaled.
     start
         the state in which the game begins, or None.
+    given
+        the arcs whose chances are known as fractions, by the positions (source, target), for
+        exact answers.
 
     Raises
     ------
     ChainError
-        if the matrix is not column-stochastic; the message names the state and its sum.
+        if there is not one row and one column for each state, a state is listed twice, or the
+        matrix is not column-stochastic; the message names the state and its sum.
     """
 
     states: Sequence[Hashable]
     matrix: csc_array
     start: Hashable | None = None
+    given: Mapping[tuple[int, int], Fraction] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         if isinstance(self.states, str):
             object.__setattr__(self, "states", tuple(self.states))
-        n, matrix = len(self.states), self.matrix
+        n, matrix = len(self.states), csc_of(self.matrix)
         if n == 0 or matrix.shape != (n, n):
             raise ChainError(
                 f"the matrix has shape {matrix.shape} for {n} states; give one row and one "
                 "column for each state, and at least one state"
             )
+        # Lazy sequences of states are distinct by construction.
+        if isinstance(self.states, (list, tuple)) and len(set(self.states)) < n:
+            raise ChainError("a state is listed twice among the states; give each of them once")
         if not ((matrix.data >= 0.0) & (matrix.data <= 1.0)).all():
             raise ChainError("the matrix has entries outside 0 to 1; give probabilities")
-        check_sums(self.states, matrix.T @ np.ones(n))
+        columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
+        total = sums(columns, matrix.data, n)
+        missed = np.abs(total - 1.0)
+        if not (missed <= _ROUNDING).all():
+            check_sums(self.states, total)
+            matrix = _completed(matrix, columns, missed > _ROUNDING)
+        object.__setattr__(self, "matrix", matrix)
 
     def __len__(self) -> int:
         return len(self.states)
@@ -73,6 +100,21 @@ class Chain:
             f"<Chain of {n} state{'s' * (n != 1)}, {arcs} arc{'s' * (arcs != 1)}, "
             f"start {self.start!r}>"
         )
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the matrix as a DataFrame: a column for each state left, a row for each entered.
+
+        >>> from evenbreak.chains import chain_of
+        >>> chain_of([("rain", "rain", 0.75), ("rain", "sun", 0.25), ("sun", "rain", 1)]).to_frame()
+        from  rain  sun
+        to
+        rain  0.75  1.0
+        sun   0.25  0.0
+        """
+        import pandas as pd
+
+        left, entered = labels(self.states, "from"), labels(self.states, "to")
+        return pd.DataFrame(self.matrix.toarray(), index=entered, columns=left)
 
     @cached_property
     def position(self) -> dict[Hashable, int]:
@@ -132,8 +174,8 @@ class Chain:
         Parameters
         ----------
         given
-            an array of n numbers; a mapping from states to numbers, 0 for the others; or a
-            state, which gets 1.
+            an array of n numbers; a mapping or a pandas Series from states to numbers, 0 for
+            the others; or a state, which gets 1.
         name
             what it is called, for the error message.
 
@@ -143,6 +185,7 @@ class Chain:
             if a state is unknown, the shape is not (n,), or a number is not finite.
         """
         v = np.zeros(len(self))
+        given = by_label(given, name)
         if isinstance(given, np.ndarray):
             if given.shape != v.shape:
                 raise ChainError(f"{name} has shape {given.shape}; give {v.shape}")
@@ -157,6 +200,44 @@ class Chain:
             held = f"{float(v[first])!r} for state {self.states[first]!r}"
             raise ChainError(f"{name} holds {held}; give finite numbers")
         return v
+
+    def simulate(
+        self, steps: int, rng: np.random.Generator | int, *, start: Any = None, paths: int = 1
+    ) -> NDArray[np.int64]:
+        """Return random paths of the chain, as positions in `states`.
+
+        Parameters
+        ----------
+        steps
+            the number of steps of each path.
+        rng
+            the random numbers: a generator or a seed.
+        start
+            as in `density`; each path draws its own first state from a density.
+        paths
+            the number of independent paths.
+
+        Returns
+        -------
+        array
+            shape (paths, steps + 1); column t holds the states after t steps.
+
+        Raises
+        ------
+        ChainError
+            if the start is not one.
+        InputError
+            if `steps` or `paths` is not a whole number from 0.
+
+        >>> from evenbreak.chains import chain_of
+        >>> weather = chain_of({"rain": {"rain": 0.5, "sun": 0.5}, "sun": {"rain": 1}}, start="sun")
+        >>> week = weather.simulate(6, 1)[0]
+        >>> [weather.states[i] for i in week]
+        ['sun', 'rain', 'rain', 'sun', 'rain', 'rain', 'sun']
+        """
+        steps, paths = whole(steps, "steps"), whole(paths, "paths")
+        begin, draw = self.density(start), np.random.default_rng(rng)
+        return random_paths(self.matrix, begin, steps, paths, draw)
 
     def _own_start(self) -> Hashable:
         if self.start is None:
@@ -194,6 +275,101 @@ class Chain:
     def _unknown(self, state: Hashable) -> ChainError:
         known = ", ".join(repr(known) for known in self.states[:5])
         return ChainError(f"state {state!r} is not in the chain; its states begin {known}")
+
+
+def check_chain(chain: object) -> None:
+    """Refuse what is not a chain, at the door of every function that takes one.
+
+    >>> check_chain([("A", "B", 1.0)])
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.ChainError: this is list [('A', 'B', 1.0)], not a chain; make one with ...
+    """
+    if not isinstance(chain, Chain):
+        raise ChainError(
+            f"this is {type(chain).__name__} {chain!r:.60}, not a chain; make one with chain_of"
+        )
+
+
+def by_label(given: Any, name: str) -> Any:
+    """Return a pandas Series as a dict from its labels, anything else as it is."""
+    if not (
+        hasattr(given, "to_dict") and hasattr(given, "index") and getattr(given, "ndim", 0) == 1
+    ):
+        return given
+    if not given.index.is_unique:
+        raise ChainError(f"{name} has a label twice; give each state one number")
+    return given.to_dict()
+
+
+def check_present(states: Iterable[Hashable]) -> None:
+    """Refuse NaN as a state: it is a gap in the data, and no NaN equals another."""
+    for state in states:
+        if isinstance(state, float) and math.isnan(state):
+            raise ChainError("a state is nan, a gap in the data; leave it out, or give it a name")
+
+
+def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:
+    """Return the states as an index of pandas, in which tuples stay tuples."""
+    import pandas as pd
+
+    index: pd.Index[Any] = pd.Index(list(states), name=name, tupleize_cols=False)
+    return index
+
+
+def csc_of(matrix: Any) -> csc_array:
+    """Return a matrix of numbers in CSC form, its columns sorted and without duplicates.
+
+    Raises
+    ------
+    ChainError
+        if it is neither a sparse matrix nor a two-dimensional array of numbers.
+
+    >>> from scipy.sparse import coo_array
+    >>> csc_of(coo_array(([0.25, 0.25], ([0, 0], [1, 1])))).toarray()
+    array([[0.  , 0.5]])
+    """
+    if type(matrix) is csc_array and matrix.dtype == np.float64 and matrix.has_canonical_format:
+        return matrix
+    try:
+        given: Any = matrix if issparse(matrix) else np.asarray(matrix)
+        if given.ndim != 2 or given.dtype.kind not in "biufO" or np.ma.is_masked(matrix):
+            raise TypeError
+        found: csc_array[np.float64] = csc_array(given.astype(np.float64))
+    except (TypeError, ValueError, AttributeError):
+        raise ChainError(
+            f"the matrix is {type(matrix).__name__} {matrix!r:.60}; give a sparse matrix or a "
+            "two-dimensional array of numbers"
+        ) from None
+    found.sum_duplicates()
+    return found
+
+
+def _completed(matrix: csc_array, columns: Places, wrong: NDArray[np.bool_]) -> csc_array:
+    """Return the matrix with the arcs of the `wrong` states summing to 1.
+
+    A self-loop becomes what the other arcs leave over; without one the arcs are scaled.
+    """
+    n = len(wrong)
+    loops = (matrix.indices == columns) & (matrix.data > 0.0)
+    others = sums(columns, np.where(loops, 0.0, matrix.data), n)
+    looped = np.zeros(n, dtype=bool)
+    looped[columns[loops]] = True
+    scale = np.where(wrong & ~looped, others, 1.0)
+    data = matrix.data / scale[columns]
+    kept = loops & wrong[columns]
+    data[kept] = np.maximum(1.0 - others[columns[kept]], 0.0)
+    completed = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+    completed.has_canonical_format = True
+    return completed
+
+
+def sums_to_1(matrix: csc_array, *, axis: Literal[0, 1]) -> bool:
+    """Whether all columns (axis 0) or all rows (axis 1) of a square matrix sum to 1 within 1e-9."""
+    n = matrix.shape[0]
+    columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
+    total = sums(columns if axis == 0 else matrix.indices, matrix.data, n)
+    return bool((np.abs(total - 1.0) <= _SUM_TOLERANCE).all())
 
 
 def check_sums(states: Sequence[Hashable], sums: NDArray[np.float64]) -> None:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from evenbreak.chains.arcs import Arcs
+    from evenbreak.chains.arcs import Arcs, Places
 
 _CONTEXT = Context(prec=40, Emax=MAX_EMAX, Emin=MIN_EMIN)
 _MOST_ARCS = 3e6
@@ -87,6 +87,30 @@ def decimal_solve(
     """
     factor = DecimalElimination(arcs, leak, _MOST_ARCS)
     return factor.values(b) if transposed else factor.visits(b)
+
+
+def decimal_arrivals(
+    arcs: Arcs,
+    leak: NDArray[np.float64],
+    b: NDArray[np.float64],
+    out: tuple[Places, Places, NDArray[np.float64]],
+    size: int,
+) -> NDArray[np.float64]:
+    """Return the flow along the arcs `out` to each of `size` places, from b >= 0 of shape (m,).
+
+    Expected visits that are larger than any float may be on the way.
+
+    Raises
+    ------
+    AccuracyError
+        if the elimination would take too long.
+    """
+    with localcontext(_CONTEXT):
+        visits = _factor(arcs, leak, _MOST_ARCS).visits([Decimal(value) for value in b.tolist()])
+        flow = [Decimal(0)] * size
+        for j, i, chance in zip(*(part.tolist() for part in out), strict=True):
+            flow[i] += visits[j] * Decimal(chance)
+        return _floats(flow)
 
 
 def decimal_law(arcs: Arcs) -> NDArray[np.float64]:

@@ -13,43 +13,82 @@ The rules of a chain:
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from fractions import Fraction
 from itertools import chain as chained
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
-from evenbreak.chains.chain import Chain, check_sums
+from evenbreak.chains.arcs import sums
+from evenbreak.chains.chain import Chain, check_present, check_sums
+from evenbreak.chains.matrices import chain_of_matrix, is_matrix
 from evenbreak.errors import ChainError
 from evenbreak.game import ArcArrays, Game, arcs_of
 
 if TYPE_CHECKING:
+    from typing import TypeAlias
+
     import networkx as nx
+    import pandas as pd
     from numpy.typing import ArrayLike, NDArray
+    from scipy.sparse import sparray, spmatrix
+
+    from evenbreak.chains.matrices import Rows
+
+    Source: TypeAlias = (
+        Game
+        | nx.DiGraph[Any]
+        | NDArray[Any]
+        | sparray
+        | spmatrix
+        | pd.DataFrame
+        | Mapping[Any, Mapping[Any, float]]
+        | Sequence[Sequence[float]]
+        | Iterable[tuple[Any, Any, float]]
+    )
 
 
 def chain_of(
-    source: Game | nx.DiGraph[Any] | Iterable[tuple[Any, Any, float]],
+    source: Source,
     *,
     start: Hashable | None = None,
+    rows: Rows | None = None,
+    weight: str | None = None,
 ) -> Chain:
-    """Return the chain of a game, of a directed graph, or of a list of arcs.
+    """Return the chain of a game, a directed graph, a matrix, or arcs.
 
     Parameters
     ----------
     source
-        a game (see `evenbreak.game`); a `networkx.DiGraph` with `probability` on its
-        arcs; or (source, target, probability) triples. A probability is that of the
-        target, given the source.
+        one of
+
+        - a game (see `evenbreak.game`);
+        - a `networkx.DiGraph` with the probabilities on its arcs;
+        - a square numpy array, scipy sparse matrix or list of lists, whose states are 0, 1,
+          2, ..., or a pandas DataFrame with the states as its index and its columns;
+        - a dict that has, for each state, a dict from the next states to their probabilities;
+        - (source, target, probability) triples.
+
+        A probability is always that of the target, given the source. In dicts, triples and
+        graphs it may be a `Fraction`, or text such as "0.6" or "3/5"; `exact=True` then
+        calculates with just that.
     start
         the state in which to begin. If None: the start of the game, or the graph's node of
-        `kind` 'start' if it has one; a list of arcs has no start of its own.
+        `kind` 'start' if it has one; the others have no start of their own.
+    rows
+        how to read a matrix. 'from': a row holds the chances out of its state. 'to': a row
+        holds the chances into its state, as in `Chain`. It may be left out if the matrix is
+        stochastic one way only, or symmetric.
+    weight
+        the attribute of a graph's arcs that holds their probability; None is 'probability'.
 
     Raises
     ------
     ChainError
-        if the arcs break the rules of this module, or the start is unknown.
+        if the arcs break the rules of this module, a matrix can be read two ways, or the
+        start is unknown.
     GameError
         if the game has too many states or its moves are not probabilities.
 
@@ -59,19 +98,36 @@ def chain_of(
     >>> chain.matrix.toarray()
     array([[0.7, 1. ],
            [0.3, 0. ]])
+    >>> chain_of({"rain": {"rain": 0.7, "sun": 0.3}, "sun": {"rain": 1}}).states
+    ['rain', 'sun']
+    >>> chain_of(np.array([[0.7, 0.3], [1.0, 0.0]]), rows="from").matrix.toarray()
+    array([[0.7, 1. ],
+           [0.3, 0. ]])
     """
+    if is_matrix(source):
+        _only_for(weight, "weight", "a graph")
+        return chain_of_matrix(source, rows, start)
+    _only_for(rows, "rows", "a matrix")
+    if hasattr(source, "adjacency"):
+        arcs, own_start = _arcs_of_graph(source, "probability" if weight is None else weight)
+        return chain_from_arrays(*arcs, start=own_start if start is None else start)
+    _only_for(weight, "weight", "a graph")
     if isinstance(source, Game):
         arcs = arcs_of(source, start=start)
         return chain_from_arrays(*arcs, start=source.start if start is None else start)
-    if hasattr(source, "adjacency"):
-        arcs, own_start = _arcs_of_graph(source)
-        return chain_from_arrays(*arcs, start=own_start if start is None else start)
+    if isinstance(source, Mapping):
+        return chain_from_arrays(*_arcs_of_mapping(source), start=start)
     if not isinstance(source, Iterable):
         raise ChainError(
-            f"the source is {source!r}; give a game, a networkx.DiGraph, or a list of "
-            "(source, target, probability)"
+            f"the source is {source!r}; give a game, a networkx.DiGraph, a matrix, a dict of "
+            "dicts, or a list of (source, target, probability)"
         )
     return chain_from_arrays(*_arcs_of_triples(source), start=start)
+
+
+def _only_for(given: object, name: str, kind: str) -> None:
+    if given is not None:
+        raise ChainError(f"{name} is {given!r}, but the source is not {kind}; leave {name} out")
 
 
 def chain_from_arrays(
@@ -90,7 +146,8 @@ def chain_from_arrays(
     sources, targets
         positions in `states`, one for each arc, in any order.
     probabilities
-        the probability of each arc's target, given its source.
+        the probability of each arc's target, given its source; numbers, fractions, or text
+        such as "0.6" or "3/5".
     start
         the state in which to begin, or None.
 
@@ -105,7 +162,9 @@ def chain_from_arrays(
            [0.75, 1.  ]])
     """
     states = tuple(states) if isinstance(states, str) else states
-    j, i, p = _checked_arrays(states, sources, targets, probabilities)
+    chances, fractions = _fractions(probabilities)
+    j, i, p = _checked_arrays(states, sources, targets, chances)
+    given = {(int(j[k]), int(i[k])): fraction for k, fraction in fractions.items()}
     if start is not None and start not in states:
         raise ChainError(f"start is {start!r}, which is not a state of the chain")
     n = len(states)
@@ -117,15 +176,29 @@ def chain_from_arrays(
             raise _listed_twice(states, key)
         j, i, p = j[table.data], i[table.data], p[table.data]
     listed = np.bincount(j, minlength=n)
-    check_sums(states, np.where(listed > 0, np.bincount(j, weights=p, minlength=n), 1.0))
+    check_sums(states, np.where(listed > 0, sums(j, p, n), 1.0))
     loops = (i == j) & (p > 0.0)
     if loops.any():
-        others = np.bincount(j, weights=np.where(loops, 0.0, p), minlength=n)
+        others = sums(j, np.where(loops, 0.0, p), n)
         p = np.where(loops, np.maximum(1.0 - others[j], 0.0), p)
     made = p > 0.0
     if not made.all():
         j, i, p = j[made], i[made], p[made]
-    return Chain(states, _column_stochastic(n, j, i, p, absorbing=listed == 0), start)
+    return Chain(states, _column_stochastic(n, j, i, p, absorbing=listed == 0), start, given)
+
+
+def _fractions(probabilities: ArrayLike) -> tuple[NDArray[Any], dict[int, Fraction]]:
+    """Return the probabilities as numbers, and those of them that are fractions or text."""
+    given = np.asarray(probabilities)
+    if given.dtype.kind not in "OU":
+        return given, {}
+    values = [_number(value) for value in given.ravel().tolist()]
+    fractions = {k: value for k, value in enumerate(values) if isinstance(value, Fraction)}
+    numbers = np.array([float(value) for value in values]).reshape(given.shape)
+    for k, fraction in fractions.items():
+        if fraction and not numbers.flat[k]:
+            raise ChainError(f"the probability {fraction} is smaller than any float; leave it out")
+    return numbers, fractions
 
 
 def _listed_twice(states: Sequence[Hashable], key: NDArray[np.int64]) -> ChainError:
@@ -145,9 +218,6 @@ def _checked_arrays(
     n = len(states)
     if n == 0:
         raise ChainError("there are no states; give at least one")
-    # Lazy sequences of states are distinct by construction.
-    if isinstance(states, (list, tuple)) and len(set(states)) < n:
-        raise ChainError("a state is listed twice among the states; give each of them once")
     if not j.ndim == 1 or not j.shape == i.shape == p.shape:
         raise ChainError(
             f"sources, targets and probabilities have shapes {j.shape}, {i.shape}, {p.shape}; "
@@ -201,7 +271,7 @@ def _column_stochastic(
     return matrix
 
 
-def _arcs_of_graph(graph: Any) -> tuple[ArcArrays, Hashable | None]:
+def _arcs_of_graph(graph: Any, weight: str) -> tuple[ArcArrays, Hashable | None]:
     if not graph.is_directed() or graph.is_multigraph():
         raise ChainError(
             f"the graph is a {type(graph).__name__}; give a networkx.DiGraph, "
@@ -215,11 +285,9 @@ def _arcs_of_graph(graph: Any) -> tuple[ArcArrays, Hashable | None]:
         map(position.__getitem__, chained.from_iterable(rows)), dtype=np.int64, count=total
     )
     try:
-        chances = np.fromiter(
-            (arc["probability"] for row in rows for arc in row.values()), np.float64, count=total
-        )
-    except (KeyError, TypeError, ValueError):
-        raise _without_probability(graph) from None
+        chances = np.array([_number(arc[weight]) for row in rows for arc in row.values()])
+    except (KeyError, TypeError, ValueError, ZeroDivisionError):
+        raise _without_probability(graph, weight) from None
     starts = [state for state, kind in graph.nodes(data="kind") if kind == "start"]
     if len(starts) > 1:
         raise ChainError(f"the graph has {len(starts)} nodes of kind 'start'; leave one")
@@ -227,37 +295,59 @@ def _arcs_of_graph(graph: Any) -> tuple[ArcArrays, Hashable | None]:
     return arcs, starts[0] if starts else None
 
 
-def _without_probability(graph: Any) -> ChainError:
-    for source, target, chance in graph.edges(data="probability"):
+def _without_probability(graph: Any, weight: str) -> ChainError:
+    for source, target, chance in graph.edges(data=weight):
         try:
-            float(chance)
-        except (TypeError, ValueError):
+            _number(chance)
+        except (TypeError, ValueError, ZeroDivisionError):
             return ChainError(
-                f"the arc {source!r} -> {target!r} has probability {chance!r}; "
+                f"the arc {source!r} -> {target!r} has {weight} {chance!r}; "
                 "give each arc a number from 0 to 1"
             )
-    return ChainError("the arcs carry no probability; give each arc a number from 0 to 1")
+    return ChainError(f"the arcs carry no {weight}; give each arc a number from 0 to 1")
 
 
-def _arcs_of_triples(triples: Iterable[Any]) -> ArcArrays:
-    position: dict[Any, int] = {}
+def _arcs_of_mapping(moves: Mapping[Any, Any]) -> ArcArrays:
+    """Return the arcs of a dict of dicts; the states in order: its keys, then other targets."""
+    for state, row in moves.items():
+        if not isinstance(row, Mapping):
+            raise ChainError(
+                f"the moves from {state!r} are {row!r}; give a dict from states to probabilities"
+            )
+    triples = ((j, i, chance) for j, row in moves.items() for i, chance in row.items())
+    return _arcs_of_triples(triples, moves)
+
+
+def _arcs_of_triples(triples: Iterable[Any], states: Iterable[Any] = ()) -> ArcArrays:
+    """Return the arcs of triples; the states in order: those given, then as they come."""
+    position: dict[Any, int] = {state: k for k, state in enumerate(states)}
     sources: list[int] = []
     targets: list[int] = []
-    chances: list[float] = []
+    chances: list[Any] = []
     for k, triple in enumerate(triples, 1):
         try:
             source, target, chance = triple
-            chances.append(float(chance))
+            chances.append(_number(chance))
             sources.append(position.setdefault(source, len(position)))
             targets.append(position.setdefault(target, len(position)))
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, ZeroDivisionError):
             raise ChainError(
                 f"arc {k} is {triple!r}; give (source, target, probability), "
                 "states that can be hashed and a number"
             ) from None
+    check_present(position)
     return ArcArrays(
         list(position),
         np.array(sources, dtype=np.int64),
         np.array(targets, dtype=np.int64),
         np.array(chances),
     )
+
+
+def _number(chance: Any) -> float | Fraction:
+    """Return a chance as a float, or as a fraction if it is one or text.
+
+    >>> _number(1), _number("0.6")
+    (1.0, Fraction(3, 5))
+    """
+    return Fraction(chance) if isinstance(chance, (Fraction, str)) else float(chance)

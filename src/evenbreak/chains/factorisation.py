@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.chains.arcs import arcs_of, put_back
+from evenbreak.chains.arcs import arcs_of, put_back, sums
 from evenbreak.chains.banded import BandedElimination, band_order
 from evenbreak.chains.certified_lu import CertifiedSolve
 from evenbreak.chains.decimal_elimination import DecimalElimination
@@ -76,7 +76,7 @@ class _Piece:
         size = self.last - self.first
         leak = self._leak
         if len(self.chances):
-            leak = leak + np.bincount(self.sources - self.first, self.chances, size)
+            leak = leak + sums(self.sources - self.first, self.chances, size)
         if len(self._offsets) > 2 or size <= SMALL:
             return TriangularSolve(*self._inner, leak, self._outflow, self._offsets)
         sources, targets, chances = self._inner
@@ -161,18 +161,26 @@ class Factorisation:
             part = f[piece.first : piece.last]
             if part.any():
                 part[:] = piece.solver.visits(part)
-                np.add.at(f, piece.targets, f[piece.sources] * piece.chances[:, None])
+                _add(f, piece.targets, f[piece.sources] * piece.chances[:, None])
         return f if self.order is None else put_back(f, self.order)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the sum of r >= 0, shape (m, k), over the visits from each: (I - T)^-T r."""
         y = r.copy() if self.order is None else r[self.order]
         for piece in reversed(self._pieces):
-            np.add.at(y, piece.sources, y[piece.targets] * piece.chances[:, None])
+            _add(y, piece.sources, y[piece.targets] * piece.chances[:, None])
             part = y[piece.first : piece.last]
             if part.any():
                 part[:] = piece.solver.values(part)
         return y if self.order is None else put_back(y, self.order)
+
+
+def _add(to: NDArray[np.float64], place: Places, values: NDArray[np.float64]) -> None:
+    """Add each row of `values` to the row of `to` at its place."""
+    if len(place):
+        first, last = int(place.min()), int(place.max()) + 1
+        for k, column in enumerate(values.T):
+            to[first:last, k] += sums(place - first, column, last - first)
 
 
 def _runs(offsets: Places) -> list[Places]:

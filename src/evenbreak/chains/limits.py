@@ -17,24 +17,31 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, overload
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
 
 from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
-from evenbreak.chains.stationary import laws_of, stationary_laws
-from evenbreak.errors import ChainError
+from evenbreak.chains.chain import check_chain, labels
+from evenbreak.chains.exact import exact_limit
+from evenbreak.chains.stationary import laws_of
+from evenbreak.checks import one_of
+from evenbreak.errors import AccuracyError, ChainError, InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from fractions import Fraction
 
-    from evenbreak.chains.arcs import Places
+    import pandas as pd
+    from numpy.typing import DTypeLike, NDArray
+
     from evenbreak.chains.chain import Chain
 
 Default = TypeVar("Default")
+Way: TypeAlias = Literal["kernel", "elimination", "eigen"]
+"""A way to the limit."""
+WAYS: tuple[Way, ...] = ("kernel", "elimination", "eigen")
+_ERROR_BY_EIGENVECTORS = 1e-12
 
-_COLUMNS = 64
 _SHOWN = 5
 
 
@@ -117,8 +124,46 @@ class Limit(Mapping[Hashable, float]):
         """Return the probability of each state."""
         return dict(zip(self.states, self.probability.tolist(), strict=True))
 
+    def to_series(self) -> pd.Series[float]:
+        """Return the probability of each state as a Series.
 
-def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
+        >>> from evenbreak.chains import chain_of
+        >>> stochastic_limit(chain_of({"rack": {"won": 0.75, "lost": 0.25}}), "rack").to_series()
+        state
+        rack    0.00
+        won     0.75
+        lost    0.25
+        Name: probability, dtype: float64
+        """
+        import pandas as pd
+
+        index = labels(self.states, "state")
+        return pd.Series(self.probability, index=index, name="probability", copy=True)
+
+    def __array__(
+        self, dtype: DTypeLike | None = None, copy: bool | None = None
+    ) -> NDArray[np.float64]:
+        """Return the probabilities, in the order of the states, where numpy asks for an array."""
+        if copy is False:
+            return np.asarray(self.probability, dtype)
+        return np.array(self.probability, dtype)
+
+
+@overload
+def stochastic_limit(
+    chain: Chain, start: Any = None, *, via: Way | None = None, exact: Literal[False] = False
+) -> Limit: ...
+
+
+@overload
+def stochastic_limit(
+    chain: Chain, start: Any = None, *, via: Way | None = None, exact: Literal[True]
+) -> dict[Hashable, Fraction]: ...
+
+
+def stochastic_limit(
+    chain: Chain, start: Any = None, *, via: Way | None = None, exact: bool = False
+) -> Limit | dict[Hashable, Fraction]:
     """Return the stochastic limit of the chain: where it ends, or its long-run average.
 
     Each probability is conditional on the start alone. The structure of the graph says
@@ -130,14 +175,28 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
         the chain.
     start
         a state, a density (see `Chain.density`), or None for the chain's own start.
+    via
+        the way to the limit. 'kernel': the closed form for states in a line, from a state.
+        'elimination': elimination of states without subtraction, for any chain. 'eigen': the
+        eigenvectors of eigenvalue 1 (see `spectrum`). None: the kernel where there is one,
+        otherwise elimination.
+    exact
+        whether to calculate in fractions and return them, by state. A chance that `chain_of`
+        got as a `Fraction` or as text is taken as it is, a float as the decimal that it
+        prints. Time and the length of the fractions grow with the number of states: for
+        some hundreds of states in a line, or some thousands of scores of a race.
 
     Raises
     ------
     AccuracyError
         if the limit cannot be guaranteed: it spans more decades than floats do in a class too
-        large for decimal numbers, or a class is too large and mixes too slowly.
+        large for decimal numbers, or a class is too large and mixes too slowly. By
+        eigenvectors, if the sum of the absolute errors may be above 1e-12.
     ChainError
-        if the start is neither a state nor a density.
+        if the start is neither a state nor a density, or the chain has no kernel; with
+        `exact`, if the arcs of a state do not sum to exactly 1.
+    InputError
+        if `via` is not a way, or is given together with `exact`.
 
     Notes
     -----
@@ -155,68 +214,64 @@ def stochastic_limit(chain: Chain, start: Any = None) -> Limit:
     >>> limit = stochastic_limit(miss_forever, "S1")
     >>> limit.to_dict(), limit.period, limit.is_cesaro
     ({'S1': 0.5, 'S2': 0.5}, 2, True)
+    >>> third = chain_of([("rack", "won", "1/3"), ("rack", "lost", "2/3")])
+    >>> stochastic_limit(third, "rack", exact=True)["won"]
+    Fraction(1, 3)
     """
-    at = chain.start_index(start)
+    check_chain(chain)
+    if exact:
+        if via is not None:
+            raise InputError(f"via is {via!r}, but exact answers have one way; leave via out")
+        return exact_limit(chain, start)
+    if via is not None:
+        one_of(via, "via", WAYS)
+    if via == "eigen":
+        return _limit_by_eigenvectors(chain, start)
+    at = chain.start_index(start) if via != "elimination" else None
     if at is not None and chain.birth_death is not None:
         probability, period = chain.birth_death.limit(at)
         return Limit(chain, probability, period)
+    if via == "kernel":
+        raise ChainError(
+            "there is no closed form for this chain and start: its states do not stand in a line "
+            "in the order given, or the start is a density; use via='elimination'"
+        )
     structure = chain.structure
     if structure.is_acyclic:
         return Limit(chain, ends_of(chain, chain.density(start)))
+    if structure.count == 1:
+        if at is None:
+            chain.density(start)  # refuses what is no start
+        law, residual = laws_of(chain, structure.closed)
+        return Limit(chain, law, int(structure.periods[0]), residual)
     mass = absorption(chain, start)
     law, residual = laws_of(chain, mass > 0.0)
     law *= mass[structure.label]
-    reached = closed_classes_reached(chain, chain.density(start))
-    period = math.lcm(*structure.periods[reached].tolist())
+    period = _period_reached(chain, start)
     if "transient" in chain.__dict__:
         residual = largest(chain.transient.residual, residual)
     return Limit(chain, law, period, residual)
 
 
+def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
+    """Return the limit as sum R_i (L_i v) over the eigenvalues 1."""
+    from evenbreak.chains.spectrum import spectrum
+
+    pairs = spectrum(chain, k=int(chain.structure.closed.sum()))
+    if not pairs.limit_error <= _ERROR_BY_EIGENVECTORS:
+        raise AccuracyError(
+            f"the limit by eigenvectors may be wrong by {pairs.limit_error:.1e}: other eigenvalues "
+            "are too close to 1; use via='elimination', which loses no digits there"
+        )
+    return Limit(chain, pairs.limit(start), _period_reached(chain, start), pairs.residual)
+
+
+def _period_reached(chain: Chain, start: Any) -> int:
+    """Return the least common multiple of the periods of the closed classes reached."""
+    reached = closed_classes_reached(chain, chain.density(start))
+    return math.lcm(*chain.structure.periods[reached].tolist())
+
+
 def largest(*residuals: float | None) -> float | None:
     """Return the largest of the residuals that are not None, or None."""
     return max((r for r in residuals if r is not None), default=None)
-
-
-def limit_matrix(chain: Chain) -> csc_array:
-    """Return the limits from all states; shape (n, n), column j is the limit from state j.
-
-    Time and memory are those of one solve for each closed class that is entered from
-    outside, and of the entries that are not 0. The accuracy is that of `stochastic_limit`.
-    Where only a sparse factorisation helps, the residual of the chances of ending in a class
-    is in `chain.transient.residual` afterwards; that of the law of a closed class is in
-    `stochastic_limit(chain, state).residual` for a state of the class.
-
-    Raises
-    ------
-    AccuracyError
-        if an entry cannot be guaranteed.
-
-    >>> from evenbreak.chains import chain_of
-    >>> chain = chain_of([(1, 0, 0.5), (1, 2, 0.5), (2, 1, 0.25), (2, 3, 0.75)])
-    >>> chain.states, limit_matrix(chain).toarray()[[1, 3]]
-    ([1, 0, 2, 3], array([[0.57142857, 1.        , 0.14285714, 0.        ],
-                          [0.42857143, 0.        , 0.85714286, 1.        ]]))
-    """
-    n, structure = len(chain), chain.structure
-    law = stationary_laws(chain)
-    inside = np.flatnonzero(structure.recurrent)
-    home = structure.label[inside]
-    spread = csc_array((law[inside], (inside, home)), shape=(n, structure.count))
-    return csc_array(spread @ _ends_from_all(chain, inside, home))
-
-
-def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
-    """Return the chance of ending in each class, from each state; shape (classes, n)."""
-    shape = chain.structure.count, len(chain)
-    ends = csc_array((np.ones(len(inside)), (home, inside)), shape=shape)
-    part = chain.transient
-    entries = csr_array((ends @ chain.arcs.matrix())[:, part.states])
-    entered = np.flatnonzero(chain.structure.closed & (np.diff(entries.indptr) > 0))
-    for first in range(0, len(entered), _COLUMNS):
-        classes = entered[first : first + _COLUMNS]
-        chances = part.values(entries[classes].toarray().T)
-        row, column = np.nonzero(chances)
-        values = chances[row, column]
-        ends = ends + csc_array((values, (classes[column], part.states[row])), shape=shape)
-    return ends

@@ -22,8 +22,9 @@ import scipy.linalg
 import scipy.sparse.linalg
 from scipy.sparse import csc_array
 
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.eigenpairs import DENSE, EPS
-from evenbreak.chains.limits import limit_matrix
+from evenbreak.chains.limit_matrix import limit_matrix
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.powers import evened
 from evenbreak.checks import number
@@ -58,6 +59,7 @@ def spectral_gap(chain: Chain) -> float:
     >>> round(spectral_gap(chain_of([(1, 1, 0.75), (1, 2, 0.25), (2, 1, 0.5), (2, 2, 0.5)])), 12)
     0.75
     """
+    check_chain(chain)
     structure = chain.structure
     M = evened(chain)
     sizes = np.diff(structure.offsets)
@@ -177,6 +179,7 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
     >>> [mixing_time(winner_breaks, eps) for eps in (0.7, 0.25, 0.01)]
     [0, 1, 4]
     """
+    check_chain(chain)
     eps = number(eps, "eps", above=0.0, below=1.0)
     n = len(chain)
     if n > DENSE:

@@ -18,12 +18,14 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 import numpy as np
 from scipy.sparse import csr_array
 
-from evenbreak.chains.arcs import reachable
+from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.chain import check_chain
+from evenbreak.chains.exact import ExactPassage, exact_passage
 from evenbreak.chains.powers import evened
 from evenbreak.chains.transient import TransientPart
 from evenbreak.checks import number_probability, one_of, whole
@@ -33,6 +35,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.chain import Chain
+
+Into: TypeAlias = Literal["absorbing", "closed"]
+"""What absorbs: states that are never left, or any closed class."""
 
 TIE = 1e-12
 """A cumulative probability this close below q counts as q: sums of floats miss ties."""
@@ -145,13 +150,25 @@ class PassageTime:
         """Yield t, P(T = t) and P(t < T, and the target is reached), for t = 0, 1, ..."""
         t, chance, x = 0, self._at_once, self._v
         while True:
-            yield t, chance, float(self._hope @ x)
-            t, chance, x = t + 1, float(self._leak @ x), self._inside @ x
+            yield t, chance, float((self._hope * x).sum())
+            t, chance, x = t + 1, float((self._leak * x).sum()), self._inside @ x
+
+
+@overload
+def steps_to_absorption(
+    chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: Literal[False] = False
+) -> PassageTime: ...
+
+
+@overload
+def steps_to_absorption(
+    chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: Literal[True]
+) -> ExactPassage: ...
 
 
 def steps_to_absorption(
-    chain: Chain, start: Any = None, *, into: Literal["absorbing", "closed"] = "absorbing"
-) -> PassageTime:
+    chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: bool = False
+) -> PassageTime | ExactPassage:
     """Return the number of steps until the chain is absorbed, given the start.
 
     Parameters
@@ -162,6 +179,9 @@ def steps_to_absorption(
         'absorbing': until a state is reached that is never left (the match is over); a
         closed class of several states is then a way of never being absorbed. 'closed':
         until any closed class is entered, which always happens.
+    exact
+        whether to calculate the chances, mean and variance in fractions (see
+        `stochastic_limit`); there is then no distribution.
 
     Raises
     ------
@@ -182,12 +202,17 @@ def steps_to_absorption(
     >>> racks = steps_to_absorption(two_ahead, 0)
     >>> racks.mean, racks.variance, racks.quantile(0.9), racks.p_never
     (4.0, 8.0, 8, 0.0)
+    >>> steps_to_absorption(two_ahead, 0, exact=True).mean_if_reached
+    Fraction(4, 1)
     """
+    check_chain(chain)
     one_of(into, "into", ("absorbing", "closed"))
     structure = chain.structure
     ends = structure.recurrent
     if into == "absorbing":
         ends = ends & (np.diff(structure.offsets)[structure.label] == 1)
+    if exact:
+        return exact_passage(chain, start, ends)
     return _passage(chain, chain.density(start), ends)
 
 
@@ -214,6 +239,18 @@ def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
     >>> walk_to_0.p_reached, walk_to_0.mean
     (1.0, 8.0)
     """
+    check_chain(chain)
+    return _passage(chain, chain.density(start), target_of(chain, target))
+
+
+def target_of(chain: Chain, target: Any) -> NDArray[np.bool_]:
+    """Return which states are the target, given as a state or a list or set of states.
+
+    Raises
+    ------
+    ChainError
+        if a state is unknown, or there is none.
+    """
     targets = target if isinstance(target, (list, set, frozenset)) else [target]
     if isinstance(target, Hashable) and target in chain.position:
         targets = [target]
@@ -221,7 +258,7 @@ def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
         raise ChainError("no target is given; give a state or a list of states")
     ends = np.zeros(len(chain), dtype=bool)
     ends[[chain.index(state) for state in targets]] = True
-    return _passage(chain, chain.density(start), ends)
+    return ends
 
 
 def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> PassageTime:
@@ -235,21 +272,21 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
     part = TransientPart(arcs, states)
 
     arrive = hopeful[source] & ends[target]
-    leak = np.bincount(source[arrive], chance[arrive], n)[states].astype(np.float64)
+    leak = sums(source[arrive], chance[arrive], n)[states]
     visits = part.visits(v[states])
     certain = not lost.any()
     if certain:
         p_reached, p_never, hope = 1.0, 0.0, np.ones(len(states), dtype=np.float64)
     else:
-        p_reached, hope = float(v[ends].sum() + visits @ leak), part.values(leak)
+        p_reached, hope = float(v[ends].sum() + (visits * leak).sum()), part.values(leak)
         vanish = hopeful[source] & lost[target]
         flow = _spread(n, states, visits)[source[vanish]]
-        p_never = float(v[lost].sum() + flow @ chance[vanish])
+        p_never = float(v[lost].sum() + (flow * chance[vanish]).sum())
     mean = variance = None
     if p_reached > 0.0:
         left = np.divide(part.values(hope), hope, out=np.zeros_like(hope), where=hope > 0.0)
         with np.errstate(over="ignore", invalid="ignore"):
-            mean = float(visits @ hope / p_reached)
+            mean = float((visits * hope).sum() / p_reached)
             variance = _variance(chain, v, ends, states, visits, hope, left, mean) / p_reached
         if mean == np.inf:
             raise AccuracyError("the mean number of steps is larger than any float")
@@ -286,10 +323,10 @@ def _variance(
     flow, hope, left = (_spread(n, states, values) for values in (visits, hope, left))
     hope[ends] = 1.0
     i, j = arcs.targets, arcs.sources
-    begun = v * hope @ (left - mean) ** 2
-    moved = flow[j] * arcs.chances * hope[i] @ (left[i] - left[j] + 1.0) ** 2
-    stayed = flow * chain.matrix.diagonal() @ hope
-    return float(begun + moved + stayed)
+    begun = v * hope * (left - mean) ** 2
+    moved = flow[j] * arcs.chances * hope[i] * (left[i] - left[j] + 1.0) ** 2
+    stayed = flow * chain.matrix.diagonal() * hope
+    return float(begun.sum() + moved.sum() + stayed.sum())
 
 
 def _spread(n: int, states: NDArray[np.intp], values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
+from evenbreak.chains.arcs import sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 
@@ -74,6 +76,7 @@ def propagate(
            [0.  , 0.5 , 0.5 , 0.  ],
            [0.25, 0.5 , 0.  , 0.25]])
     """
+    check_chain(chain)
     steps = whole(steps, "steps")
     if steps > MOST_APPLIED:
         raise InputError(
@@ -125,8 +128,9 @@ def _by_squares(
 def evened(chain: Chain) -> csc_array:
     """Return the matrix of the chain with columns scaled to sum to 1."""
     M = chain.matrix
-    sums = np.asarray(M.sum(axis=0)).ravel()
-    if np.all(sums == 1.0):
+    columns = np.repeat(np.arange(len(chain)), np.diff(M.indptr))
+    total = sums(columns, M.data, len(chain))
+    if np.all(total == 1.0):
         return M
-    data = M.data / np.repeat(sums, np.diff(M.indptr))
+    data = M.data / total[columns]
     return csc_array((data, M.indices, M.indptr), shape=M.shape)

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from evenbreak.chains.chain import by_label, check_chain
 from evenbreak.chains.limits import stochastic_limit
 from evenbreak.errors import ChainError
 
@@ -44,8 +45,8 @@ def long_run_reward(
     chain, start
         as in `stochastic_limit`.
     per_state
-        the reward of each step begun in a state: a mapping (0 for states not named), or
-        an array of shape (n,).
+        the reward of each step begun in a state: a mapping or a pandas Series (0 for states
+        not named), or an array of shape (n,).
     per_arc
         the reward of each step from source to target, by (source, target); 0 for arcs
         not named. It is added to `per_state`.
@@ -69,6 +70,7 @@ def long_run_reward(
     >>> round(long_run_reward(winner_breaks, 1, per_arc=stakes), 12)
     0.5
     """
+    check_chain(chain)
     reward = _expected_reward(chain, per_state, per_arc)
     return math.fsum(stochastic_limit(chain, start).probability * reward)
 
@@ -106,6 +108,7 @@ def total_reward(
     >>> total_reward(toss, "go", per_state={"go": -1}, per_arc={("go", "end"): 10})
     6.0
     """
+    check_chain(chain)
     reward = _expected_reward(chain, per_state, per_arc)
     v = chain.density(start)
     states = chain.transient.states
@@ -118,9 +121,8 @@ def _expected_reward(
     per_arc: Mapping[tuple[Hashable, Hashable], float] | None,
 ) -> NDArray[np.float64]:
     """Return the expected reward of a step begun in each state; shape (n,)."""
-    if per_state is None:
-        per_state = {}
-    elif not isinstance(per_state, Mapping):
+    per_state = {} if per_state is None else by_label(per_state, "per_state")
+    if not isinstance(per_state, Mapping):
         per_state = np.asarray(per_state, dtype=float)
     reward = chain.vector(per_state, "per_state")
     for (source, target), amount in (per_arc or {}).items():

@@ -25,6 +25,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
+from evenbreak.arrays import short_repr
+from evenbreak.chains.arcs import sums
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.limits import largest, stochastic_limit
 from evenbreak.chains.stationary import stationary_laws
 from evenbreak.chains.transient import TransientPart
@@ -50,6 +53,7 @@ class _Slopes:
         return np.asarray(self.forward[j] * backward)
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Sensitivity:
     """The derivatives of a weighted sum of a stochastic limit.
@@ -168,21 +172,24 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     >>> round(share.value, 12), round(share[1, 1], 12)
     (0.666666666667, 0.888888888889)
     """
+    check_chain(chain)
     c = chain.vector(weights, "weights")
     structure, part = chain.structure, chain.transient
     recurrent = structure.recurrent
     limit = stochastic_limit(chain, start)
 
-    mean = np.bincount(structure.label, stationary_laws(chain) * c, structure.count)
+    mean = sums(structure.label, stationary_laws(chain) * c, structure.count)
     ends = np.where(recurrent, mean[structure.label], 0.0)
-    ends[part.states] = _signed_values(part, (chain.arcs.matrix().T @ ends)[part.states])
+    arcs = chain.arcs
+    entered = sums(arcs.sources, arcs.chances * ends[arcs.targets], len(chain))
+    ends[part.states] = _signed_values(part, entered[part.states])
     forward = limit.probability.copy()
     forward[part.states] = part.visits(chain.density(start)[part.states])
     relative, missed = _relative_values(chain, np.where(recurrent, c - ends, 0.0))
     slopes = _Slopes(recurrent, forward, ends, relative)
     return Sensitivity(
         chain=chain,
-        value=float(limit.probability @ c),
+        value=float((limit.probability * c).sum()),
         matrix=_in_proportion(chain, slopes),
         residual=largest(limit.residual, part.residual, missed),
         _slopes=slopes,
@@ -224,7 +231,7 @@ def _in_proportion(chain: Chain, slopes: _Slopes) -> csc_array:
     first = np.lexsort((-p, j))[M.indptr[:-1]]
     small = p.copy()
     small[first] = 0.0
-    rest, rest_slope = np.bincount(j, small, n), np.bincount(j, small * G, n)
+    rest, rest_slope = sums(j, small, n), sums(j, small * G, n)
     top, top_slope = p[first], (p * G)[first]
     others = top[j] + rest[j] - p
     others_slope = top_slope[j] + rest_slope[j] - p * G

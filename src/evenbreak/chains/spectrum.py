@@ -10,18 +10,25 @@ vectors the chances of ending there, so that the stochastic limit is
 only the chain's arcs and structure with the eliminations of `stochastic_limit`, and loses
 digits where they do not: in chains that are slow or nearly fall apart. Every answer comes
 with a proved bound on its error (see `certified_lu`) and is refused if the bound is too large.
+
+Where the classes are reversible, as in rating ladders and n-ahead matches, the pairs come from
+symmetric matrices instead (see `reversible_pairs`): all of them, and all real.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from evenbreak.arrays import short_repr
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.eigenpairs import DENSE, TOLERANCE, UnitPairs, leading_pairs, no_basis
 from evenbreak.chains.mixing import mixing_time, spectral_gap
 from evenbreak.chains.powers import evened
+from evenbreak.chains.reversible import DENSE as ALL_REVERSIBLE
+from evenbreak.chains.reversible_pairs import reversible_classes, reversible_pairs
 from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, ChainError, InputError
 
@@ -29,6 +36,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.chain import Chain
+    from evenbreak.chains.reversible import SymmetricForm
 
 MOST_ENTRIES = 20_000_000
 """More entries of vectors than this (k times n) are refused: they would fill the memory."""
@@ -36,6 +44,7 @@ LEADING = 6
 """Beyond `DENSE` states, this many eigenvalues are found, or as many as are 1."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Spectrum:
     """Eigenvalues of a chain with their right and left vectors.
@@ -47,27 +56,54 @@ class Spectrum:
     values
         shape (k,): the eigenvalues 1 first, the others by falling modulus (beyond 1000
         states: those nearest to 1 first).
-    right
-        shape (n, k): column i is the right vector of eigenvalue i. Those of eigenvalue 1
-        are the stationary laws of the closed classes.
-    left
-        shape (k, n): row i is the left vector of eigenvalue i. Those of eigenvalue 1 are
-        P(end in the closed class | start in the state).
     units
         how many eigenvalues are 1: the number of closed classes.
     residual
-        the largest absolute entry of `M R - R diag(values)`, `L M - diag(values) L` and `L R - I`.
+        the largest absolute entry of `M R - R diag(values)`, `L M - diag(values) L` and `L R - I`;
+        with `orthonormal` vectors Q, that of `S Q - Q diag(values)` and `Q^T Q - I`.
     limit_error
         a bound on the sum of the absolute errors of `limit`, from any start.
+    orthonormal
+        shape (n, k) for a chain of reversible classes (see `reversible_pairs`), otherwise None:
+        the eigenvectors Q of the symmetric matrices S = D^-1 M D of the classes. In a closed
+        class D holds the square roots of the stationary law.
     """
 
     chain: Chain
     values: NDArray[Any]
-    right: NDArray[Any]
-    left: NDArray[Any]
     units: int
     residual: float
     limit_error: float
+    orthonormal: NDArray[np.float64] | None
+    _right: NDArray[Any] = field(repr=False)
+    _left: NDArray[Any] = field(repr=False)
+
+    @property
+    def right(self) -> NDArray[Any]:
+        """Column i is the right vector of eigenvalue i; shape (n, k).
+
+        Those of eigenvalue 1 are the stationary laws of the closed classes.
+        """
+        return self._right
+
+    @property
+    def left(self) -> NDArray[Any]:
+        """Row i is the left vector of eigenvalue i; shape (k, n).
+
+        Those of eigenvalue 1 are P(end in the closed class | start in the state).
+
+        Raises
+        ------
+        AccuracyError
+            if an entry is larger than any float, because the weights of a reversible class span
+            too many decades; the vectors are then in `orthonormal`.
+        """
+        if not np.isfinite(self._left).all():
+            raise AccuracyError(
+                "a left vector has entries larger than any float: the stationary law spans too "
+                "many decades; use the vectors in `orthonormal`"
+            )
+        return self._left
 
     def limit(self, start: Any = None) -> NDArray[np.float64]:
         """Return the stochastic limit by eigenvectors: sum R_i (L_i v) over eigenvalue 1.
@@ -82,7 +118,8 @@ class Spectrum:
         """
         self._check_error()
         v = self.chain.density(start)
-        return np.asarray((self.right[:, : self.units] @ (self.left[: self.units] @ v)).real)
+        chances = self._left[: self.units] @ v
+        return np.asarray((self._right[:, : self.units] @ chances).real)
 
     @property
     def gap(self) -> float:
@@ -111,8 +148,8 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
         the chain, n states.
     k
         how many eigenvalues: at least the number of closed classes, at most n. By
-        default all of them up to 1000 states, beyond that the 6 nearest to 1 (more if
-        more classes are closed).
+        default all of them up to 1000 states (2000 where the classes are reversible),
+        beyond that the 6 nearest to 1 (more if more classes are closed).
 
     Raises
     ------
@@ -132,7 +169,9 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     -----
     The structure says how often eigenvalue 1 occurs: once for each closed class; its vectors
     are solved for class by class. The others come from LAPACK's geev up to 1000 states;
-    beyond that, those nearest to 1 come from ARPACK in shift-invert mode.
+    beyond that, those nearest to 1 come from ARPACK in shift-invert mode. For chains of
+    reversible classes all of them come from similar symmetric matrices, of which LAPACK finds
+    every eigenvector to the last digits, whatever the stationary law.
 
     >>> from evenbreak.chains import Chain
     >>> from scipy.sparse import csc_array
@@ -141,10 +180,13 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     >>> s.values.round(12), s.limit().round(12), round(s.gap, 12)
     (array([1.  , 0.25]), array([0.66666667, 0.33333333]), 0.75)
     """
+    check_chain(chain)
     n = len(chain)
     units = int(chain.structure.closed.sum())
+    forms = reversible_classes(chain)
     if k is None:
-        k = n if n <= DENSE else min(max(LEADING, units), n)
+        all_found = n <= (DENSE if forms is None else ALL_REVERSIBLE)
+        k = n if all_found else min(max(LEADING, units), n)
     k = whole(k, "k", at_least=units)
     if k > n:
         raise InputError(f"k is {k}; the chain has {n} states, give {n} or fewer")
@@ -153,12 +195,10 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
             f"{k} pairs of vectors over {n} states do not fit in memory; ask for fewer, or use "
             "stochastic_limit"
         )
+    if forms is not None:
+        return _of_reversible(chain, forms, k, units)
     pairs = UnitPairs(chain)
-    if not np.isfinite(pairs.error):
-        raise AccuracyError(
-            "the errors of the eigenvectors of eigenvalue 1 cannot be bounded: the chain is too "
-            "slow or too close to falling apart; use stochastic_limit"
-        )
+    _check_bound(pairs.error)
     values, left, right = leading_pairs(chain, pairs, k)
     M = evened(chain)
     residual = max(
@@ -168,7 +208,33 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     )
     if not residual <= TOLERANCE:
         raise no_basis(k, units, residual)
-    return Spectrum(chain, _real(values), _real(right), _real(left), units, residual, pairs.error)
+    values, right, left = _real(values), _real(right), _real(left)
+    return Spectrum(chain, values, units, residual, pairs.error, None, right, left)
+
+
+def _of_reversible(chain: Chain, forms: list[SymmetricForm], k: int, units: int) -> Spectrum:
+    pairs = reversible_pairs(chain, forms, k)
+    _check_bound(pairs.limit_error)
+    if not pairs.missed <= TOLERANCE:
+        raise no_basis(k, units, pairs.missed)
+    return Spectrum(
+        chain,
+        pairs.values,
+        units,
+        pairs.missed,
+        pairs.limit_error,
+        pairs.orthonormal,
+        pairs.right,
+        pairs.left,
+    )
+
+
+def _check_bound(error: float) -> None:
+    if not np.isfinite(error):
+        raise AccuracyError(
+            "the errors of the eigenvectors of eigenvalue 1 cannot be bounded: the chain is too "
+            "slow or too close to falling apart; use stochastic_limit"
+        )
 
 
 def _real(array: NDArray[Any]) -> NDArray[Any]:

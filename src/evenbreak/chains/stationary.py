@@ -18,8 +18,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csc_array
 
+from evenbreak.chains.arcs import sums
 from evenbreak.chains.birth_death import birth_death_law
+from evenbreak.chains.chain import check_chain
 from evenbreak.chains.decimal_elimination import decimal_law
+from evenbreak.chains.dense_law import dense_law, is_small
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.transient import TransientPart
 
@@ -51,6 +54,7 @@ def stationary_laws(chain: Chain) -> NDArray[np.float64]:
     >>> stationary_laws(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 1.0), (0, 1, 1.0)]))
     array([0.66666667, 0.33333333, 0.        ])
     """
+    check_chain(chain)
     return laws_of(chain, chain.structure.closed)[0]
 
 
@@ -61,6 +65,10 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     are proportional to the law.
     """
     structure = chain.structure
+    if structure.count == 1 and classes[0] and is_small(chain.arcs):
+        whole = dense_law(chain.arcs)
+        if whole is not None:
+            return whole, None
     wanted = classes & structure.closed
     law = np.zeros(len(chain))
     cut = structure.order[structure.offsets[:-1][wanted]]
@@ -82,7 +90,7 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     top = np.zeros(structure.count)
     np.maximum.at(top, structure.label[inside], law[inside])
     law[inside] /= top[structure.label[inside]]
-    total = np.bincount(structure.label[inside], law[inside], structure.count)
+    total = sums(structure.label[inside], law[inside], structure.count)
     law[inside] /= total[structure.label[inside]]
     return law, residual
 

@@ -23,12 +23,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csgraph, csr_array
 
+from evenbreak.arrays import short_repr
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Arcs, Places
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Structure:
     """The communicating classes of a chain.

@@ -161,8 +161,13 @@ def _arcs(source: Any) -> tuple[list[Arc], Hashable | None]:
                 if target not in seen:
                     seen.add(target)
                     queue.append(target)
-    else:
+    elif isinstance(source, Iterable):
         arcs, starts = list(source), []
+    else:
+        raise ChainError(
+            f"the source is {source!r:.60}; give a game, a networkx.DiGraph, or a list of "
+            "(source, target, probability)"
+        )
     if not arcs:
         raise ChainError("there are no arcs; give at least one (source, target, probability)")
     return arcs, starts[0] if starts else None

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.chains.arcs import reachable
-from evenbreak.chains.decimal_elimination import decimal_solve, rows_of
+from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.decimal_elimination import decimal_arrivals, decimal_solve, rows_of
 from evenbreak.chains.elimination import Elimination
 from evenbreak.chains.factorisation import Factorisation
 from evenbreak.errors import AccuracyError
@@ -54,6 +54,7 @@ class TransientPart:
 
     def __init__(self, arcs: Arcs, states: Places) -> None:
         self.states = states
+        self._whole = arcs
         self._arcs, self._leak = arcs.among(states)
         self._outflow = arcs.outflow[states]
 
@@ -113,6 +114,38 @@ class TransientPart:
         """
         return self._guaranteed(r, transposed=True)
 
+    def arrivals(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the probability that each other state is the first one entered.
+
+        Unlike expected visits, these never leave the range of floats at the upper end.
+
+        Parameters
+        ----------
+        b
+            shape (m,), in the order of `states`: the start density; nonnegative.
+
+        Returns
+        -------
+        array
+            shape (n,) for the n states of the whole chain, 0 for those in `states`.
+
+        Raises
+        ------
+        AccuracyError
+            if an entry cannot be guaranteed.
+        """
+        arcs = self._whole
+        place = np.full(arcs.size, -1)
+        place[self.states] = np.arange(len(self.states))
+        leaving = (place[arcs.sources] >= 0) & (place[arcs.targets] < 0)
+        sources, targets = place[arcs.sources[leaving]], arcs.targets[leaving]
+        chances = arcs.chances[leaving]
+        x, doubtful = self.attempt(b[:, None])
+        if doubtful.any():
+            out = sources, targets, chances
+            return decimal_arrivals(self._arcs, self._leak, b, out, arcs.size)
+        return sums(targets, chances * x[sources, 0], arcs.size)
+
     def attempt(
         self, b: NDArray[np.float64], *, transposed: bool = False
     ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -127,7 +160,7 @@ class TransientPart:
                 else:
                     x = self._factor.visits(b)
                     gain = 1.0 / self._factor.pivots
-                doubtful = _doubtful(x, gain)
+                doubtful = where_doubtful(x, gain)
         except (np.linalg.LinAlgError, ZeroDivisionError):
             # A pivot, a sum of positive arcs, was smaller than any float.
             x, doubtful = np.full(b.shape, np.nan), np.ones(b.shape, dtype=bool)
@@ -177,7 +210,7 @@ class _InPlainPython:
         return np.array([self._elimination.values(column) for column in r.T.tolist()]).T
 
 
-def _doubtful(x: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray[np.bool_]:
+def where_doubtful(x: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return where underflow may show in x, of shape (m, k); everywhere if x has overflowed.
 
     Underflow loses at most 2^-1074 a term, times the largest entry of x; `gain`, of shape

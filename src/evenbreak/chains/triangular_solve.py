@@ -15,18 +15,23 @@ I - T and its transpose are each solved in one call.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 from scipy.sparse.linalg import spsolve_triangular
 
+from evenbreak.chains.arcs import sums
 from evenbreak.chains.blocks import eliminate_stack, stacks
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Places
+
+_FEW_TERMS = 256
+"""More arcs into or out of a state are added up with a correction."""
 
 
 class TriangularSolve:
@@ -78,7 +83,7 @@ class TriangularSolve:
         columns = [self._leave[sources[across]]]
         rows = [self._enter[targets[across]]]
         entries = [chances[across] / self._unit[sources[across]]]
-        leaks = leak + np.bincount(sources[across], chances[across], m)
+        leaks = leak + sums(sources[across], chances[across], m)
         inner = _Inner(sources[inside], targets[inside], chances[inside], label)
         for size, classes in stacks(sizes):
             first = offsets[classes]
@@ -105,8 +110,14 @@ class TriangularSolve:
         given = r / self._unit[:, None]
         return self._solve(self._system.T, given, self._leave, self._enter, lower=False)
 
-    @staticmethod
+    @cached_property
+    def _most_terms(self) -> int:
+        """The largest number of arcs into or out of a state."""
+        into = np.bincount(self._system.indices).max(initial=0)
+        return max(int(into), int(np.diff(self._system.indptr).max(initial=0)))
+
     def _solve(
+        self,
         system: csc_array | csr_array,
         given: NDArray[np.float64],
         put: Places | None,
@@ -122,6 +133,12 @@ class TriangularSolve:
         x: NDArray[np.float64] = spsolve_triangular(
             system, known, lower=lower, unit_diagonal=True, overwrite_A=True
         )
+        if self._most_terms > _FEW_TERMS:
+            # Terms added up one after the other lose digits that one correction brings back.
+            missed = known - x + _flow(system, x)
+            x += spsolve_triangular(
+                system, missed, lower=lower, unit_diagonal=True, overwrite_A=True
+            )
         return x if take is None else x[take]
 
 
@@ -161,6 +178,15 @@ class _Inner:
         return W
 
 
+def _flow(system: csc_array | csr_array, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return E x for the system I - E, each entry right to about one rounding."""
+    entries = system.tocoo()
+    beside = entries.row != entries.col
+    row, column, chances = entries.row[beside], entries.col[beside], -entries.data[beside]
+    flows = [sums(row, chances * x[column, k], len(x)) for k in range(x.shape[1])]
+    return np.stack(flows, axis=1)
+
+
 def _unit_lower(
     size: int,
     columns: Places,
@@ -172,7 +198,10 @@ def _unit_lower(
     return csc_array(
         (
             np.concatenate((np.ones(size), -entries)),
-            (np.concatenate((places, rows)), np.concatenate((places, columns))),
+            tuple(
+                np.concatenate((places, ends), dtype=np.int32, casting="same_kind")
+                for ends in (rows, columns)
+            ),
         ),
         shape=(size, size),
     )

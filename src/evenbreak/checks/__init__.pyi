@@ -1,12 +1,17 @@
 from .arrays import column as column
 from .arrays import floats as floats
+from .arrays import names as names
 from .arrays import plain as plain
 from .arrays import probability as probability
 from .arrays import together as together
 from .arrays import whole_numbers as whole_numbers
+from .complement import complement as complement
+from .kinds import kind_of as kind_of
+from .kinds import kind_or_usual as kind_or_usual
 from .numbers import number as number
 from .numbers import number_probabilities as number_probabilities
 from .numbers import number_probability as number_probability
 from .numbers import one_of as one_of
 from .numbers import positive as positive
+from .numbers import seed_of as seed_of
 from .numbers import whole as whole

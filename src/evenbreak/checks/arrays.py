@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 from evenbreak.checks.limits import Limits
@@ -16,13 +16,23 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+    from evenbreak.arrays import Floats
+
+_WANTED = {
+    "i": "whole numbers",
+    "b": "True or False",
+    "M": "days of the years 1 to 9999, such as 2026-01-31",
+    "O": "text, '' where there is none",
+}
+"""What a column of each kind of dtype must hold."""
+
 
 @overload
 def probability(value: float | Fraction, name: str) -> float: ...
 
 
 @overload
-def probability(value: Sequence[Any], name: str) -> NDArray[np.float64]: ...
+def probability(value: Sequence[Any], name: str) -> Floats: ...
 
 
 @overload
@@ -65,7 +75,7 @@ def floats(
     above: float = -math.inf,
     below: float = math.inf,
     wanted: str = "",
-) -> NDArray[np.float64]:
+) -> Floats:
     """Return `values` as a float array if all of them are finite and within the limits.
 
     Parameters
@@ -100,8 +110,8 @@ def floats(
 
 def whole_numbers(
     values: Any, name: str, *, at_least: int | None = None, wanted: str = ""
-) -> NDArray[np.float64]:
-    """Return `values` as a float array if all of them are whole numbers, none too small.
+) -> Floats:
+    """Return `values` as a float array if all are whole numbers, `at_least` or more.
 
     >>> whole_numbers([1, 2.0], "n")
     array([1., 2.])
@@ -124,7 +134,7 @@ def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = flo
     """Return a read-only copy of `values`, one value for each player, row or match.
 
     It is a copy so that a later change to the caller's array changes nothing here. NaN and
-    infinity pass where `dtype` can hold them.
+    infinity pass where `dtype` is float.
 
     Parameters
     ----------
@@ -135,7 +145,9 @@ def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = flo
     count, each
         how many values there must be, and of what: 3, 'players'.
     dtype
-        their type; floats become ints only if they are whole numbers.
+        their type: float, int (floats pass if they are whole numbers), bool (0 and 1 pass),
+        days (as dates or as text such as 2026-01-31, NaT or None for no date), or object,
+        which stands for text.
 
     Raises
     ------
@@ -146,25 +158,43 @@ def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = flo
     Traceback (most recent call last):
     ...
     evenbreak.errors.InputError: rating has shape (2,); give one value for each of 3 players
+    >>> column(["no", "yes"], "forfeit", 2, "rows", bool)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: forfeit is ['no', 'yes']; give True or False
     """
     import numpy as np
 
     kind = np.dtype(dtype)
     try:
-        given = np.asarray(values)
         with np.errstate(invalid="ignore"):  # NaN becomes some int, and then differs
-            found = np.array(given, dtype=kind)
-        right = kind.kind != "i" or given.dtype.kind in "bi" or bool((found == given).all())
+            found = _converted(values, kind)
     except (TypeError, ValueError, OverflowError):
-        right = False
-    if not right:
-        wanted = "whole numbers" if kind.kind == "i" else f"values of type {kind}"
-        raise InputError(f"{name} is {values!r}; give {wanted}")
+        found = None
+    if found is None:
+        raise InputError(f"{name} is {values!r}; give {_WANTED.get(kind.kind, 'numbers')}")
     if found.shape != (count,):
         raise InputError(
             f"{name} has shape {found.shape}; give one value for each of {count} {each}"
         )
     found.flags.writeable = False
+    return found
+
+
+def names(values: Iterable[Any], name: str) -> tuple[str, ...]:
+    """Return `values` as a tuple if they are text, each once.
+
+    >>> names(["Ann", float("nan")], "players")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: players holds nan, which is not text; give names
+    """
+    found = tuple(values)
+    for value in found:
+        if not isinstance(value, str):
+            raise InputError(f"{name} holds {value!r}, which is not text; give names")
+    if len(set(found)) < len(found):
+        raise InputError(f"{name} holds a name twice; give each name once")
     return found
 
 
@@ -197,23 +227,56 @@ def together(**arrays: ArrayLike) -> tuple[int, ...]:
 
 
 def plain(array: Any) -> Any:
-    """Return a float for an array without dimensions, any other array as it is.
+    """Return a float for a number or an array without dimensions, any other array as it is.
 
     >>> import numpy as np
     >>> plain(np.array(2.5)), plain(np.array([2.5]))
     (2.5, array([2.5]))
     """
-    return array if array.ndim else float(array)
+    return array if getattr(array, "ndim", 0) else float(array)
 
 
-def _array(values: Any) -> NDArray[np.float64]:
+def _converted(values: Any, kind: np.dtype[Any]) -> NDArray[Any] | None:
+    """Return a copy of `values` as this type, None where that would change what they say."""
+    import numpy as np
+
+    if kind.kind == "O":
+        texts = np.array(values, dtype=object)
+        return texts if all(isinstance(text, str) for text in texts.flat) else None
+    given = _unmasked(values)
+    # numpy would read text as numbers, and drop imaginary parts.
+    if given.size and given.dtype.kind not in ("MUO" if kind.kind == "M" else "biufO"):
+        return None
+    found = np.array(given, dtype=kind)
+    if kind.kind == "M":
+        years = found.astype("datetime64[Y]").astype(int) + 1970
+        in_range = np.isnat(found) | ((years >= 1) & (years <= 9999))
+        # numpy counts a number as days from 1970.
+        numeric = given.dtype.kind == "O" and any(isinstance(day, int) for day in given.flat)
+        return found if in_range.all() and not numeric else None
+    if kind.kind == "f":
+        text = given.dtype.kind == "O" and any(isinstance(value, str) for value in given.flat)
+        return None if text else found
+    return found if bool((found == given).all()) else None
+
+
+def _array(values: Any) -> Floats:
     """Return `values` as a float array; NaN for what is not numbers."""
     import numpy as np
 
     try:
-        array = np.asarray(values)
+        array = _unmasked(values)
         if array.dtype.kind in "biufO":  # else numpy reads text and drops imaginary parts
             return array.astype(float, copy=False)
     except (TypeError, ValueError, OverflowError):
         pass
     return np.array(math.nan)
+
+
+def _unmasked(values: Any) -> NDArray[Any]:
+    """Return `values` as an array; NaN stands for what is masked, whose number does not count."""
+    import numpy as np
+
+    if np.ma.is_masked(values):
+        return np.asarray(values.astype(float).filled(math.nan))
+    return np.asarray(values)

@@ -15,13 +15,13 @@ class Limits(NamedTuple):
     below: float
 
     def hold(self, least: float, most: float) -> bool:
-        """Return whether all numbers from `least` to `most` lie within; NaN never does."""
+        """Return whether `least` and `most` lie within the limits; NaN never does."""
         return bool(
             self.above < least and most < self.below and self.low <= least and most <= self.high
         )
 
     def numbers(self, *, many: bool = False) -> str:
-        """Say which numbers lie within.
+        """Return the words for the numbers that lie within the limits.
 
         >>> Limits(-math.inf, 2, 0, math.inf).numbers()
         'a number above 0, at most 2'

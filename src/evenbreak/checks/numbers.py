@@ -95,8 +95,15 @@ def number_probabilities(values: Any, name: str, each: str) -> tuple[float, ...]
     return tuple(number_probability(value, f"{each} {i}") for i, value in enumerate(listed, 1))
 
 
-def whole(value: Any, name: str, *, at_least: int | None = 0, wanted: str = "") -> int:
-    """Return `value` as an int if it is a whole number that is not too small.
+def whole(
+    value: Any,
+    name: str,
+    *,
+    at_least: int | None = 0,
+    at_most: int | None = None,
+    wanted: str = "",
+) -> int:
+    """Return `value` as an int if it is a whole number within the limits.
 
     Parameters
     ----------
@@ -104,8 +111,8 @@ def whole(value: Any, name: str, *, at_least: int | None = 0, wanted: str = "") 
         a whole number, of any numeric type.
     name
         what the value is called where the caller wrote it.
-    at_least
-        the smallest number that is allowed; None for no limit.
+    at_least, at_most
+        the smallest and the largest number that is allowed; None for no limit.
     wanted
         what to give, for the error message; by default the limit says it.
 
@@ -126,10 +133,29 @@ def whole(value: Any, name: str, *, at_least: int | None = 0, wanted: str = "") 
         right = bool(found == value) and not isinstance(value, str | bytes)
     except (TypeError, ValueError, OverflowError):
         right = False
-    if not right or (at_least is not None and found < at_least):
-        least = "" if at_least is None else f", {at_least} or more"
-        raise InputError(f"{name} is {value!r}; give {wanted or 'a whole number' + least}")
+    too_small = right and at_least is not None and found < at_least
+    if not right or too_small or (at_most is not None and found > at_most):
+        limits = "" if at_least is None else f", {at_least} or more"
+        if at_most is not None:
+            limits = (
+                f" from {at_least} to {at_most}" if at_least is not None else f", at most {at_most}"
+            )
+        raise InputError(f"{name} is {value!r}; give {wanted or 'a whole number' + limits}")
     return found
+
+
+def seed_of(value: Any, name: str = "seed") -> int:
+    """Return a seed: `value` if it is a whole number from 0, or one drawn from a generator.
+
+    >>> seed_of(7)
+    7
+    >>> import numpy as np
+    >>> seed_of(np.random.default_rng(1)) == seed_of(np.random.default_rng(1))
+    True
+    """
+    if hasattr(value, "integers"):
+        return int(value.integers(2**63))
+    return whole(value, name, wanted="a whole number, 0 or more, or a numpy.random.Generator")
 
 
 def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
@@ -143,7 +169,8 @@ def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
     try:
         return choices[choices.index(value)]
     except ValueError:  # an array raises it too: its comparison is not one truth value
-        listed = " or ".join(repr(choice) for choice in choices)
+        *others, last = map(repr, choices)
+        listed = f"{', '.join(others)} or {last}"
         raise InputError(f"{name} is {value!r}; give {listed}") from None
 
 

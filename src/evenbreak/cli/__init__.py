@@ -10,6 +10,8 @@ import gc
 import os
 import sys
 
+from evenbreak.cli.interrupts import listen, stop_listening
+
 INTERRUPTED = 130
 
 _code: object = 0
@@ -18,22 +20,28 @@ _code: object = 0
 def main() -> None:
     """Run the program on the words of the command line, and exit."""
     global _code
+    listen()
     atexit.register(_exit_if_interrupted)  # registered first, called last
     # What is made at the start lives to the end: collecting it would only cost time, now and
     # once more at exit.
     gc.set_threshold(100_000)
+    # The program opens no window and writes no date, and matplotlib fails where these are wrong.
+    for name in ("MPLBACKEND", "SOURCE_DATE_EPOCH"):
+        os.environ.pop(name, None)
     try:
         from evenbreak.cli.program import program
 
         program()
     except KeyboardInterrupt:  # before the program could handle it
-        sys.stderr.write("Interrupted.\n")
+        if sys.stderr is not None:
+            sys.stderr.write("Interrupted.\n")
         _code = INTERRUPTED
         sys.exit(INTERRUPTED)
     except SystemExit as end:
         _code = end.code
         raise
     finally:
+        stop_listening()
         gc.freeze()
 
 

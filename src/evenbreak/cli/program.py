@@ -1,7 +1,5 @@
 """The program `evenbreak`: its list of commands, and how one of them is run."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -9,6 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import __version__
+from evenbreak.cli.interrupts import raise_if_interrupted, stop_listening
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 SECTIONS = {
@@ -23,6 +22,7 @@ SECTIONS = {
     "Run a league": {
         "report": Entry("league.report", "The fair-race sheet of a league, from its results."),
         "rate": Entry("league.rate", "Ratings from results, and how certain each one is."),
+        "why": Entry("league.why", "Why two players have their ratings and their race."),
         "matchups": Entry("league.matchups", "Tonight's races for a list of rated players."),
         "validate": Entry("league.validate", "How well the ratings predict your own results."),
         "simulate": Entry("league.simulate", "A season played out many times: who benefits?"),
@@ -38,7 +38,7 @@ SECTIONS = {
         "runs": Entry("practice.runs", "How long runs get, and the score of several innings."),
         "oneball": Entry("match.oneball", "The one-ball game: who wins, and which shot to play."),
     },
-    "The table side": {
+    "The physics of the table": {
         "physics": Entry("physics", "Ball, cloth and cue: throw, aim, spin, speed."),
     },
     "The engine": {
@@ -59,6 +59,14 @@ COMMANDS = {
 class Program(LazyGroup):
     """The group of all commands; it exits with the code of the command that ran."""
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the words; `help` and `version` may come without dashes, as elsewhere."""
+        if args[:1] == ["help"]:
+            args = [*args[1:], "--help"]
+        elif args == ["version"]:
+            args = ["--version"]
+        return super().parse_args(ctx, args)
+
     def main(
         self,
         args: Sequence[str] | None = None,
@@ -72,9 +80,11 @@ class Program(LazyGroup):
             return super().main(args, prog_name, complete_var, standalone_mode=False, **extra)
         try:
             code = super().main(args, prog_name, complete_var, standalone_mode=False, **extra)
+            raise_if_interrupted()
             if sys.stdout is not None:
                 sys.stdout.flush()
         except (Exception, KeyboardInterrupt) as error:
+            stop_listening()
             from evenbreak.cli.kit.failures import report_error
 
             code = report_error(error)
@@ -85,7 +95,7 @@ class Program(LazyGroup):
     "evenbreak",
     cls=Program,
     table=COMMANDS,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
     epilog="evenbreak COMMAND --help shows the options of a command, with examples.",
 )
 @click.version_option(__version__, prog_name="evenbreak", message="%(prog)s %(version)s")

@@ -1,14 +1,11 @@
 """`evenbreak reproduce`: every table, figure and number of the source text."""
 
-from __future__ import annotations
-
-from collections import Counter
-from collections.abc import Iterable
-
 import click
 
-from evenbreak.cli.kit.callbacks import refuse
-from evenbreak.cli.kit.output import say
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import out_option
+from evenbreak.cli.kit.terminal import say
 
 EXAMPLES = """\b
 Examples:
@@ -17,48 +14,27 @@ Examples:
 
 
 @click.command("reproduce", epilog=EXAMPLES)
-@click.option(
-    "--out",
-    required=True,
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="Where the files go; made if it is not there.",
-)
-@click.pass_context
-def command(ctx: click.Context, out: str) -> None:
+@out_option("Where the files go; created if it does not exist.")
+@faces(page=False, always_text=True)
+def command(out: str) -> Answer:
     """Write every table, figure and number of the source text, computed anew.
 
-    Begin with DIR/index.md for section 5, statistics, or DIR/physics.md for sections 1 to
-    4, the table: they show and explain it all, name the slips of the text and link to the
-    CSV files. Printed numbers stand beside computed ones. The files are the same to the byte
-    each time; if a number differs from what is expected of it, the command says so and ends
-    with 1.
+    Start with DIR/index.md for section 5, statistics, or DIR/physics.md for sections 1 to 4,
+    the physics of the table. They show and explain every number, point out the errors of the
+    text and link to the CSV files. The files are the same to the byte each time. If a number
+    is not the one expected, the command says so and ends with exit code 1.
     """
-    if not out.strip():
-        refuse("--out is empty; name a folder, or . for this one")
+    from collections import Counter
+
+    from evenbreak.answers.reproduction import reproduction_answer
     from evenbreak.files.folder import check_folder, write_files
-    from evenbreak.source_text.physics.numbers import physics_findings
-    from evenbreak.source_text.reproduce import differing, reproduction
-    from evenbreak.source_text.section5.numbers import findings
+    from evenbreak.source_text.findings import differing
+    from evenbreak.source_text.reproduce import all_findings, reproduction
 
     check_folder(out)
     files = reproduction(say)
     write_files(out, files)
-    say(f"Wrote {_kinds(files)} to {out}")
-    if problems := list(differing([*physics_findings(), *findings()])):
-        for problem in problems:
-            say(f"Differs: {problem}")
-        ctx.exit(1)
-
-
-def _kinds(names: Iterable[str]) -> str:
-    """Return what was written, in short.
-
-    >>> _kinds(["index.md", "physics.md", "a.csv", "b.csv", "a.png", "a.svg"])
-    'index.md, physics.md, 2 tables (CSV) and 1 figure (PNG and SVG)'
-    """
-    names = list(names)
-    count = Counter(name.rsplit(".", 1)[1] for name in names)
-    pages = ", ".join(name for name in names if name.endswith(".md"))
-    figures = "1 figure" if count["png"] == 1 else f"{count['png']} figures"
-    return f"{pages}, {count['csv']} tables (CSV) and {figures} (PNG and SVG)"
+    found = all_findings()
+    if problems := list(differing(found)):
+        raise click.ClickException("\n".join(["the files are written, but", *problems]))
+    return reproduction_answer(out, Counter(finding.verdict for finding in found), files)

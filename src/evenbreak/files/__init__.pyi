@@ -2,14 +2,18 @@ from .aliases import AliasesFile as AliasesFile
 from .aliases import read_aliases as read_aliases
 from .arcs import ArcsFile as ArcsFile
 from .arcs import read_arcs as read_arcs
-from .chart import chart_frame as chart_frame
 from .chart import find_chart as find_chart
 from .chart import read_chart as read_chart
 from .csv_writer import to_csv as to_csv
 from .drill_log import DrillLogFile as DrillLogFile
 from .drill_log import read_drill_log as read_drill_log
+from .entrants import Entered as Entered
+from .entrants import entered as entered
+from .entrants import read_entrants as read_entrants
+from .entrants import roster_of_entrants as roster_of_entrants
 from .folder import write_files as write_files
 from .league import LeagueFile as LeagueFile
+from .league import league_of_entrants as league_of_entrants
 from .league import read_league as read_league
 from .problems import Problems as Problems
 from .results import ResultsFile as ResultsFile
@@ -18,5 +22,5 @@ from .roster import RosterFile as RosterFile
 from .roster import read_roster as read_roster
 from .schedule import ScheduleFile as ScheduleFile
 from .schedule import read_schedule as read_schedule
-from .text_table import Table as Table
+from .text_table import TextTable as TextTable
 from .text_table import read_table as read_table

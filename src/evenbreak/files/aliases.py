@@ -1,13 +1,13 @@
-"""From a file that says which names mean whom to a mapping, with all that is wrong in it told."""
+"""Reading a file of aliases: which names mean which player."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
 
+from evenbreak.files.player_names import clean_name, hidden_letter_warnings
 from evenbreak.files.problems import quoted
-from evenbreak.files.results_columns import clean_name
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 
 REQUIRED = {
     "name": ("alias", "written", "as written", "nickname", "from"),
@@ -18,17 +18,16 @@ REQUIRED = {
 
 @dataclass(frozen=True, eq=False)
 class AliasesFile:
-    """What a file of aliases says.
+    """The contents of a file of aliases.
 
     Parameters
     ----------
     means
-        from a name as it is written to the name that is meant; none that is meant is
-        itself written for another.
+        from a name as it is written to the name that is meant, which is never itself an alias.
     source
         what the file is called in messages.
     warnings
-        what a person should look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     means: dict[str, str]
@@ -37,15 +36,15 @@ class AliasesFile:
 
 
 def read_aliases(path: str | Path) -> AliasesFile:
-    r"""Read which names mean whom from a CSV file; '-' is standard input.
+    r"""Read which names mean the same player from a CSV file; '-' is standard input.
 
     Names are cleaned as those of results are. A name that means itself changes nothing.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: missing columns, no rows, empty cells, a name
-        that means two players, a name that is meant and itself means another.
+        with everything that is wrong in the file: missing columns, no rows, empty cells, a
+        name that means two players, an alias that means another alias.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -54,9 +53,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
     ...     read_aliases(path).means
     {'Bobby': 'Bob Smith', 'Bob S.': 'Bob Smith'}
     """
-    table = read_table(path, REQUIRED)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no names below its header; write one line for each")
+    table = read_table(path, REQUIRED, rows="names")
     pairs = zip(_names(table, "name"), _names(table, "means"), table.lines.tolist(), strict=True)
     means: dict[str, str] = {}
     line_of: dict[str, int] = {}
@@ -66,7 +63,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
         if means.setdefault(name, meant) != meant:
             table.problems.add(
                 line,
-                f"{quoted(name)} means {quoted(meant)} here and {quoted(means[name])} in line "
+                f"{quoted(name)} means {quoted(meant)} here, but {quoted(means[name])} in line "
                 f"{line_of[name]}; keep one of the two",
             )
         line_of.setdefault(name, line)
@@ -75,16 +72,17 @@ def read_aliases(path: str | Path) -> AliasesFile:
             table.problems.add(
                 line_of[name],
                 f"{quoted(name)} means {quoted(meant)}, which means {quoted(means[meant])} in line "
-                f"{line_of[meant]}; write at once who is meant, and keep one of a pair that means "
-                "each other",
+                f"{line_of[meant]}; write the player's real name in both lines, and keep only one "
+                "of two names that mean each other",
             )
     table.problems.raise_any()
     means = {name: meant for name, meant in means.items() if name != meant}
-    return AliasesFile(means, table.source, table.warnings)
+    hidden = hidden_letter_warnings(table, ["means"])
+    return AliasesFile(means, table.source, (*table.warnings, *hidden))
 
 
-def _names(table: Table, column: str) -> list[str]:
-    """Return a column of names, noting those that are empty."""
+def _names(table: TextTable, column: str) -> list[str]:
+    """Return a column of names; empty ones are added to the problems."""
     names = [clean_name(text) for text in table.cells(column)]
     for name, line in zip(names, table.lines.tolist(), strict=True):
         if not name and column in table:

@@ -1,4 +1,4 @@
-"""A chain of the user's own from a file of arcs: source, target, probability."""
+"""Reading a Markov chain from a file of arcs: source, target, probability."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.cells import numbers
 from evenbreak.files.problems import quoted
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 
 COLUMNS = {
     "source": ("from", "state", "source state"),
@@ -56,53 +56,39 @@ def read_arcs(path: str | Path) -> ArcsFile:
     >>> arcs.states, arcs.sources, arcs.targets, arcs.probabilities
     (['S', 'W', 'L'], array([0, 0]), array([1, 2]), array([0.6, 0.4]))
     """
-    table = read_table(path, COLUMNS)
+    table = read_table(path, COLUMNS, rows="arcs")
     whole = len(table.problems) == 0
-    p = numbers(table, "probability", remedy="write one from 0 to 1, such as 0.25").values
-    outside = np.flatnonzero((p < 0.0) | (p > 1.0))
-    table.problems.add_rows(table.lines, outside, lambda row: _outside(p[row]))
+    remedy = "write a probability such as 0.25"
+    p = numbers(table, "probability", at_least=0, at_most=1, remedy=remedy).values
     if all(column in table for column in COLUMNS):
-        if whole and not len(table):
-            table.problems.add(None, "holds no arcs; write a row for each arc below the header")
         for column in ("source", "target"):
             _refuse_empty(table, column)
         states, sources, targets = _states(table)
         _refuse_twice(table, states, sources, targets)
-        # A sum in which a number is wrong or missing would only repeat what is known.
-        if whole and ((p >= 0.0) & (p <= 1.0)).all():
+        # If a number is wrong or missing, its sum would be reported for the same reason.
+        if whole and not np.isnan(p).any():
             _refuse_sums(table, states, sources, p)
     table.problems.raise_any()
     return ArcsFile(states, sources, targets, p, table.source, table.warnings)
 
 
-def _outside(p: float) -> str:
-    return f"probability {float(p)!r} is not from 0 to 1; write one that is"
-
-
-def _refuse_empty(table: Table, column: str) -> None:
-    distinct, codes = table.texts(column)
+def _refuse_empty(table: TextTable, column: str) -> None:
+    distinct, codes = table.columns[column]
     empty = np.flatnonzero(np.array([not text for text in distinct], dtype=bool)[codes])
     table.problems.add_rows(table.lines, empty, lambda _: f"{column} is empty; name a state")
 
 
-def _states(table: Table) -> tuple[list[str], NDArray[np.int64], NDArray[np.int64]]:
+def _states(table: TextTable) -> tuple[list[str], NDArray[np.int64], NDArray[np.int64]]:
     """Return the states as the file first names them, and the position of each arc's two."""
-    source, target = table.texts("source"), table.texts("target")
-    number = {text: code for code, text in enumerate(source.distinct)}
-    other = np.array(
-        [number.setdefault(text, len(number)) for text in target.distinct], dtype=np.int64
-    )
-    ends = np.column_stack([source.codes, other[target.codes]]).ravel()
-    met, first = np.unique(ends, return_index=True)
-    order = np.argsort(first)
-    names = list(number)
-    place = np.zeros(len(names), dtype=np.int64)
-    place[met[order]] = np.arange(len(met))
-    return [names[code] for code in met[order]], place[ends[::2]], place[ends[1::2]]
+    import pandas as pd
+
+    ends = np.array([table.cells("source"), table.cells("target")], dtype=object).T.ravel()
+    places, states = pd.factorize(ends)
+    return states.tolist(), places[::2], places[1::2]
 
 
 def _refuse_twice(
-    table: Table, states: list[str], sources: NDArray[np.int64], targets: NDArray[np.int64]
+    table: TextTable, states: list[str], sources: NDArray[np.int64], targets: NDArray[np.int64]
 ) -> None:
     key = sources * len(states) + targets
     _, first, which = np.unique(key, return_index=True, return_inverse=True)
@@ -118,7 +104,7 @@ def _refuse_twice(
 
 
 def _refuse_sums(
-    table: Table, states: list[str], sources: NDArray[np.int64], p: NDArray[np.float64]
+    table: TextTable, states: list[str], sources: NDArray[np.int64], p: NDArray[np.float64]
 ) -> None:
     leaving, first = np.unique(sources, return_index=True)
     sums = np.bincount(sources, weights=p, minlength=len(states))

@@ -1,47 +1,53 @@
-"""What the cells of a table say: numbers, and anything else that a text can be read as.
+"""What the cells of a table mean: numbers, words, and anything else that text can be read as.
 
-Each reader notes the cells that it cannot read in the table's `problems` and goes on,
-so that one look at a file tells all that is wrong with it.
+Each reader adds the cells that it cannot read to the table's `problems` and goes on, so that
+everything wrong with a file is found at once.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
-from datetime import date
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.problems import quoted
-from evenbreak.files.text_table import Table
+from evenbreak.files.text_table import TextTable
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
-# A comma before three noughts would group thousands.
-_WHOLE = re.compile(r"[+-]?[0-9]+(\.0*|,00?)?", re.ASCII)
-_TIME = r"([T ]\d{1,2}:\d{2}\S*)?"
-_YEAR_FIRST = re.compile(r"(\d{4})[-/](\d{1,2})[-/](\d{1,2})" + _TIME, re.ASCII)
-_DAY_FIRST = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})" + _TIME, re.ASCII)
+# A comma or point before three zeros may group thousands.
+_WHOLE = re.compile(r"[+-]?[0-9]+(\.0{0,2}|\.0{4,}|,00?)?", re.ASCII)
+_GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}[.,][0-9]{3}", re.ASCII)
 _IN_NUMBERS = "0123456789+-.eE"
 _DECIMAL_COMMA = re.compile(r"[^.,]*,[^.,]*")
 LARGEST_WHOLE = 1_000_000
+LARGEST_GROUPED = 10_000  # 92,347 means 92.347: no rating of 92347 points is in use
 LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of digits
 
 
 class Values(NamedTuple):
-    """A column as read: a value for each row, and whether its cell could be read.
+    """A column as read.
 
-    Cells that could not be read, empty ones among them, have the value for empty cells.
+    Attributes
+    ----------
+    values
+        a value for each row: that of an empty cell where a cell could not be read.
+    good
+        which cells could be read, or may be empty.
+    stated
+        which cells are not empty.
     """
 
     values: NDArray[Any]
     good: NDArray[np.bool_]
+    stated: NDArray[np.bool_]
 
 
 def read_cells(
-    table: Table,
+    table: TextTable,
     name: str,
     meaning: Callable[[str], Any],
     *,
@@ -51,54 +57,52 @@ def read_cells(
     empty: Any,
     may_be_empty: bool = False,
 ) -> Values:
-    """Read a column, noting in the table's problems each cell that has no meaning.
+    """Read a column, adding each cell without a meaning to the table's problems.
 
     Parameters
     ----------
     table, name
-        the column to read; one that the file lacks is all empty and no further problem.
+        the column to read; one that the file lacks is empty and not a further problem.
     meaning
         from the text of a cell, never empty, to its value; None where it has none.
     wanted, remedy
-        what a cell should be, and how to mend one: "x is not `wanted`; `remedy`".
+        what a cell should be, and how to correct one: "x is not `wanted`; `remedy`".
     dtype
         numpy type of the values.
     empty
         the value of empty cells.
     may_be_empty
-        whether empty cells are no problem.
+        whether empty cells are allowed.
 
     >>> from evenbreak.files.problems import Problems
     >>> from evenbreak.files.text_table import Texts
-    >>> column = Texts(["7", "seven"], np.array([0, 1, 0]))
-    >>> table = Table("r.csv", np.array([2, 3, 5]), {"score": column}, Problems("r.csv"), (), b"")
-    >>> read_cells(table, "score", lambda text: {"7": 7}.get(text), wanted="a score",
-    ...            remedy="write 0, 1, 2, ...", dtype=int, empty=0).values
+    >>> columns = {"score": Texts(["7", "seven"], np.array([0, 1, 0]))}
+    >>> table = TextTable("r.csv", np.array([2, 3, 5]), columns, frozenset(columns),
+    ...                   Problems("r.csv"), (), b"")
+    >>> read_cells(table, "score", {"7": 7}.get, wanted="a score", remedy="write 0, 1, 2, ...",
+    ...            dtype=int, empty=0).values
     array([7, 0, 7])
     >>> table.problems.raise_any()
     Traceback (most recent call last):
     ...
     evenbreak.errors.DataError: r.csv:3: score 'seven' is not a score; write 0, 1, 2, ...
     """
-    distinct, codes = table.texts(name)
+    distinct, codes = table.columns[name]
+    stated = np.array([bool(text) for text in distinct], dtype=bool)
     meant = [meaning(text) if text else None for text in distinct]
     values = np.array([empty if value is None else value for value in meant], dtype=dtype)
     good = np.array([value is not None for value in meant], dtype=bool)
-    if may_be_empty or name not in table:
-        good |= np.array([not text for text in distinct], dtype=bool)
-
-    def message(row: int) -> str:
+    if may_be_empty or name not in table.found:
+        good |= ~stated
+    for row in np.flatnonzero(~good[codes]):
         text = distinct[codes[row]]
-        if not text:
-            return f"{name} is empty; {remedy}"
-        return f"{name} {quoted(text)} is not {wanted}; {remedy}"
-
-    table.problems.add_rows(table.lines, np.flatnonzero(~good[codes]), message)
-    return Values(values[codes], good[codes])
+        what = f"{quoted(text)} is not {wanted}" if text else "is empty"
+        table.problems.add(int(table.lines[row]), f"{name} {what}; {remedy}")
+    return Values(values[codes], good[codes], stated[codes])
 
 
 def whole_numbers(
-    table: Table,
+    table: TextTable,
     name: str,
     *,
     at_least: int = 0,
@@ -126,17 +130,42 @@ def whole_numbers(
     )
 
 
-def numbers(table: Table, name: str, *, remedy: str, may_be_empty: bool = False) -> Values:
-    """Read a column of finite numbers; cells that are none are NaN.
+def numbers(
+    table: TextTable,
+    name: str,
+    *,
+    at_least: int,
+    at_most: int,
+    remedy: str,
+    may_be_empty: bool = False,
+    points_may_group: bool = False,
+) -> Values:
+    """Read a column of numbers from `at_least` to `at_most`; other cells are NaN.
 
-    A comma is read as the decimal point, as spreadsheets in many languages write it, and
-    never groups thousands.
+    A comma is read as the decimal point, as spreadsheets in many languages write it. A cell
+    such as 1,500 is refused where 1500 is possible too. With `points_may_group` so is 1.500,
+    unless another cell, such as 92.5, shows that the point is a decimal point.
     """
+
+    def meaning(text: str) -> float | None:
+        number = _number(text)
+        return number if number is not None and at_least <= number <= at_most else None
+
+    distinct, codes = table.columns[name]
+    two_ways = _read_two_ways(distinct, min(at_most, LARGEST_GROUPED), points=points_may_group)
+    for row in np.flatnonzero(two_ways[codes]):
+        text = distinct[codes[row]]
+        number = float(text.replace(",", "."))
+        table.problems.add(
+            int(table.lines[row]),
+            f"{name} {quoted(text)} may mean {1000 * number:.0f} or {number:g}; write the one that "
+            "is meant",
+        )
     return read_cells(
         table,
         name,
-        _number,
-        wanted="a number",
+        meaning,
+        wanted=f"a number from {at_least:,} to {at_most:,}",
         remedy=remedy,
         dtype=np.float64,
         empty=math.nan,
@@ -144,37 +173,67 @@ def numbers(table: Table, name: str, *, remedy: str, may_be_empty: bool = False)
     )
 
 
-def dates(table: Table, name: str) -> Values:
-    """Read a column of dates; a time after one is ignored, empty cells are NaT.
+def words(
+    table: TextTable, name: str, meanings: Mapping[str, Any], *, choices: str, empty: Any
+) -> Values:
+    """Read a column of words, compared by their letters and digits in one case.
 
-    With dots the day comes first, else the year: of 9/3/2024 some would read the 9th of
-    March and others the 3rd of September.
+    Parameters
+    ----------
+    table, name
+        the column to read.
+    meanings
+        the value of each word.
+    choices
+        the words that a message proposes.
+    empty
+        the value of empty cells, which are allowed.
     """
     return read_cells(
         table,
         name,
-        read_date,
-        wanted="a date",
-        remedy="write 2024-09-03 or 3.9.2024 (3/9/2024 has two readings), or leave it empty",
-        dtype="datetime64[D]",
-        empty=np.datetime64("NaT"),
+        lambda text: meanings.get(letters(text)),
+        wanted=choices,
+        remedy=f"write {choices}, or leave it empty",
+        dtype=type(empty),
+        empty=empty,
         may_be_empty=True,
     )
 
 
-def read_date(text: str) -> np.datetime64 | None:
-    """Return the date that a text says, as `dates` reads it; None where it says none.
+def texts(table: TextTable, name: str, meaning: Callable[[str], str]) -> Values:
+    """Read a column of any text; empty cells are ''."""
+    return read_cells(
+        table, name, meaning, wanted="", remedy="", dtype=object, empty="", may_be_empty=True
+    )
 
-    >>> read_date("3.9.2024"), read_date("3/9/2024")
-    (np.datetime64('2024-09-03'), None)
+
+def letters(text: str) -> str:
+    """Return the letters and digits of a text, in one case.
+
+    >>> letters("W/O"), letters("Player A")
+    ('wo', 'playera')
     """
-    match, order = _YEAR_FIRST.fullmatch(text), (1, 2, 3)
-    if match is None:
-        match, order = _DAY_FIRST.fullmatch(text), (3, 2, 1)
-    try:
-        return np.datetime64(date(*map(int, match.group(*order)))) if match else None
-    except ValueError:
-        return None
+    return "".join(letter for letter in text.casefold() if letter.isalnum())
+
+
+def _read_two_ways(texts: Sequence[str], at_most: int, *, points: bool) -> NDArray[np.bool_]:
+    """Return which numbers may have a decimal sign or a sign that groups thousands.
+
+    A point is one of them only if `points`, and if no other number shows that it is decimal.
+    """
+    grouped = [_GROUPED.fullmatch(text) is not None for text in texts]
+    others = (text for text, group in zip(texts, grouped, strict=True) if not group)
+    points = points and not any("." in text and _number(text) is not None for text in others)
+    return np.array(
+        [
+            group
+            and (points or "," in text)
+            and abs(float(text.replace(",", "."))) * 1000 <= at_most
+            for text, group in zip(texts, grouped, strict=True)
+        ],
+        dtype=bool,
+    )
 
 
 def _number(text: str) -> float | None:
@@ -184,7 +243,6 @@ def _number(text: str) -> float | None:
     if text.strip(_IN_NUMBERS):
         return None
     try:
-        number = float(text)
+        return float(text) + 0.0  # -0 is 0
     except ValueError:
         return None
-    return number if math.isfinite(number) else None

@@ -1,23 +1,21 @@
-"""From a file to a chart of races, and back, with all that is wrong in it told at once."""
+"""Reading a chart of races from a file, with all its problems at once, and writing it."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from evenbreak.errors import DataError
-from evenbreak.files.cells import whole_numbers
+from evenbreak.errors import DataError, InputError
+from evenbreak.files.cells import LARGEST_WHOLE, whole_numbers
 from evenbreak.files.problems import Problems, printable, quoted
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
+from evenbreak.handicaps.charts.chart_of import catalogue_name
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
+from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS, PointsChart, points_chart
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow, row_faults
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 DIFFERENCES = {
     "difference_from": ("from", "gap from", "points from"),
@@ -25,7 +23,7 @@ DIFFERENCES = {
     "stronger_needs": ("stronger", "higher needs", "games stronger"),
     "weaker_needs": ("weaker", "lower needs", "games weaker"),
 }
-"""The columns of a chart of rating differences, with their other names."""
+"""The columns of a chart by rating difference, with their other names."""
 
 LEVELS = {
     "level": ("skill level", "own level", "level a"),
@@ -33,53 +31,66 @@ LEVELS = {
     "needs": ("games", "own games"),
     "opponent_needs": ("opponent games",),
 }
-"""The columns of a chart of skill levels, with their other names; the last may be missing."""
+"""The columns of a chart by skill level, with their other names; the last may be missing."""
+
+POINTS = {"level": LEVELS["level"], "points": ("points to win", "needs points")}
+"""The columns of a chart of points, with their other names."""
+
+MAY_BE_EMPTY = ("difference_to", "opponent_needs")
+"""The columns whose cells may be empty."""
+
+MOST_GAMES = 1000
+"""Games in the longest race."""
 
 MOST_MISSING = 20
-"""The most missing pairs of levels that are listed one by one."""
+"""The most missing pairs of levels listed one by one."""
 
 
 @dataclass(frozen=True)
 class ChartFile:
-    """What a file says of a chart, also where that makes no chart yet.
+    """The content of a chart file, even if it is not a valid chart yet.
 
     Parameters
     ----------
     found
-        the rows of a chart of rating differences as they stand, or a chart of skill levels.
+        the rows of a chart by rating difference as they are, or another kind of chart.
     problems
-        what keeps those rows from being a chart: gaps and overlaps among them.
+        what keeps those rows from being a chart, such as gaps and overlaps.
     warnings
-        what a person should look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
-    found: ChartDraft | LevelChart
+    found: ChartDraft | LevelChart | PointsChart
     problems: tuple[str, ...]
     warnings: tuple[str, ...]
 
     @property
-    def chart(self) -> Chart | LevelChart:
-        """The chart; a DataError with all problems where there is none."""
+    def chart(self) -> Chart | LevelChart | PointsChart:
+        """The chart; a DataError with all problems if it is not valid."""
         if self.problems:
             raise DataError(self.problems)
-        return self.found if isinstance(self.found, LevelChart) else Chart(*self.found)
+        return Chart(*self.found) if isinstance(self.found, ChartDraft) else self.found
 
 
 def read_chart_file(path: str | Path) -> ChartFile:
-    """Read a file of a chart and keep what is wrong with the chart, for `audit` to tell.
+    """Read a chart file; gaps and overlaps are kept as problems, for `audit` to report.
 
     Raises
     ------
     DataError
-        where the file says nothing that could be audited: missing columns, cells that are no
-        whole numbers, rows that end before they begin; skill levels that make no chart.
+        if there is nothing to audit: missing columns, cells that are not whole numbers, rows
+        that end before they begin, or an invalid chart by skill level.
     """
-    table = read_table(path, {}, {**DIFFERENCES, **LEVELS})
+    table = read_table(path, {}, {**DIFFERENCES, **LEVELS, **POINTS})
     name = "chart" if str(path) == "-" else printable(Path(path).stem)
+    if "points" in table:
+        _check_columns(table, POINTS)
+        return ChartFile(_points(table, name), (), table.warnings)
     by_level = sum(column in table for column in LEVELS) > sum(
         column in table for column in DIFFERENCES
     )
-    _check_columns(table, dict(list(LEVELS.items())[:3]) if by_level else DIFFERENCES)
+    needed = {key: names for key, names in LEVELS.items() if key != "opponent_needs"}
+    _check_columns(table, needed if by_level else DIFFERENCES)
     if by_level:
         return ChartFile(_levels(table, name), (), table.warnings)
     rows = _rows(table)
@@ -89,16 +100,16 @@ def read_chart_file(path: str | Path) -> ChartFile:
         faults.add(int(table.lines[place]), fault)
     if any(row.difference_to is not None and row.difference_to < row[0] for row in rows):
         faults.raise_any()
-    return ChartFile(ChartDraft(name, rows), _told(faults), table.warnings)
+    return ChartFile(ChartDraft(name, rows), faults.listed(), table.warnings)
 
 
-def _check_columns(table: Table, needed: Mapping[str, Sequence[str]]) -> None:
-    """Note the columns that are missing, or that there are no rows."""
+def _check_columns(table: TextTable, needed: Mapping[str, Sequence[str]]) -> None:
+    """Note missing columns, or missing rows, as problems."""
     missing = [column for column in needed if column not in table]
-    if not table.columns:
+    if not table.found:
         table.problems.add(
             None,
-            "has no column of a chart; name the columns "
+            "has none of the columns of a chart; name the columns "
             f"{', '.join(DIFFERENCES)}, or {', '.join(LEVELS)}",
         )
         table.problems.raise_any()
@@ -108,62 +119,22 @@ def _check_columns(table: Table, needed: Mapping[str, Sequence[str]]) -> None:
             None, f"there is no column {column!r}; add it (it may also be called {also})"
         )
     if not len(table.problems) and not len(table):
-        table.problems.add(None, "holds no rows of a chart; write one a line below the header")
+        table.problems.add(None, "has no rows below its header; write one line for each race")
 
 
-def _told(problems: Problems) -> tuple[str, ...]:
-    """Return the problems, a line each."""
-    try:
-        problems.raise_any()
-    except DataError as error:
-        return error.problems
-    return ()
-
-
-def _rows(table: Table) -> tuple[ChartRow, ...]:
-    """Return the rows as they stand; cells that are no whole numbers are noted."""
-    columns = (
-        _points(table, "difference_from"),
-        _points(table, "difference_to", may_be_empty=True),
-        _games(table, "stronger_needs"),
-        _games(table, "weaker_needs"),
-    )
+def _rows(table: TextTable) -> tuple[ChartRow, ...]:
+    """Return the rows as they are; cells that are not whole numbers are noted as problems."""
+    start, end, stronger, weaker = (_whole(table, name) for name in DIFFERENCES)
+    has_end = map(bool, table.cells("difference_to"))
     return tuple(
-        ChartRow(start, end if text else None, stronger, weaker)
-        for text, start, end, stronger, weaker in zip(
-            table.cells("difference_to"), *columns, strict=True
-        )
+        ChartRow(first, last if ends else None, *needs)
+        for first, last, ends, *needs in zip(start, end, has_end, stronger, weaker, strict=True)
     )
 
 
-def _points(table: Table, name: str, *, may_be_empty: bool = False) -> list[int]:
-    values, _ = whole_numbers(
-        table, name, remedy="write whole points, such as 7", may_be_empty=may_be_empty
-    )
-    return list(map(int, values))
-
-
-def _games(table: Table, name: str, *, may_be_empty: bool = False) -> list[int]:
-    """Return a column of games, 0 where a cell is empty."""
-    values, _ = whole_numbers(
-        table,
-        name,
-        at_least=1,
-        remedy="write how many games, such as 5",
-        may_be_empty=may_be_empty,
-    )
-    return list(map(int, values))
-
-
-def _skill(table: Table, name: str) -> list[int]:
-    values, _ = whole_numbers(table, name, remedy="write a skill level, such as 4")
-    return list(map(int, values))
-
-
-def _levels(table: Table, name: str) -> LevelChart:
-    """Return a chart of skill levels, or refuse the file."""
-    own, other = _skill(table, "level"), _skill(table, "opponent_level")
-    needs, theirs = _games(table, "needs"), _games(table, "opponent_needs", may_be_empty=True)
+def _levels(table: TextTable, name: str) -> LevelChart:
+    """Return a chart by skill level; a DataError with all problems where there is none."""
+    own, other, needs, theirs = (_whole(table, column) for column in LEVELS)
     table.problems.raise_any()
     found: dict[tuple[int, int], tuple[int, int]] = {}
     for row in range(len(table)):
@@ -172,7 +143,7 @@ def _levels(table: Table, name: str) -> LevelChart:
             if games:
                 _note(table, found, key, games, row)
     levels = sorted({level for pair in found for level in pair})
-    missing = [pair for pair in ((i, j) for i in levels for j in levels) if pair not in found]
+    missing = [pair for pair in product(levels, repeat=2) if pair not in found]
     for mine, opponent in missing[:MOST_MISSING]:
         table.problems.add(
             None, f"does not say what level {mine} needs against level {opponent}; add a row"
@@ -185,14 +156,26 @@ def _levels(table: Table, name: str) -> LevelChart:
             table.problems.add(
                 int(table.lines[row]),
                 f"level {mine} needs {games} games against level {opponent}, which needs "
-                f"{against}; the higher level needs as many at least",
+                f"{against}; the higher level must need at least as many",
             )
     table.problems.raise_any()
     return LevelChart(name, levels, [[found[i, j][0] for j in levels] for i in levels])
 
 
+def _points(table: TextTable, name: str) -> PointsChart:
+    """Return a chart of points; a DataError with all problems where there is none."""
+    levels, points = _whole(table, "level"), _whole(table, "points")
+    table.problems.raise_any()
+    try:
+        return PointsChart(name, levels, points)
+    except InputError as error:
+        table.problems.add(None, f"is not a chart of points: {error}")
+        table.problems.raise_any()
+        raise
+
+
 def _note(
-    table: Table,
+    table: TextTable,
     found: dict[tuple[int, int], tuple[int, int]],
     pair: tuple[int, int],
     games: int,
@@ -203,21 +186,36 @@ def _note(
     if before != games:
         table.problems.add(
             int(table.lines[row]),
-            f"level {pair[0]} needs {games} games against level {pair[1]} here and {before} in "
+            f"level {pair[0]} needs {games} games against level {pair[1]} here but {before} in "
             f"line {table.lines[line]}; keep one of the two",
         )
 
 
-def read_chart(path: str | Path) -> Chart | LevelChart:
-    r"""Read a chart of rating differences or of skill levels from a CSV file; '-' is stdin.
+def _whole(table: TextTable, column: str) -> list[int]:
+    """Return a column of whole numbers, 0 where a cell may be empty and is."""
+    games = column.endswith("needs") or column == "points"
+    wanted = "points, such as 7" if column in DIFFERENCES else "a skill level, such as 4"
+    found = whole_numbers(
+        table,
+        column,
+        at_least=1 if games else 0,
+        at_most=MOST_GAMES if games else LARGEST_WHOLE,
+        remedy=f"write {'a number of games, such as 5' if games else wanted}",
+        may_be_empty=column in MAY_BE_EMPTY,
+    )
+    return list(map(int, found.values))
 
-    Which of the two it is, its columns say; the chart is called as the file without its ending.
+
+def read_chart(path: str | Path) -> Chart | LevelChart | PointsChart:
+    r"""Read a chart by rating difference or by skill level from a CSV file; '-' is stdin.
+
+    The columns decide which of the two it is; the chart is named after the file.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: missing columns, cells that are no whole numbers,
-        gaps and overlaps between the rows, pairs of levels that are missing or said twice.
+        with all problems of the file: missing columns, cells that are not whole numbers, gaps
+        and overlaps between rows, pairs of levels that are missing or contradict each other.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -229,13 +227,13 @@ def read_chart(path: str | Path) -> Chart | LevelChart:
     return read_chart_file(path).chart
 
 
-def find_chart(name_or_path: str | Path) -> Chart | LevelChart:
-    """Return the chart of the package that has this name, or else the one in this file.
+def find_chart(name_or_path: str | Path) -> Chart | LevelChart | PointsChart:
+    """Return the chart of this name that comes with the package, or else the one in this file.
 
     Raises
     ------
     DataError
-        where there is neither, or as `read_chart` does.
+        if there is neither, or as for `read_chart`.
 
     >>> find_chart("NPL-10").race(12)
     (5, 4)
@@ -244,53 +242,45 @@ def find_chart(name_or_path: str | Path) -> Chart | LevelChart:
 
 
 def find_chart_file(name_or_path: str | Path) -> ChartFile:
-    """Return the chart of the package that has this name, or else what this file says of one."""
-    key = re.sub(r"[-\s]+", "_", str(name_or_path).strip().lower())
+    """Return the chart of this name that comes with the package, or else the content of a file."""
+    key = catalogue_name(str(name_or_path))
     if key in CHARTS:
         return ChartFile(ChartDraft(key, tuple(chart(key).rows)), (), ())
     if key in LEVEL_CHARTS:
         return ChartFile(level_chart(key), (), ())
+    if key in POINTS_CHARTS:
+        return ChartFile(points_chart(key), (), ())
     try:
         return read_chart_file(name_or_path)
     except DataError as error:
         if str(name_or_path) == "-" or _exists(name_or_path):
             raise
-        known = ", ".join((*CHARTS, *LEVEL_CHARTS))
+        known = ", ".join((*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS))
         problem = error.problems[0].partition(";")[0]
         raise DataError(
-            [f"{problem}, and no chart is called so; name a file, or {known}"]
+            [f"{problem}, and no chart has this name; name a file, or {known}"]
         ) from None
 
 
 def _exists(path: str | Path) -> bool:
     try:
         return Path(path).exists()
-    except OSError:  # a name that no file can have, such as one of a thousand letters
+    except OSError:  # a name that no file can have, such as a thousand letters
         return False
 
 
-def chart_frame(chart: Chart | LevelChart) -> pd.DataFrame:
-    """Return a chart as the table that `read_chart` reads.
-
-    >>> chart_frame(find_chart("npl_8")).tail(2)
-       difference_from  difference_to  stronger_needs  weaker_needs
-    4               40             48               5             2
-    5               49           <NA>               6             2
-    """
-    import pandas as pd
-
-    columns, rows = chart_table(chart)
-    return pd.DataFrame(rows, columns=columns).astype("Int64")
-
-
-def chart_table(chart: Chart | LevelChart) -> tuple[list[str], list[tuple[int | None, ...]]]:
-    """Return the columns and rows of the file that `read_chart` reads.
+def chart_table(
+    chart: Chart | LevelChart | PointsChart,
+) -> tuple[list[str], list[tuple[int | None, ...]]]:
+    """Return a chart as the columns and rows of a file that `read_chart` reads.
 
     >>> chart_table(find_chart("npl_8"))[1][-1]
     (49, None, 6, 2)
     """
     if isinstance(chart, Chart):
         return list(DIFFERENCES), [tuple(row) for row in chart.rows]
+    if isinstance(chart, PointsChart):
+        return list(POINTS), list(zip(chart.levels, chart.points, strict=True))
     levels = chart.levels
     return list(LEVELS), [
         (own, other, *chart.race(own, other)) for own in levels for other in levels

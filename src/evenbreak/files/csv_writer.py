@@ -12,9 +12,16 @@ if TYPE_CHECKING:
     import pandas as pd
 
 DECIMALS = 6
-FORMULA_STARTS = ("=", "+", "-", "@")
-"""Text that begins with one of these may be run as a formula by a spreadsheet."""
+FORMULA_STARTS = "=+-@\uff1d\uff0b\uff0d\uff20\ufe66\ufe62\ufe63\ufe6b\u2212"
+"""Text that begins with one of these may be run as a formula by a spreadsheet.
 
+Besides those on every keyboard they are the full-width and the small ones, and the minus sign.
+"""
+
+# A spreadsheet that splits cells at semicolons or tabs takes no notice of quotes within a cell.
+_BEGINS = r"((?:^|[;\t\r\n])[\s\"]*)"
+_FORMULA = re.compile(rf"{_BEGINS}(?='*[{re.escape(FORMULA_STARTS)}])")
+_DEFUSED = re.compile(rf"{_BEGINS}'(?='*[{re.escape(FORMULA_STARTS)}])")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 
 
@@ -55,10 +62,9 @@ def rows_of(frame: pd.DataFrame) -> list[tuple[Any, ...]]:
 def csv_lines(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Iterator[str]:
     r"""Yield a header and rows as lines of CSV, each with its line end.
 
-    Cells are separated by commas. Floats have six decimals, whole numbers none; None, NaN and
-    infinities are empty cells; dates are ISO. Text that begins with = + - @ or a control
-    character, which a spreadsheet might run as a formula, gets an apostrophe in front; numbers
-    never do.
+    Cells are separated by commas. Floats have six decimals, whole numbers none; True is yes and
+    False is no; None, NaN and infinities are empty cells; dates are ISO. Text is as `text_cell`
+    writes it.
 
     >>> list(csv_lines(["race_a", "p_win_a"], [[7, 0.5], [8, None]]))
     ['race_a,p_win_a\n', '7,0.500000\n', '8,\n']
@@ -73,6 +79,8 @@ def _cell(value: Any) -> str:
         return ""
     if isinstance(value, str):
         return text_cell(value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, float):
         return _number(value)
     if hasattr(value, "date"):
@@ -89,13 +97,30 @@ def _number(value: float) -> str:
 
 
 def text_cell(text: str) -> str:
-    """Return text as a CSV cell that no spreadsheet takes for a formula.
+    r"""Return text as a CSV cell that no spreadsheet takes for a formula.
+
+    An apostrophe comes before all that a spreadsheet might run: what begins with one of
+    `FORMULA_STARTS` or a control character, also after a semicolon, a tab or a line end, where
+    a spreadsheet of another country begins a new cell. Numbers stay as they are. `undefused`
+    removes the apostrophes again.
 
     >>> text_cell("@SUM(A1)"), text_cell("Ann-Marie"), text_cell('5" ball'), text_cell("-1")
     ("'@SUM(A1)", 'Ann-Marie', '"5"" ball"', '-1')
+    >>> text_cell("Bo;=1+1")
+    '"Bo;\'=1+1"'
     """
-    control = unicodedata.category(text[:1] or "x") == "Cc"
-    if control or (text.startswith(FORMULA_STARTS) and not _NUMBER.fullmatch(text)):
-        text = f"'{text}"
+    if not _NUMBER.fullmatch(text):
+        text = _FORMULA.sub(r"\1'", text)
+        if unicodedata.category(text[:1] or "x") == "Cc":
+            text = f"'{text}"
     # The csv module would leave a lone CR unquoted, and readers end a line there.
-    return '"' + text.replace('"', '""') + '"' if set(text) & set(',"\r\n') else text
+    return '"' + text.replace('"', '""') + '"' if set(text) & set(',;\t"\r\n') else text
+
+
+def undefused(text: str) -> str:
+    """Return text as it was before `text_cell` put apostrophes into it.
+
+    >>> undefused("'@SUM(A1)"), undefused("'t Hooft"), undefused("Bo;'=1+1")
+    ('@SUM(A1)', "'t Hooft", 'Bo;=1+1')
+    """
+    return _DEFUSED.sub(r"\1", text)

@@ -1,4 +1,4 @@
-"""From a file of drill attempts to `DrillLog`, with everything that is wrong in it told at once."""
+"""Reading a file of drill attempts as a `DrillLog`, with all its problems at once."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.files.cells import read_cells, whole_numbers
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.drill_rows import DRILL, rows_of_drill, source_of
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.practice.drill_log import MOST_LEVELS, DrillLog
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ REQUIRED = {
 OPTIONAL = {
     "session": ("practice session", "visit", "evening"),
     "date": ("day", "practised on", "played on"),
+    **DRILL,
 }
 """The columns that a drill log may have, with their other names."""
 
@@ -33,21 +35,21 @@ WORDS = {
         ("no", "n", "false", "f", "0", "missed", "miss", "failed", "fail", "failure"), False
     ),
 }
-"""What a cell of the column success may say, in any case."""
+"""The words of the column success, in upper or lower case."""
 
 
 @dataclass(frozen=True, eq=False)
 class DrillLogFile:
-    """What a file of drill attempts says.
+    """The content of a file of drill attempts.
 
     Parameters
     ----------
     log
         its attempts, in the order of the file.
     source
-        what the file is called in messages.
+        the name of the file in messages.
     warnings
-        what a person should look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     log: DrillLog
@@ -55,14 +57,16 @@ class DrillLogFile:
     warnings: tuple[str, ...]
 
 
-def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFile:
+def read_drill_log(
+    path: str | Path, *, levels: int | None = None, drill: str | None = None
+) -> DrillLogFile:
     r"""Read the attempts of a progressive drill from a CSV file; '-' is standard input.
 
-    Encoding, separator and header are read as `evenbreak.files.text_table` says; the
-    columns are those of `REQUIRED` and `OPTIONAL`, a row an attempt, in the order in which
-    they were made. A row whose session or date differs from that of the row above begins
-    a session; an empty cell stands for what is above it. A row that does not follow the
-    drill's rule within a session is taken as a new start, with a warning.
+    Encoding, separator and header are handled by `evenbreak.files.text_table`; the columns are
+    those of `REQUIRED` and `OPTIONAL`, with one row for each attempt, in the order in which they
+    were made. A new session begins where session, date or drill differ from the row above; an
+    empty cell means the same as the cell above. A row that breaks the rule of the drill within a
+    session counts as a new start, with a warning.
 
     Parameters
     ----------
@@ -70,11 +74,13 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
         the file.
     levels
         how many levels the drill has; None takes the highest one in the file.
+    drill
+        whose attempts are read, if the file has several drills.
 
     Raises
     ------
     DataError
-        with every problem of the file, a line each, if there is any.
+        with every problem of the file, a line each.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -84,9 +90,7 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
     >>> file.log.attempts, file.log.successes
     (array([2, 1]), array([2, 0]))
     """
-    table = read_table(path, REQUIRED, OPTIONAL)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no attempts below its header; write one line for each")
+    table = read_table(path, REQUIRED, OPTIONAL, rows="attempts")
     level = whole_numbers(
         table,
         "level",
@@ -98,39 +102,41 @@ def read_drill_log(path: str | Path, *, levels: int | None = None) -> DrillLogFi
         table,
         "success",
         lambda text: WORDS.get(text.casefold()),
-        wanted="a word for a success or a miss",
-        remedy="write yes or no, and a row for each attempt",
+        wanted="yes or no",
+        remedy="write one of them, and a row for each attempt",
         dtype=np.bool_,
         empty=False,
     ).values
+    rows = rows_of_drill(table, drill, as_above=True)
     table.problems.raise_any()
-    log = DrillLog(level, success, session=_sessions(table), levels=levels)
-    return DrillLogFile(log, table.source, (*table.warnings, *_jump_warning(table, log)))
+    log = DrillLog(level[rows], success[rows], session=_sessions(table)[rows], levels=levels)
+    warnings = (*table.warnings, *_jump_warning(table, log, rows))
+    return DrillLogFile(log, source_of(table, drill), warnings)
 
 
-def _sessions(table: Table) -> NDArray[np.int64]:
+def _sessions(table: TextTable) -> NDArray[np.int64]:
     """Return a number for each row that changes where the session or the date does."""
     changes = np.zeros(len(table), dtype=bool)
     for name in OPTIONAL:
-        distinct, codes = table.texts(name)
+        distinct, codes = table.columns[name]
         stated = np.array([bool(text) for text in distinct], dtype=bool)[codes]
-        # The last row that says something: of empty cells it is the one above that does.
+        # The last row with something in the cell: an empty cell means the same as that one.
         said = np.maximum.accumulate(np.where(stated, np.arange(len(table)), 0))
         changes[1:] |= codes[said][1:] != codes[said][:-1]
     return changes.cumsum()
 
 
-def _jump_warning(table: Table, log: DrillLog) -> list[str]:
+def _jump_warning(table: TextTable, log: DrillLog, rows: NDArray[np.int64]) -> list[str]:
     if not len(log.jumps):
         return []
     row = int(log.jumps[0])
     step = 1 if log.success[row - 1] else -1
-    ruled = min(max(int(log.level[row - 1]) + step, 1), len(log.attempts))
-    many = len(log.jumps)
-    taken = f"{many:,} such rows are taken as new starts" if many > 1 else "it is a new start"
+    by_rule = min(max(int(log.level[row - 1]) + step, 1), len(log.attempts))
+    count = len(log.jumps)
+    such = f"{count:,} such rows count as new starts" if count > 1 else "it counts as a new start"
     return [
-        f"{table.source}:{table.lines[row]}: level {log.level[row]} follows a "
+        f"{table.source}:{table.lines[rows[row]]}: level {log.level[row]} follows a "
         f"{'success' if step > 0 else 'miss'} at level {log.level[row - 1]}, which leads to level "
-        f"{ruled}; {taken}. Rows stand in the order of the attempts; a column session or date "
-        "says where one begins"
+        f"{by_rule}; {such}. Keep the rows in the order of the attempts; a column session or date "
+        "says where a session begins"
     ]

@@ -1,39 +1,33 @@
 """Writing several files at once: a reader finds all the old ones or all the new ones.
 
-All files are written under temporary names and forced to disk before any takes its place. A
-new folder takes its place with all its files in one step (POSIX rename). In an existing folder
-each file takes its place in one step, one after the other within a fraction of a millisecond,
-and requests to end are held back meanwhile. Only an end that cannot be held back (SIGKILL, a
-power cut) at that very moment leaves a mixture: whole files, some old and some new.
+`evenbreak.files.transaction` says how; here a folder is found or made, and a second run that
+would write into it waits for the first.
 """
 
 from __future__ import annotations
 
 import contextlib
 import errno
-import glob
 import os
-import secrets
-import shutil
-import signal
-import threading
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from types import FrameType
 
-LITTER_AGE = 3600.0
-"""Seconds after which a temporary file is taken as a leftover from a killed run."""
+from evenbreak.files.transaction import WORK, Tree, change, recover
+from evenbreak.files.undisturbed import undisturbed
+from evenbreak.files.writer_lock import LOCK, sole_writer
 
-ENDINGS = [
-    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
-]
+PATIENCE = 10.0
+"""Seconds to wait for another run to finish writing."""
+
+_PAUSE = 0.02
 
 
 def check_folder(folder: str | Path) -> None:
     """Check, before a long computation, that `write_files` can write into a folder.
 
-    Leaves nothing behind, and does not create the folder.
+    Files that a killed run had begun to replace are put back. Nothing is left behind, and the
+    folder is not created.
 
     Raises
     ------
@@ -42,34 +36,14 @@ def check_folder(folder: str | Path) -> None:
 
     >>> check_folder(".")
     """
-    folder = Path(folder)
-    try:
-        if folder.is_symlink() and not folder.exists():
-            raise NotADirectoryError(
-                errno.ENOTDIR, "a link to something that does not exist; name another"
-            )
-        there = folder if folder.exists() else _folder_above(folder)
-        probe = _temporary(there / "probe")
-        try:
-            _write(probe, b"")
-        finally:
-            probe.unlink(missing_ok=True)
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(folder)) from error
-
-
-def _folder_above(folder: Path) -> Path:
-    """Return the nearest folder above that exists."""
-    above = next(above for above in folder.parents if above.exists())
-    if not above.is_dir():
-        raise NotADirectoryError(
-            errno.ENOTDIR, f"{above} is a file, so no folder can be in it; name another"
-        )
-    return above
+    _when_alone(Path(folder), lambda there: change(there, {}))
 
 
 def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
     """Write files into a folder, which is created if needed: all of them, or none.
+
+    If the run is killed meanwhile, the next one that writes or checks there puts the old files
+    back.
 
     Parameters
     ----------
@@ -90,103 +64,67 @@ def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
     ['a.csv', 'b.csv']
     """
     folder = Path(folder)
+
+    def write(there: Path) -> None:
+        entries: Tree = files
+        for name in reversed(folder.absolute().relative_to(there.absolute()).parts):
+            entries = {name: entries}
+        change(there, entries)
+
+    _when_alone(folder, write)
+
+
+def _when_alone(folder: Path, write: Callable[[Path], None]) -> None:
+    """Write into the folder, or the nearest one above it that exists, when nobody else does.
+
+    A request to end waits until all is written, but not until another run has finished.
+    """
     try:
-        if folder.exists():
-            _write_into(folder, files)
-        else:
-            _write_new(folder, files)
+        if folder.is_symlink() and not folder.exists():
+            raise NotADirectoryError(
+                errno.ENOTDIR, "a link to something that does not exist; name another"
+            )
+        end = time.monotonic() + PATIENCE
+        while not _written(folder, write):
+            if time.monotonic() > end:
+                raise OSError(
+                    errno.EBUSY, "another run is writing into it; try again when it is done"
+                )
+            time.sleep(_PAUSE)
     except OSError as error:
         # The system would name a temporary file, which means nothing to a person.
         raise OSError(error.errno, error.strerror, str(folder)) from error
-    _sync(folder)
-    _sweep(folder, files)
-    _sweep(folder.parent, [folder.name])
 
 
-def _write_new(folder: Path, files: Mapping[str, bytes]) -> None:
-    _folder_above(folder)
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    staged = _temporary(folder)
-    try:
-        staged.mkdir()
-        for name, content in files.items():
-            _write(staged / name, content)
-        _sync(staged)
-        staged.rename(folder)
-    finally:
-        shutil.rmtree(staged, ignore_errors=True)
-    _sync(folder.parent)
+def _written(folder: Path, write: Callable[[Path], None]) -> bool:
+    """Write, unless another run does, or has just made a folder nearer to the one that is meant."""
+    there = _nearest(folder)
+    with undisturbed():
+        with sole_writer(there) as alone:
+            ready = alone and _nearest(folder) == there
+            if ready:
+                write(there)
+        if ready:
+            _tidy_above(folder)
+    return ready
 
 
-def _write_into(folder: Path, files: Mapping[str, bytes]) -> None:
-    staged: dict[Path, Path] = {}
-    try:
-        for name, content in files.items():
-            place = folder / name
-            if place.is_dir():
-                raise IsADirectoryError(errno.EISDIR, f"{name} in it is a folder")
-            temporary = _temporary(place)
-            staged[temporary] = place
-            _write(temporary, content)
-        with _undisturbed():
-            for temporary, place in staged.items():
-                temporary.replace(place)
-    finally:
-        for temporary in staged:
-            temporary.unlink(missing_ok=True)
+def _tidy_above(folder: Path) -> None:
+    """Remove what a killed run left above the folder when it was about to make it."""
+    for above in folder.absolute().parents:
+        with contextlib.suppress(OSError):
+            if any(os.path.lexists(above / name) for name in (WORK, LOCK)):
+                with sole_writer(above) as alone:
+                    if alone:
+                        recover(above)
 
 
-def _temporary(place: Path) -> Path:
-    return place.with_name(f".{place.name}.{secrets.token_hex(8)}.tmp")
-
-
-def _write(path: Path, content: bytes) -> None:
-    with path.open("xb") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
-
-
-@contextlib.contextmanager
-def _undisturbed() -> Iterator[None]:
-    """Hold back requests to end until the block is done; only the main thread can do that."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    came: list[int] = []
-
-    def note(number: int, _: FrameType | None) -> None:
-        came.append(number)
-
-    # A mask would not do: a signal may be delivered to any thread, such as those of a BLAS.
-    before = [(number, signal.signal(number, note)) for number in ENDINGS]
-    try:
-        yield
-    finally:
-        for number, handler in before:
-            signal.signal(number, signal.SIG_DFL if handler is None else handler)
-        for number in came:
-            signal.raise_signal(number)
-
-
-def _sync(folder: Path) -> None:
-    """Force the folder's new entries to disk, where the system lets a folder be opened."""
-    with contextlib.suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)
-
-
-def _sweep(folder: Path, names: Iterable[str]) -> None:
-    """Remove temporary files that killed runs left behind, but none that may be in use."""
-    for name in names:
-        for path in folder.glob(f".{glob.escape(name)}.*.tmp"):
-            with contextlib.suppress(OSError):
-                if time.time() - path.stat().st_mtime < LITTER_AGE:
-                    continue
-                if path.is_dir():
-                    shutil.rmtree(path)
-                else:
-                    path.unlink()
+def _nearest(folder: Path) -> Path:
+    """Return the folder, or the nearest one above it that exists."""
+    above = next(above for above in (folder, *folder.parents) if above.exists())
+    if not above.is_dir():
+        what = "that" if above == folder else str(above)
+        raise NotADirectoryError(
+            errno.ENOTDIR, f"{what} is a file, so no folder can be in it; name another"
+        )
+    return above

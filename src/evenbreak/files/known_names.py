@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+from evenbreak.files.player_names import same_name
 from evenbreak.files.problems import quoted
 
 MOST_HINTS = 3
@@ -14,10 +15,10 @@ MOST_HINTS = 3
 class KnownNames:
     """The names of a league, and the place of each.
 
-    Upper and lower case may differ where that leaves no doubt.
+    Upper and lower case and blanks may differ where that leaves no doubt.
 
     >>> names = KnownNames(["Ann Lee", "Bo Diaz"])
-    >>> names.place("ann lee"), names.place("Ann")
+    >>> names.place("ann  lee"), names.place("Ann")
     (0, None)
     >>> names.hint("Ann")
     " (did you mean 'Ann Lee'?)"
@@ -28,11 +29,14 @@ class KnownNames:
         self._folded: defaultdict[str, list[str]] = defaultdict(list)
         for name in self._exact:
             self._folded[name.casefold()].append(name)
+        self._same: defaultdict[str, list[str]] = defaultdict(list)
+        for name in self._exact:
+            self._same[same_name(name)].append(name)
         self._hints: dict[str, str] = {}
 
     def place(self, name: str) -> int | None:
         """Return where a name stands in the list, or None if it is unknown or ambiguous."""
-        same = [name] if name in self._exact else self._folded.get(name.casefold(), [])
+        same = [name] if name in self._exact else self._same.get(same_name(name), [])
         return self._exact[same[0]] if len(same) == 1 else None
 
     def hint(self, name: str) -> str:

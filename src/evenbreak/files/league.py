@@ -1,4 +1,4 @@
-"""From a roster with what a simulation needs besides to the players of a season."""
+"""Reading the roster of a season: ratings, and what else a simulation needs."""
 
 from __future__ import annotations
 
@@ -10,33 +10,32 @@ import numpy as np
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.cells import numbers, whole_numbers
-from evenbreak.files.problems import Problems
+from evenbreak.files.entrants import entered
 from evenbreak.files.roster import (
-    LARGEST,
+    FARTHEST,
     LEAGUE,
     OPTIONAL,
     REQUIRED,
     WRITTEN,
+    RosterFile,
     roster_of,
 )
 from evenbreak.files.schedule import LAST_WEEK
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.league.players import ESTABLISHED, LeaguePlayers
 from evenbreak.ratings.roster import NOT_STATED, Roster
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-FARTHEST = 10_000
-"""The largest rating or skill that is simulated, in points."""
-
 LARGEST_SD = 1_000
-"""The largest standard deviation, or drift a week, that is simulated, in points."""
+"""The largest standard deviation, or drift a week, that can be simulated, in points."""
 
 
 @dataclass(frozen=True, eq=False)
 class LeagueFile:
-    """What a league's roster says.
+    """What a league's roster contains.
 
     Parameters
     ----------
@@ -45,28 +44,31 @@ class LeagueFile:
     roster
         the same players as a list of ratings.
     source
-        what the file is called in messages.
+        the name of the file in messages.
     warnings
-        what a person should look at although the file can be used, a line each.
-    guessed
-        how many players have a skill that is drawn, from rating and standard error.
+        what to check although the file can be used, a line each.
+    drawn
+        for how many players the skill is drawn, from rating and standard error.
     exact
-        how many are taken to be rated rightly, for want of a skill and a standard error.
+        for how many the rating is taken as the skill, for lack of a skill and a standard error.
+    scale
+        the scale of the ratings; None if the file does not state it.
     """
 
     players: LeaguePlayers
     roster: Roster
     source: str
     warnings: tuple[str, ...]
-    guessed: int
+    drawn: int
     exact: int
+    scale: Scale | None = None
 
 
 def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     r"""Read the roster of a season from a CSV file; '-' is standard input.
 
-    The columns of a roster, and those of `LEAGUE`. A skill that is not stated is drawn anew
-    for each replica, from a normal law about the rating with the standard error; where that is
+    It has the columns of a roster and those of `LEAGUE`. A skill that is not stated is drawn for
+    each replica from a normal distribution around the rating with the standard error; if that is
     not stated either, the skill is the rating. Ratings are rounded to whole points, halves
     upwards.
 
@@ -75,13 +77,13 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     path
         the file.
     day_sd
-        how far skills vary from day to day, in points, where the file does not say.
+        standard deviation of form from day to day, in points, where the file does not state it.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: what `read_roster` tells, players without a
-        rating, cells out of range, somebody who leaves before he joins.
+        with every problem of the file: those that `read_roster` finds, players without a rating,
+        cells out of range, a player who leaves before joining.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -91,21 +93,20 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     >>> club.players.rating, club.players.skill, club.players.skill_sd
     (array([93, 71, 60]), array([92.5, 75. , 60. ]), array([9., 0., 0.]))
     """
-    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **LEAGUE})
-    skill = _within(table, "skill", "points such as 85", -FARTHEST, FARTHEST)
-    days = _within(table, "day_sd", "points such as 5", 0, LARGEST_SD)
-    drift = _within(table, "drift", "points a week such as 0.1", -LARGEST_SD, LARGEST_SD)
-    absence = _within(table, "absence", "the chance to be absent, such as 0.1", 0, 1)
+    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **LEAGUE}, rows="players")
+    skill = _points(table, "skill", "points such as 85", -FARTHEST, FARTHEST)
+    days = _points(table, "day_sd", "points such as 5", 0, LARGEST_SD)
+    drift = _points(table, "drift", "points a week such as 0.1", -LARGEST_SD, LARGEST_SD)
+    absence = _points(table, "absence", "the chance to be absent, such as 0.1", 0, 1)
     joins, leaves = _week(table, "joins"), _week(table, "leaves")
     table.problems.add_rows(
         table.lines,
         np.flatnonzero((leaves > 0) & (leaves < joins)),
         lambda row: f"leaves in week {leaves[row]}, before week {joins[row]}; correct one of them",
     )
-    _check_ratings(table)
     if len(table) == 1:
-        table.problems.add(None, "1 player is no league; write two or more")
-    file = roster_of(table, all_rated=True)
+        table.problems.add(None, "has 1 player; a league needs two or more")
+    file = roster_of(table, season=True)
     roster = file.roster
     sd = np.where(np.isnan(skill), roster.standard_error, 0.0)
     whole = np.floor(roster.rating + 0.5)
@@ -120,7 +121,7 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
             joins=np.maximum(joins, 1),
             leaves=leaves,
             absence=np.nan_to_num(absence),
-            # Of whom the list does not say it, he is no newcomer.
+            # Players without a number of matches are established.
             played=np.where(roster.matches == NOT_STATED, ESTABLISHED, roster.matches),
         )
     except InputError as error:
@@ -130,42 +131,87 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     if rounded:
         warnings.append(
             f"{table.source}: {rounded:,} rating{'s are' if rounded > 1 else ' is'} rounded to "
-            "whole points, as charts need them"
+            "whole points, as charts need"
         )
     return LeagueFile(
-        players, roster, table.source, tuple(warnings), int((sd > 0).sum()), int(np.isnan(sd).sum())
+        players,
+        roster,
+        table.source,
+        tuple(warnings),
+        drawn=int((sd > 0).sum()),
+        exact=int(np.isnan(sd).sum()),
+        scale=file.scale,
     )
 
 
-def _check_ratings(table: Table) -> None:
-    """Note ratings that are too far out; what is no number `roster_of` tells."""
-    aside = replace(table, problems=Problems(table.source))
-    rating = numbers(aside, "rating", remedy="", may_be_empty=True).values
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero((np.abs(rating) > FARTHEST) & (np.abs(rating) <= LARGEST)),
-        lambda row: (
-            f"rating {rating[row]:g} is not from {-FARTHEST:,} to {FARTHEST:,}, beyond which "
-            "nothing is simulated; take the same number of points from all ratings"
-        ),
+def league_of_entrants(
+    file: LeagueFile, entrants: RosterFile, *, starter: float, starter_sd: float
+) -> LeagueFile:
+    """Return the league of the entrants, with new players where they are not on its list.
+
+    Parameters
+    ----------
+    file
+        the league.
+    entrants
+        as `read_entrants` reads them.
+    starter, starter_sd
+        the rating of a new player for whom the entrants have none, and how far off it may be
+        (standard deviation); the skill is drawn from around it.
+
+    Raises
+    ------
+    DataError
+        if fewer than two players have entered.
+    """
+    if len(entrants.roster) < 2:
+        raise DataError([f"{entrants.source}: has 1 player; a league needs two or more"])
+    found = entered(entrants, file.roster.players, file.source)
+    at = np.array(found.places, dtype=np.int64)
+    new = at < 0
+    own = np.where(np.isnan(entrants.roster.rating), starter, entrants.roster.rating)
+    error = np.where(np.isnan(entrants.roster.rating), starter_sd, entrants.roster.standard_error)
+    known = file.players
+    players = LeaguePlayers.of(
+        np.where(new, np.floor(own + 0.5).astype(np.int64), known.rating[at]),
+        names=found.names,
+        skill=np.where(new, own, known.skill[at]),
+        skill_sd=np.where(new, np.nan_to_num(error), known.skill_sd[at]),
+        day_sd=np.where(new, np.median(known.day_sd), known.day_sd[at]),
+        drift=np.where(new, 0.0, known.drift[at]),
+        joins=np.where(new, 1, known.joins[at]),
+        leaves=np.where(new, 0, known.leaves[at]),
+        absence=np.where(new, 0.0, known.absence[at]),
+        played=np.where(new, 0, known.played[at]),
+    )
+    roster = Roster(
+        found.names,
+        np.where(new, own, file.roster.rating[at]),
+        np.where(new, error, file.roster.standard_error[at]),
+    )
+    exact = np.isnan(roster.standard_error) & (players.skill == roster.rating)
+    return replace(
+        file,
+        players=players,
+        roster=roster,
+        warnings=(*file.warnings, *found.warnings),
+        drawn=int((players.skill_sd > 0.0).sum()),
+        exact=int(exact.sum()),
     )
 
 
-def _within(
-    table: Table, name: str, example: str, least: float, most: float
+def _points(
+    table: TextTable, name: str, example: str, least: int, most: int
 ) -> NDArray[np.float64]:
     """Read a column of numbers from `least` to `most`, NaN where a cell is empty."""
     remedy = f"write {example}, or leave it empty"
-    values: NDArray[np.float64] = numbers(table, name, remedy=remedy, may_be_empty=True).values
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero((values < least) | (values > most)),
-        lambda row: f"{name} {values[row]:g} is not from {least:,} to {most:,}; {remedy}",
-    )
+    values: NDArray[np.float64] = numbers(
+        table, name, at_least=least, at_most=most, remedy=remedy, may_be_empty=True
+    ).values
     return values
 
 
-def _week(table: Table, name: str) -> NDArray[np.int64]:
+def _week(table: TextTable, name: str) -> NDArray[np.int64]:
     """Read a column of weeks, 0 where a cell is empty."""
     remedy = "write 1 for the first week, 2, ..., or leave it empty"
     weeks: NDArray[np.int64] = whole_numbers(

@@ -1,4 +1,4 @@
-"""Lists of who plays whom: from a CSV file to places in a roster."""
+"""Reading a list of who plays whom, as places in a roster."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.files.known_names import KnownNames
+from evenbreak.files.player_names import clean_name
 from evenbreak.files.problems import quoted
 from evenbreak.files.results_columns import REQUIRED as RESULTS
-from evenbreak.files.results_columns import clean_name
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.ratings.roster import Roster
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class PairsFile:
     pairs
         places in the roster, shape (matches, 2), in the order of the file.
     warnings
-        what to look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     pairs: NDArray[np.int64]
@@ -57,15 +57,13 @@ def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     ...     read_pairs(path, club).pairs.tolist()
     [[2, 0], [1, 2]]
     """
-    table = read_table(path, PAIRS)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no pairs below its header; write one line for each match")
+    table = read_table(path, PAIRS, rows="pairs")
     pairs = pairs_in(table, roster)
     table.problems.raise_any()
     return PairsFile(pairs, table.warnings)
 
 
-def pairs_in(table: Table, roster: Roster) -> NDArray[np.int64]:
+def pairs_in(table: TextTable, roster: Roster) -> NDArray[np.int64]:
     """Return the pairs in a table as places in the roster, -1 where it notes a problem."""
     known = KnownNames(roster.players)
     pairs = np.full((len(table), 2), -1)

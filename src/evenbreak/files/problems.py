@@ -1,4 +1,4 @@
-"""All that is wrong with a file, gathered so that a person can mend it in one go."""
+"""Everything that is wrong with a file, collected to be corrected in one go."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LONGEST_QUOTE = 40
 
 
 def quoted(text: str) -> str:
-    r"""Return text as a message may quote it: short, on one line, harmless to a terminal.
+    r"""Return text quoted for a message: short, on one line, harmless to a terminal.
 
     >>> quoted("six\nhundred"), quoted("9" * 50)
     ("'six\\nhundred'", "'9999999999999999999999999999999999999999'...")
@@ -24,7 +24,7 @@ def quoted(text: str) -> str:
 
 
 def printable(text: str) -> str:
-    r"""Return text with all that does not print escaped, so that it stays on one line.
+    r"""Return text with everything unprintable escaped, so that it stays on one line.
 
     >>> printable("Zoë's\nfile\x1b.csv")
     "Zoë's\\nfile\\x1b.csv"
@@ -36,7 +36,7 @@ def printable(text: str) -> str:
 
 
 class Problems:
-    """The problems of one file, told in the order of its lines.
+    """The problems of one file, reported in the order of its lines.
 
     Parameters
     ----------
@@ -61,13 +61,13 @@ class Problems:
         return len(self._found)
 
     def add(self, line: int | None, message: str) -> None:
-        """Note one problem: its line (None for the file as a whole), what and how to mend it."""
+        """Add a problem: its line (None: the whole file), what is wrong and what to do."""
         self._found.append((line or 0, message))
 
     def add_rows(
         self, lines: NDArray[np.int64], rows: NDArray[np.int64], message: Callable[[int], str]
     ) -> None:
-        """Note a problem in each of `rows`.
+        """Add a problem in each of `rows`.
 
         Parameters
         ----------
@@ -76,21 +76,23 @@ class Problems:
         rows
             the rows at fault.
         message
-            what is wrong in a row, and how to mend it.
+            what is wrong in a row, and what to do.
         """
         self._found += [(int(lines[row]), message(int(row))) for row in rows]
 
+    def listed(self) -> tuple[str, ...]:
+        """Return the problems, a line each, those of the file as a whole first."""
+        # Stable: problems of one line stay in the order in which they were found.
+        ordered = sorted(self._found, key=lambda problem: problem[0])
+        return tuple(f"{self.source}{f':{line}' if line else ''}: {text}" for line, text in ordered)
+
     def raise_any(self) -> None:
-        """Raise what was found, if anything was.
+        """Raise all problems, if there are any.
 
         Raises
         ------
         DataError
-            with one line a problem, those of the file as a whole first.
+            with one line a problem, those of the whole file first.
         """
         if self._found:
-            # Stable: problems of one line stay in the order in which they were found.
-            ordered = sorted(self._found, key=lambda problem: problem[0])
-            raise DataError(
-                f"{self.source}{f':{line}' if line else ''}: {text}" for line, text in ordered
-            )
+            raise DataError(self.listed())

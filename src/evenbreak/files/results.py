@@ -1,37 +1,45 @@
-"""From a results file to `Results`, with everything that is wrong in it told at once."""
+"""Reading a results file as `Results`, with all its problems at once.
+
+Each step is taken once: bytes, encoding, rows, a table of texts, cells, columns, matches.
+"""
 
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evenbreak.arrays import short_repr
+from evenbreak.errors import InputError
 from evenbreak.files.aliases import AliasesFile, read_aliases
+from evenbreak.files.columns_hint import columns_hint
+from evenbreak.files.date_cells import DateOrder
+from evenbreak.files.doubtful_dates import date_warnings
+from evenbreak.files.exports import export_of
+from evenbreak.files.player_names import PlayerNames, hidden_letter_warnings
 from evenbreak.files.problems import quoted
-from evenbreak.files.results_columns import (
-    INSTEAD,
-    OPTIONAL,
-    REQUIRED,
-    ResultsColumns,
-    lacks_columns,
-)
-from evenbreak.files.similar_names import similar_names
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.results_columns import INSTEAD, NAMES, OPTIONAL, REQUIRED, results_columns
+from evenbreak.files.results_layout import one_layout
+from evenbreak.files.results_rows import results_rows
+from evenbreak.files.similar_names import similar_name_warnings, similar_names
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.ratings.results import Results
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-WARNED = 20
-"""How many groups of similar names are told; the rest are counted."""
+MOST_RENAMED = 20
+"""How many names are listed that aliases changed; the rest are counted."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class ResultsFile:
-    """What a results file says.
+    """The contents of a results file.
 
     Parameters
     ----------
@@ -40,13 +48,15 @@ class ResultsFile:
     source
         what the file is called in messages.
     warnings
-        what a person should look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     similar_names
         groups of names that may mean one player.
     sha256
         fingerprint of the bytes that were read.
     lines
-        the line in which each match begins; empty where the matches came from no file.
+        the line in which each match begins; empty where the matches did not come from a file.
+    ties
+        a warning if matches have neither a winner nor a race; a chart may still say who won.
     """
 
     results: Results
@@ -54,29 +64,43 @@ class ResultsFile:
     warnings: tuple[str, ...]
     similar_names: tuple[tuple[str, ...], ...]
     sha256: str
-    lines: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    lines: NDArray[np.int64] = field(
+        default_factory=lambda: np.zeros(0, dtype=np.int64), repr=False
+    )
+    ties: tuple[str, ...] = ()
 
 
-def read_results(path: str | Path, *, aliases: str | Path | None = None) -> ResultsFile:
-    r"""Read match results from a CSV file; '-' is standard input.
+def read_results(
+    path: str | Path,
+    *,
+    aliases: str | Path | None = None,
+    columns: Mapping[str, str] | None = None,
+    dates: DateOrder | None = None,
+) -> ResultsFile:
+    r"""Read match results from a CSV file or workbook; '-' is standard input.
 
-    Encoding, separator and header are read as `evenbreak.files.text_table` says; the
-    columns are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double
-    blanks inside, and are put into Unicode's form NFC. `winner` and `first_break` are
-    a, b or the name of one of the two. A forfeit may leave its scores empty; so may a
-    match whose racks are given, or of which only the race and the winner are known.
+    Format, separator and header are read as in `evenbreak.files.text_table`; the columns
+    are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double blanks inside,
+    and are put into Unicode's form NFC; those that differ in case or blanks alone are one
+    player's. `winner` and `first_break` are a, b or the name of one of the two players. A
+    forfeit may leave its scores empty; so may a match whose racks are given, or of which only
+    the race and the winner are known.
 
     Parameters
     ----------
     path
         the file.
     aliases
-        a file that says which names mean whom (see `evenbreak.files.aliases`).
+        a file that says which names mean the same player (see `evenbreak.files.aliases`).
+    columns
+        for columns such as player_a the titles that they have in the file, if not known ones.
+    dates
+        'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
 
     Raises
     ------
     DataError
-        with every problem of the file, a line each, if there is any; before that with
+        with every problem of the file, a line each, if there are any; before that with
         those of the file of aliases.
 
     >>> import tempfile, pathlib
@@ -87,42 +111,77 @@ def read_results(path: str | Path, *, aliases: str | Path | None = None) -> Resu
     >>> season.results.players, season.results.score_b
     (('Ann', 'Bo'), array([7]))
     """
-    told = None if aliases is None else read_aliases(aliases)
-    table = read_table(path, REQUIRED, OPTIONAL, INSTEAD)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no matches below its header; write one line for each")
-    columns = ResultsColumns(table, None if told is None else told.means)
-    if lacks_columns(table):
-        table.problems.raise_any()
-    results = columns.checked()
+    by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
+    table = one_layout(
+        read_table(
+            path,
+            REQUIRED,
+            OPTIONAL,
+            INSTEAD,
+            rows="matches",
+            called=_checked(columns or {}),
+            hint=columns_hint,
+            exported=export_of,
+        )
+    )
+    names = PlayerNames(table, NAMES, by_alias.means)
+    results = results_rows(table, names, results_columns(table, names, dates))
     table.problems.raise_any()
     groups = tuple(similar_names(results.players, _met(results)))
     warnings = [
-        *(() if told is None else told.warnings),
+        *by_alias.warnings,
         *table.warnings,
         *_repeated_rows(table),
-        *columns.merged_names(),
-        *_read_as(columns.aliases_met(), table.source, told),
-        *_warnings(groups, table.source),
+        *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),
+        *hidden_letter_warnings(table, NAMES),
+        *_merged(names.merged(), table.source),
+        *_renamed(names.renamed(), table.source, by_alias.source),
+        *similar_name_warnings(groups, table.source, "if so, use the same name throughout"),
     ]
     sha256 = hashlib.sha256(table.content).hexdigest()
-    return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines)
+    ties = _tied(results, table)
+    return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines, ties)
 
 
-def _read_as(names: list[str], source: str, aliases: AliasesFile | None) -> list[str]:
-    """Return a warning that tells which names a file of aliases has changed."""
-    if aliases is None or not names:
+def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
+    """Return which titles mean which columns, or refuse columns that there are none of."""
+    for name in columns:
+        if name not in {**REQUIRED, **OPTIONAL}:
+            known = ", ".join((*REQUIRED, *OPTIONAL))
+            raise InputError(
+                f"columns has {name!r}, which is not a column of results; give {known}"
+            )
+    return columns
+
+
+def _merged(names: dict[str, str], source: str) -> list[str]:
+    """Return a warning for each name that is read as another spelling of it."""
+    found = [
+        f"{source}: {quoted(text)} is read as {quoted(name)}, as names that differ in case or "
+        "spaces alone mean one player"
+        for text, name in names.items()
+    ]
+    more = len(found) - MOST_RENAMED
+    counted = [f"{source}: and {more:,} more names that are read so"] if more > 0 else []
+    return found[:MOST_RENAMED] + counted
+
+
+def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
+    """Return a warning that lists the names that aliases have changed."""
+    if not names:
         return []
-    changed = [f"{quoted(name)} as {quoted(aliases.means[name])}" for name in names[:WARNED]]
-    more = [f"and {len(names) - WARNED:,} more"] if len(names) > WARNED else []
-    return [f"{source}: read as {aliases.source} says: {', '.join([*changed, *more])}"]
+    changed = [f"{quoted(name)} as {quoted(meant)}" for name, meant in names.items()]
+    more = len(changed) - MOST_RENAMED
+    shown = changed[:MOST_RENAMED] + ([f"and {more:,} more"] if more > 0 else [])
+    return [f"{source}: names read according to {aliases}: {', '.join(shown)}"]
 
 
-def _repeated_rows(table: Table) -> list[str]:
-    """Return a warning if whole rows stand in the file again: they may be pasted twice."""
+def _repeated_rows(table: TextTable) -> list[str]:
+    """Return a warning if whole rows appear again: they may have been pasted twice."""
     if "date" not in table:
         return []  # the same two players often play to the same score on another day
-    again = np.flatnonzero(table.repeated())
+    # The sets of a match in another program's file stand in one line.
+    again = np.flatnonzero(table.repeated() & (np.diff(table.lines, prepend=-1) > 0))
     if not len(again):
         return []
     first, count = int(table.lines[again[0]]), len(again)
@@ -133,17 +192,24 @@ def _repeated_rows(table: Table) -> list[str]:
     ]
 
 
+def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
+    """Return a warning if matches have no winner."""
+    played = (results.score_a > 0) & (results.score_a == results.score_b) & ~results.given_away
+    race_a, race_b = results.races
+    tied = np.flatnonzero(played & (race_a == 0) & (race_b == 0))
+    if not len(tied):
+        return ()
+    first, many = int(table.lines[tied[0]]), len(tied)
+    row = tied[0]
+    score = f"{results.score_a[row]}-{results.score_b[row]}"
+    matches = "this match is" if many == 1 else f"this and {many - 1:,} more are"
+    return (
+        f"{table.source}:{first}: the score is tied ({score}), and no race is given; {matches} "
+        "counted game by game, without a winner",
+    )
+
+
 def _met(results: Results) -> list[tuple[str, str]]:
     """Return the names that played each other, each pair once for either order."""
     pairs = np.unique(np.column_stack([results.player_a, results.player_b]), axis=0)
     return [(results.players[a], results.players[b]) for a, b in pairs.tolist()]
-
-
-def _warnings(groups: tuple[tuple[str, ...], ...], source: str) -> list[str]:
-    told = [
-        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one "
-        "player; if so, write one name throughout"
-        for group in groups[:WARNED]
-    ]
-    more = len(groups) - WARNED
-    return [*told, f"{source}: and {more:,} more groups of similar names"] if more > 0 else told

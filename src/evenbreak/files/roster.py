@@ -1,4 +1,4 @@
-"""Lists of rated players: from a CSV file to a `Roster`."""
+"""Reading a list of rated players as a `Roster`."""
 
 from __future__ import annotations
 
@@ -9,12 +9,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.files.cells import numbers, whole_numbers
+from evenbreak.arrays import short_repr
+from evenbreak.errors import InputError
+from evenbreak.files.cells import numbers, read_cells, whole_numbers
+from evenbreak.files.player_names import (
+    LONGEST_NAME,
+    NAME,
+    WRITE_IT,
+    clean_name,
+    hidden_letter_warnings,
+    is_name,
+    same_name,
+)
 from evenbreak.files.problems import quoted
-from evenbreak.files.results_columns import clean_name
-from evenbreak.files.similar_names import similar_names
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.similar_names import similar_name_warnings, similar_names
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.ratings.roster import NOT_STATED, Roster
+from evenbreak.ratings.scale import SCALES, Scale, scale_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,12 +42,15 @@ OPTIONAL = {
     "games": ("games played", "racks", "robustness"),
     "component": ("group",),
     "matches": ("matches played",),
+    "races_won": (),
+    "races_lost": (),
+    "scale": ("rating scale", "points that double the odds"),
 }
 """The columns that a roster may have, with their other names."""
 
 WRITTEN = dict.fromkeys(
     (
-        *("won", "lost", "races_won", "races_lost"),
+        *("won", "lost"),
         *("rating_before", "change", "matches_won", "matches_lost", "why"),
     ),
     (),
@@ -53,13 +67,14 @@ LEAGUE = {
 }
 """The columns that a simulated season uses, with their other names; others skip them."""
 
-LARGEST = 1e6
+LARGEST = 1_000_000
 """The largest rating or error that is accepted, in points."""
 
-WARNED = 20
-"""How many groups of similar names are listed; the rest are counted."""
+FARTHEST = 10_000
+"""The largest rating or skill that can be simulated, in points."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class RosterFile:
     """What a list of rated players says.
@@ -73,11 +88,15 @@ class RosterFile:
     source
         what the file is called in messages.
     warnings
-        what to look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     sha256
         fingerprint of the bytes that were read.
     by_quasi
         the places of those whose error is the quasi_error of the file.
+    scale
+        the scale of the ratings; None if the file does not state it.
+    levels
+        whether the title of the ratings says that they are skill levels.
     """
 
     roster: Roster
@@ -86,6 +105,8 @@ class RosterFile:
     warnings: tuple[str, ...]
     sha256: str
     by_quasi: frozenset[int] = frozenset()
+    scale: Scale | None = None
+    levels: bool = False
 
 
 def read_roster(path: str | Path) -> RosterFile:
@@ -111,97 +132,149 @@ def read_roster(path: str | Path) -> RosterFile:
     """
     # Each name by itself: two columns with one meaning are a problem only for a season.
     seasons = {name: () for known, others in LEAGUE.items() for name in (known, *others)}
-    return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **seasons}))
+    return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **seasons}, rows="players"))
 
 
-def roster_of(table: Table, *, all_rated: bool = False) -> RosterFile:
+def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
     """Return the roster in a table, or raise all the problems found in it.
 
     Parameters
     ----------
     table
         with the columns of `REQUIRED` and any of `OPTIONAL`.
-    all_rated
-        whether a player without a rating is a problem.
+    season
+        whether a season is simulated, for which every player needs a rating.
 
     Raises
     ------
     DataError
         as `read_roster` does, with the problems that the table had before.
     """
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no players below its header; write one line for each")
     names = _names(table)
-    remedy = "write points such as 85, or leave it empty for a new player"
-    rating = _points(table, "rating", remedy, least=-LARGEST)
-    remedy = "write points such as 9.5, or leave it empty"
-    error = _points(table, "standard_error", remedy, least=0.0)
-    quasi = _points(table, "quasi_error", remedy, least=0.0)
+    most = FARTHEST if season else LARGEST
+    remedy = "write points such as 85" + ("" if season else ", or leave it empty for a new player")
+    rating = numbers(
+        table,
+        "rating",
+        at_least=-most,
+        at_most=most,
+        remedy=remedy,
+        may_be_empty=not season,
+        points_may_group=True,
+    ).values
+    error, quasi = (_error(table, name) for name in ("standard_error", "quasi_error"))
     error = np.where(np.isnan(quasi), error, quasi)
     games, matches = _counts(table, "games"), _counts(table, "matches")
+    # A rating can rest on matches of which only the winner is known.
+    races = np.maximum(_counts(table, "races_won"), 0) + np.maximum(_counts(table, "races_lost"), 0)
+    games = np.where(games == NOT_STATED, games, games + races)
     component = whole_numbers(table, "component", at_least=1, may_be_empty=True).values
     unrated = np.array([not text for text in table.cells("rating")], dtype=bool)
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero(unrated & (games > 0)) if "rating" in table else np.zeros(0, np.int64),
-        lambda row: f"rating is empty after {games[row]} games; write it, or 0 games if new",
-    )
-    if all_rated and "rating" in table:
+    if "rating" in table and not season:
         table.problems.add_rows(
             table.lines,
-            np.flatnonzero(unrated & (games <= 0)),
-            lambda _: "rating is empty; write the rating that the player starts with",
+            np.flatnonzero(unrated & (games > 0)),
+            lambda row: f"rating is empty after {games[row]} games; fill it in, or write 0 games",
         )
+    scale = _scale(table)
     table.problems.raise_any()
     roster = Roster(names, rating, error, games, component=component, matches=matches)
-    warnings = (*table.warnings, *_alike(names, table.source))
+    similar = similar_name_warnings(similar_names(names), table.source, "if so, keep one of them")
     sha256 = hashlib.sha256(table.content).hexdigest()
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
-    return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi)
+    hidden = hidden_letter_warnings(table, ["player"])
+    warnings = (*table.warnings, *hidden, *similar)
+    levels = "level" in _title(table)
+    return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi, scale, levels)
 
 
-def _names(table: Table) -> list[str]:
-    """Return the names, noting those that are empty or appear twice."""
+def _names(table: TextTable) -> list[str]:
+    """Return the names, noting those that are empty or appear twice, in any case and spacing."""
     names = [clean_name(text) for text in table.cells("player")]
-    first: dict[str, int] = {}
+    first: dict[str, tuple[int, str]] = {}
     for name, line in zip(names, table.lines.tolist(), strict=True):
         if not name:
             if "player" in table:
                 table.problems.add(line, "player is empty; write a name")
-        elif first.setdefault(name, line) != line:
+            continue
+        if len(name) > LONGEST_NAME:
             table.problems.add(
                 line,
-                f"player {quoted(name)} is already in line {first[name]}; delete one of the two, "
-                "or tell two players of the same name apart, for example with a number",
+                f"player {quoted(name)} has {len(name):,} letters; write a name of up to "
+                f"{LONGEST_NAME}, and look for a missing quotation mark",
+            )
+        elif not is_name(name):
+            table.problems.add(line, f"player {quoted(name)} is not {NAME}; {WRITE_IT}")
+        earlier, spelling = first.setdefault(same_name(name), (line, name))
+        if earlier != line:
+            spelt = "" if spelling == name else f" as {quoted(spelling)}"
+            table.problems.add(
+                line,
+                f"player {quoted(name)} is already in line {earlier}{spelt}; delete one of the "
+                "two, or give two players of the same name different names, such as 'Ann Lee 2'",
             )
     return names
 
 
-def _counts(table: Table, name: str) -> NDArray[np.int64]:
-    """Read a column of counts, `NOT_STATED` where a cell is empty."""
-    counts, good = whole_numbers(table, name, may_be_empty=True)
-    stated = np.array([bool(text) for text in table.cells(name)], dtype=bool)
-    return np.where(stated & good, counts, NOT_STATED)
+def _scale(table: TextTable) -> Scale | None:
+    """Return the scale of all ratings, noting one that is unknown or unlike the first.
 
-
-def _points(table: Table, name: str, remedy: str, *, least: float) -> NDArray[np.float64]:
-    """Read a column of points from `least` to `LARGEST`, NaN where a cell is empty."""
-    points: NDArray[np.float64] = numbers(table, name, remedy=remedy, may_be_empty=True).values
+    Where the file has no scale, the title of the ratings may name it: "Fargo rating".
+    """
+    named = next((name for name in SCALES if name in _title(table)), None)
+    scales = read_cells(
+        table,
+        "scale",
+        _known_scale,
+        wanted="a scale",
+        remedy=f"write {', '.join(SCALES)} or the points that double the odds, or leave it empty",
+        dtype=object,
+        empty=None,
+        may_be_empty=True,
+    )
+    rows = np.flatnonzero(scales.stated & scales.good)
+    if not len(rows):
+        return None if named is None else SCALES[named]
+    first: Scale = scales.values[rows[0]]
+    if named is not None and not first.same_points(SCALES[named]):
+        table.problems.add(
+            int(table.lines[rows[0]]),
+            f"scale {first.text!r} differs from the title {quoted(table.titles['rating'])}; "
+            "correct one of them",
+        )
     table.problems.add_rows(
         table.lines,
-        np.flatnonzero((points < least) | (points > LARGEST)),
-        lambda row: f"{name} {points[row]:g} is not from {least:,.0f} to {LARGEST:,.0f}; {remedy}",
+        np.array([row for row in rows if not first.same_points(scales.values[row])], dtype=int),
+        lambda row: (
+            f"scale {scales.values[row].text!r} differs from {first.text!r} in line "
+            f"{table.lines[rows[0]]}; put all ratings on one scale"
+        ),
     )
-    return points
+    return first
 
 
-def _alike(names: list[str], source: str) -> list[str]:
-    groups = similar_names(names)
-    listed = [
-        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one "
-        "player; if so, keep only one of them"
-        for group in groups[:WARNED]
-    ]
-    more = len(groups) - WARNED
-    more_groups = [f"{source}: and {more:,} more groups of similar names"] if more > 0 else []
-    return [*listed, *more_groups]
+def _title(table: TextTable) -> str:
+    """Return the title of the ratings in lower case; '' where there are none."""
+    return table.titles.get("rating", "").casefold()
+
+
+def _known_scale(text: str) -> Scale | None:
+    try:
+        scale: Scale = scale_of(text.replace(",", "."))
+    except InputError:
+        return None
+    return scale
+
+
+def _counts(table: TextTable, name: str) -> NDArray[np.int64]:
+    """Read a column of counts, `NOT_STATED` where a cell is empty."""
+    counts = whole_numbers(table, name, may_be_empty=True)
+    return np.where(counts.stated & counts.good, counts.values, NOT_STATED)
+
+
+def _error(table: TextTable, name: str) -> NDArray[np.float64]:
+    remedy = "write points such as 9.5, or leave it empty"
+    errors: NDArray[np.float64] = numbers(
+        table, name, at_least=0, at_most=LARGEST, remedy=remedy, may_be_empty=True
+    ).values
+    return errors

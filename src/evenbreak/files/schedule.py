@@ -1,4 +1,4 @@
-"""From a list of fixtures to `FixedSchedule`, with all its problems told at once."""
+"""A list of fixtures, read as a `FixedSchedule`, with all its problems at once."""
 
 from __future__ import annotations
 
@@ -11,32 +11,32 @@ from numpy.typing import NDArray
 
 from evenbreak.files.cells import whole_numbers
 from evenbreak.files.pairs import PAIRS, pairs_in
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.league.schedule import FixedSchedule
 from evenbreak.ratings.roster import Roster
 
 WEEK = {"week": ("round", "night", "matchday", "week number")}
-"""The column of a schedule beside those of `PAIRS`, with its other names."""
+"""The column of a schedule besides those of `PAIRS`, with its other names."""
 
-MOST_TOLD = 5
-"""Matches that are there twice and told one by one."""
+MOST_LISTED = 5
+"""How many repeated matches are listed; the rest are counted."""
 
 LAST_WEEK = 10_000
-"""The largest number of weeks that is taken for one."""
+"""The largest number accepted as a week."""
 
 
 @dataclass(frozen=True, eq=False)
 class ScheduleFile:
-    """What a list of fixtures says.
+    """What a list of fixtures contains.
 
     Parameters
     ----------
     schedule
         who meets whom in which week.
     source
-        what the file is called in messages.
+        the name of the file in messages.
     warnings
-        what a person should look at although the file can be used, a line each.
+        what to check although the file can be used, a line each.
     """
 
     schedule: FixedSchedule
@@ -53,8 +53,8 @@ def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
     Raises
     ------
     DataError
-        with all that is wrong in the file: missing columns, no rows, weeks that are no
-        whole numbers from 1 on, names that the roster does not have, a player against himself.
+        with every problem of the file: missing columns, no rows, weeks that are not whole
+        numbers from 1, names that are not in the roster, a player who meets themselves.
 
     >>> import tempfile, pathlib
     >>> club = Roster(["Ann", "Bo", "Cy"], [92, 71, 80])
@@ -65,9 +65,7 @@ def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
     >>> schedule.weeks, schedule.a, schedule.b
     (2, array([2, 1]), array([0, 2]))
     """
-    table = read_table(path, {**WEEK, **PAIRS})
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no matches below its header; write one line for each")
+    table = read_table(path, {**WEEK, **PAIRS}, rows="matches")
     week = whole_numbers(
         table, "week", at_least=1, at_most=LAST_WEEK, remedy="write 1 for the first week, 2, ..."
     ).values
@@ -77,8 +75,8 @@ def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
     return ScheduleFile(FixedSchedule(week, *pairs.T), table.source, warnings)
 
 
-def _twice(table: Table, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> Iterator[str]:
-    """Yield a line for each match that another line of the same week has too, up to a few."""
+def _twice(table: TextTable, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> Iterator[str]:
+    """Yield a warning for each match that is already listed in the same week."""
     _, first, same = np.unique(
         np.column_stack([week, np.sort(pairs, axis=1)]),
         axis=0,
@@ -87,11 +85,11 @@ def _twice(table: Table, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> I
     )
     earlier = first[same.ravel()]
     again = np.flatnonzero(earlier != np.arange(len(week)))
-    for row in again[:MOST_TOLD].tolist():
+    for row in again[:MOST_LISTED].tolist():
         yield (
             f"{table.source}:{table.lines[row]}: the same two meet in week {week[row]} as in line "
             f"{table.lines[earlier[row]]}; both matches are played"
         )
-    if len(again) > MOST_TOLD:
-        more = len(again) - MOST_TOLD
+    if len(again) > MOST_LISTED:
+        more = len(again) - MOST_LISTED
         yield f"{table.source}: and {more:,} more such match{'es' if more > 1 else ''}"

@@ -1,4 +1,4 @@
-"""From a file of practice scores to numbers, with everything that is wrong in it told at once."""
+"""Reading a file of practice scores, with all its problems at once."""
 
 from __future__ import annotations
 
@@ -8,18 +8,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.cells import dates, numbers
-from evenbreak.files.text_table import Table, read_table
+from evenbreak.files import date_cells
+from evenbreak.files.cells import numbers
+from evenbreak.files.drill_rows import DRILL, rows_of_drill, source_of
+from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.stats.confidence import LARGEST
 
 REQUIRED = {"score": ("points", "result", "total", "balls")}
-OPTIONAL = {"date": ("day", "practised on", "played on")}
+OPTIONAL = {"date": ("day", "practised on", "played on"), **DRILL}
 
 
 class ScoresFile(NamedTuple):
     """The scores of a file, in the order of its rows.
 
-    `dates` has the day of each score; it is None where the file does not date them all.
+    `dates` has the day of each score; it is None unless every score has a date.
     """
 
     scores: NDArray[np.float64]
@@ -28,14 +30,25 @@ class ScoresFile(NamedTuple):
     warnings: tuple[str, ...]
 
 
-def read_scores(path: str | Path) -> ScoresFile:
-    r"""Read practice scores from a CSV file, a row a score; '-' is standard input.
+def read_scores(
+    path: str | Path, *, drill: str | None = None, dates: date_cells.DateOrder | None = None
+) -> ScoresFile:
+    r"""Read practice scores from a CSV file, one score per row; '-' is standard input.
+
+    Parameters
+    ----------
+    path
+        the file.
+    drill
+        whose scores are read, if the file has several drills.
+    dates
+        'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: no column of scores, no rows, scores that are
-        no numbers or too large, dates that are none.
+        with all problems of the file: no column of scores, no rows, scores that are not
+        numbers or too large, dates that cannot be read, several drills and none asked for.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -45,30 +58,26 @@ def read_scores(path: str | Path) -> ScoresFile:
     >>> file.scores, str(file.dates[0])
     (array([50. , 44.5]), '2024-09-03')
     """
-    table = read_table(path, REQUIRED, OPTIONAL)
-    if not len(table) and not len(table.problems):
-        table.problems.add(None, "has no scores below its header; write one line for each")
-    scores = numbers(table, "score", remedy="write one such as 48").values
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero(np.abs(scores) > LARGEST),
-        lambda row: f"score {scores[row]:g} is not from {-LARGEST:g} to {LARGEST:g}; correct it",
-    )
-    days = dates(table, "date").values
+    table = read_table(path, REQUIRED, OPTIONAL, rows="scores")
+    most = int(LARGEST)
+    remedy = "write a score such as 48"
+    scores = numbers(table, "score", at_least=-most, at_most=most, remedy=remedy).values
+    days = date_cells.dates(table, "date", dates).values
+    rows = rows_of_drill(table, drill)
     table.problems.raise_any()
-    undated = np.flatnonzero(np.isnat(days))
+    undated = rows[np.isnat(days[rows])]
     dated = not undated.size
     return ScoresFile(
-        scores,
-        days if dated else None,
-        table.source,
-        (*table.warnings, *([] if dated else _undated(table, undated))),
+        scores[rows],
+        days[rows] if dated else None,
+        source_of(table, drill),
+        (*table.warnings, *([] if dated else _undated(table, undated, len(rows)))),
     )
 
 
-def _undated(table: Table, rows: NDArray[np.int64]) -> list[str]:
-    """Return a warning if some scores are dated and others, `rows`, are not."""
-    if "date" not in table or rows.size == len(table):
+def _undated(table: TextTable, rows: NDArray[np.int64], scores: int) -> list[str]:
+    """Return a warning if some scores have a date and others, those of `rows`, do not."""
+    if "date" not in table or rows.size == scores:
         return []
-    many = f"{rows.size} dates are" if rows.size > 1 else "the date is"
-    return [f"{table.source}:{table.lines[rows[0]]}: {many} missing; no date is used"]
+    missing = f"{rows.size} dates are missing" if rows.size > 1 else "the date is missing"
+    return [f"{table.source}:{table.lines[rows[0]]}: {missing}, so no dates are used"]

@@ -1,9 +1,8 @@
-"""Names that may mean one player: spelt in another way, mistyped, or with a shortened given name.
+"""Names that may mean one player: spelt differently, mistyped, or with a shortened given name.
 
-Mistyped names are found without comparing every pair: two words that differ by one
-letter (changed, left out or swapped with its neighbour) have a word in common among
-those that come of leaving out one letter (the symmetric deletion method of W. Garbe,
-2012).
+Mistyped names are found without comparing every pair: names that differ in one letter are the
+same with that letter left blank, and one with a letter left out is the other without it. So the
+work grows with the number of names and not with its square, however many of them are alike.
 """
 
 from __future__ import annotations
@@ -11,20 +10,32 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections import defaultdict
-from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 
+from evenbreak.files.problems import quoted
+
 SHORTEST_WORD = 4
-"""Letters that the longer of two words needs before one is a slip: Tim is not Tom mistyped."""
+"""Letters that the longer of two words needs for a slip: Tim is not Tom mistyped."""
 
 ALIKE = 3
-"""Letters that two given names share at their beginning if one may be short for the other."""
+"""Letters that two given names share at the beginning if one may be short for the other."""
 
-# Letters that Unicode does not take apart into a letter and an accent.
+BLANK, SWAPPED = "_", "~"
+MARKS = {BLANK, SWAPPED}
+"""Stand for any letter, and for the next two in either order; no word has them."""
+
+MOST_LISTED = 20
+"""How many groups of similar names are listed; the rest are counted."""
+
+Words = tuple[str, ...]
+
+# Letters that Unicode does not decompose into a letter and an accent.
 _PLAIN = str.maketrans(
     {"ø": "o", "ł": "l", "đ": "d", "ð": "d", "ı": "i", "æ": "ae", "œ": "oe", "þ": "th"}
 )
 _UMLAUT = re.compile("([aou])e")
+_LONG = re.compile(rf"\S{{{SHORTEST_WORD},}}")
 
 
 def similar_names(
@@ -32,9 +43,9 @@ def similar_names(
 ) -> list[tuple[str, ...]]:
     """Return groups of different names that may mean one player.
 
-    First those that differ in case, blanks, punctuation, accents (ä, a and ae are one) or
-    the order of words; then those that differ in given names with the same first three
-    letters; then those that one slip of the hand explains, in a word of four letters or
+    First come names that differ in case, blanks, punctuation, accents (ä, a and ae are the
+    same) or the order of words; then names whose given names have the same first three
+    letters; then names that are one slip of the hand apart, in a word of four letters or
     more. Each kind is in the order of the names, and no group is part of another.
 
     Parameters
@@ -42,9 +53,9 @@ def similar_names(
     names
         as they are written.
     met
-        pairs of names that played each other: two players then, so that a group of the
-        latter two kinds in which all have met is left out. Of the first kind none is:
-        somebody has entered one player twice.
+        pairs of names that played each other, and so are two players: a group of the second
+        or third kind is left out where all pairs in it have met. Groups of the first kind
+        are kept: somebody has entered one player twice.
 
     >>> similar_names(["Ann Lee", "Lee, Ann", "Bo Petersen", "Bo Peterson", "Cy", "CY", "Di"])
     [('Ann Lee', 'Lee, Ann'), ('CY', 'Cy'), ('Bo Petersen', 'Bo Peterson')]
@@ -56,7 +67,7 @@ def similar_names(
     kinds: tuple[Collection[tuple[str, ...]], ...] = (
         {*_alike(bare, _run_together), *_alike(bare, _in_order)},
         set(_alike(bare, _given_name)),
-        {pair for pair in _nearly_alike(words) if _slip(words[pair[0]], words[pair[1]])},
+        set(_a_slip_apart(words)),
     )
     apart = {frozenset(pair) for pair in met}
     ranked = [
@@ -68,7 +79,22 @@ def similar_names(
     return [group for _, group in sorted(_largest(ranked))]
 
 
-def _words(name: str) -> tuple[str, ...]:
+def similar_name_warnings(groups: Sequence[tuple[str, ...]], source: str, remedy: str) -> list[str]:
+    """Return a warning for each group of names in a file that may mean one player.
+
+    >>> similar_name_warnings([("CY", "Cy")], "r.csv", "if so, keep one of them")
+    ["r.csv: 'CY' and 'Cy' may be one player; if so, keep one of them"]
+    """
+    listed = [
+        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one "
+        f"player; {remedy}"
+        for group in groups[:MOST_LISTED]
+    ]
+    more = len(groups) - MOST_LISTED
+    return [*listed, f"{source}: and {more:,} more groups of similar names"] if more > 0 else listed
+
+
+def _words(name: str) -> Words:
     """Return the words of a name, given names first, without accents and in one case."""
     last, _, given = name.partition(",")
     plain = f"{given} {last}".casefold().translate(_PLAIN)
@@ -82,15 +108,15 @@ def _without_umlauts(word: str) -> str:
     return _UMLAUT.sub(r"\1", word)
 
 
-def _run_together(words: tuple[str, ...]) -> str:
+def _run_together(words: Words) -> str:
     return "".join(words)
 
 
-def _in_order(words: tuple[str, ...]) -> str:
+def _in_order(words: Words) -> str:
     return " ".join(sorted(words))
 
 
-def _given_name(words: tuple[str, ...]) -> Hashable:
+def _given_name(words: Words) -> Hashable:
     """Return the beginning of a given name and all that follows it; None where there is none."""
     given, *rest = words
     if len(given) < ALIKE or not given.isalpha() or not rest or len(rest[-1]) == 1:
@@ -99,7 +125,7 @@ def _given_name(words: tuple[str, ...]) -> Hashable:
 
 
 def _alike(
-    words: Mapping[str, tuple[str, ...]], key: Callable[[tuple[str, ...]], Hashable]
+    words: Mapping[str, Words], key: Callable[[Words], Hashable]
 ) -> Iterator[tuple[str, ...]]:
     """Yield the groups of names that have the same key."""
     groups = defaultdict(list)
@@ -107,6 +133,42 @@ def _alike(
         groups[key(split)].append(name)
     groups.pop(None, None)
     yield from (tuple(group) for group in groups.values() if len(group) > 1)
+
+
+def _a_slip_apart(words: Mapping[str, Words]) -> Iterator[tuple[str, ...]]:
+    """Yield the groups of names that one slip in a long word makes the same."""
+    spelt: defaultdict[str, list[str]] = defaultdict(list)
+    for name, split in words.items():
+        spelt[" ".join(split)].append(name)
+    alike: defaultdict[str, set[str]] = defaultdict(set)
+    for text in spelt:
+        alike[text].add(text)
+        for key in _slips(text):
+            alike[key].add(text)
+    for key, texts in alike.items():
+        # A text without marks is the others with a letter left out, if it is a name itself.
+        if len(texts) > 1 and (key in spelt or not MARKS.isdisjoint(key)):
+            yield tuple(sorted(name for text in texts for name in spelt[text]))
+
+
+def _slips(text: str) -> Iterator[str]:
+    """Yield a text with a letter of a long word left out, left blank or swapped with the next.
+
+    Digits are never a slip: numbered names keep theirs.
+
+    >>> list(_slips("jo wu99"))
+    ['jo u99', 'jo _u99', 'jo ~uw99', 'jo w99', 'jo w_99']
+    """
+    for word in _LONG.finditer(text):
+        for k in range(*word.span()):
+            letter, following = text[k], text[k + 1 : k + 2].strip()
+            if letter.isdigit():
+                continue
+            before, after = text[:k], text[k + 1 :]
+            yield before + after
+            yield before + BLANK + after
+            if following and not following.isdigit():
+                yield before + SWAPPED + "".join(sorted(letter + following)) + text[k + 2 :]
 
 
 def _largest(
@@ -120,40 +182,3 @@ def _largest(
             yield kind, group
         for name in group:
             holding[name].add(number)
-
-
-def _nearly_alike(words: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str]]:
-    """Yield pairs of names that may be one letter apart."""
-    shortened = defaultdict(list)
-    for name, split in words.items():
-        for key in {split, *_one_letter_less(split)}:
-            shortened[key].append(name)
-    yield from (pair for group in shortened.values() for pair in combinations(group, 2))
-
-
-def _one_letter_less(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    """Yield the words without one letter of a long one; numbered names keep their digits."""
-    for place, word in enumerate(words):
-        if len(word) >= SHORTEST_WORD:
-            for k, letter in enumerate(word):
-                if not letter.isdigit():
-                    yield (*words[:place], word[:k] + word[k + 1 :], *words[place + 1 :])
-
-
-def _slip(one: tuple[str, ...], other: tuple[str, ...]) -> bool:
-    """Tell whether just one long word differs, by one letter that is no digit."""
-    if len(one) != len(other):
-        return False
-    differing = [(a, b) for a, b in zip(one, other, strict=True) if a != b]
-    if len(differing) != 1:
-        return False
-    a, b = differing[0]
-    if max(len(a), len(b)) < SHORTEST_WORD:
-        return False
-    start = 0
-    while start < min(len(a), len(b)) and a[start] == b[start]:
-        start += 1
-    a, b = a[start:], b[start:]
-    if any(map(str.isdigit, a[:1] + b[:1])):
-        return False
-    return a[1:] == b[1:] or a[1:] == b or a == b[1:] or a[:2] + b[2:] == b[1::-1] + a[2:]

@@ -35,6 +35,6 @@ class Ahead(Match[ChanceT]):
         return 2 if b - a >= self.n else None
 
     def fold(self, a: int, b: int) -> Score:
-        """Return the lead as a score: what both players have is taken off."""
+        """Return the lead as a score: the games that both players have are taken off."""
         common = min(a, b)
         return a - common, b - common

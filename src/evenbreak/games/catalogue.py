@@ -27,6 +27,7 @@ CATALOGUE: dict[str, Game] = {
     "2:2 match of 3:3 sets, set winner breaks": Race(
         2, 2, Race(3, 3, _BREAKING, breaks=alternate_breaks), breaks=winner_breaks
     ),
+    "race 3:2 of one-ball": Race(3, 2, OneBall(0.4, 0.8)),
     "ahead 5:3": Ahead(5, 3, Rack(0.6)),
     "ahead 2:2, alternate breaks": Ahead(2, 2, _BREAKING, breaks=alternate_breaks),
     "one-ball": OneBall(0.4, 0.8),

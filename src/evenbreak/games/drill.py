@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from evenbreak.checks import number_probabilities, number_probability, whole
+from evenbreak.checks import complement, number_probabilities, number_probability, whole
+from evenbreak.errors import InputError
+
+EIGHT_BALL_LEVELS = 7
+"""The most levels of the 8-ball drill: seven balls of each group and the 8-ball."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,35 @@ class Drill:
         base = number_probability(p, "p")
         return cls([base**i for i in range(whole(levels, "levels", at_least=1))])
 
+    @classmethod
+    def eight_ball(cls, p: float, levels: int = 7) -> Drill:
+        """Return a model of the progressive 8-ball drill: level i succeeds with p^i.
+
+        Level i begins with i balls of each group and the 8-ball on the table and ball in hand.
+        The player runs one group and the 8-ball; the first of these i + 1 balls counts as
+        certain, as in the 9-ball drill. At level 7 all 15 balls are on the table. How much the
+        other group is in the way is part of p.
+
+        Raises
+        ------
+        InputError
+            if p is not a probability, or there are not 1 to 7 levels.
+
+        Notes
+        -----
+        Source: the 8-ball drill after exercise 5.1; the model of P5.26 applied to it.
+
+        >>> Drill.eight_ball(0.5, levels=3).success
+        (0.5, 0.25, 0.125)
+        """
+        base = number_probability(p, "p")
+        most = whole(levels, "levels", at_least=1)
+        if most > EIGHT_BALL_LEVELS:
+            raise InputError(
+                f"levels is {most}, but with {EIGHT_BALL_LEVELS} all 15 balls are on the table"
+            )
+        return cls([base**i for i in range(1, most + 1)])
+
     @property
     def start(self) -> int:
         """The first level."""
@@ -56,7 +89,7 @@ class Drill:
         """Return the probability of each next level, given an attempt at level `state`."""
         p = self.success[state - 1]
         up, down = min(state + 1, len(self.success)), max(state - 1, 1)
-        return {up: 1.0} if up == down else {up: p, down: 1.0 - p}
+        return {up: 1.0} if up == down else {up: p, down: complement(p)}
 
     def winner(self, state: int) -> None:  # noqa: ARG002
         """Return None: a drill has no winner and no end."""

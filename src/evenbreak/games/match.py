@@ -1,4 +1,4 @@
-"""What all matches share: racks are played, a score is kept, the break passes on.
+"""What all matches have in common: the score, the rule that ends them, and who breaks next.
 
 A match can itself be the rack of a longer match: a race whose rack is a race is a match of
 sets, and so on to any depth.
@@ -12,7 +12,8 @@ from dataclasses import KW_ONLY, dataclass
 from typing import Any, Generic, TypeAlias
 
 from evenbreak.checks import one_of, whole
-from evenbreak.errors import InputError
+from evenbreak.errors import GameError, InputError
+from evenbreak.game import Game
 from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import ChanceT, Rack
 
@@ -28,7 +29,8 @@ class Match(ABC, Generic[ChanceT]):
     m, n
         what player 1 and player 2 need.
     rack
-        what is played for one point of the score: a `Rack`, or another match (a set).
+        what is played for one point of the score: a `Rack`, another match (a set), or a game
+        of your own, which player 1 or player 2 wins and which itself says who begins.
     breaks
         who breaks next (see `evenbreak.games.breaks`); needed if the break matters. In a
         match of sets it decides who breaks first in the next set, given who broke first in
@@ -42,13 +44,14 @@ class Match(ABC, Generic[ChanceT]):
     -----
     A state is (a, b) if the break does not matter, (a, b, breaker) if it does, and (a, b,
     state of the set) in a match of sets, with the set's first breaker before the set's state
-    if the match has its own break format. Scores that differ only in racks that no longer
+    if the match has its own break format; the state of a game of your own takes the place of
+    the set's. Scores that differ only in racks that no longer
     matter are one state, so even a match without a longest length has a finite graph.
     """
 
     m: int
     n: int
-    rack: Rack[ChanceT] | Match[ChanceT]
+    rack: Rack[ChanceT] | Match[ChanceT] | Game
     _: KW_ONLY
     breaks: BreakFormat | None = None
     first_breaker: int = 1
@@ -58,10 +61,10 @@ class Match(ABC, Generic[ChanceT]):
         object.__setattr__(self, "m", whole(self.m, "m", at_least=1))
         object.__setattr__(self, "n", whole(self.n, "n", at_least=1))
         if not isinstance(self.rack, (Rack, Match)):
-            raise InputError(f"rack is {self.rack!r}; give a Rack(p), a Rack(p1, p2) or a match")
+            self._check_own_game(self.rack)
         if isinstance(self.rack, Match) and self.rack.decided(*self.rack.score) is not None:
             raise InputError(
-                "rack is a set that is over at its start score; give a set that is not"
+                "rack is a set that is over at its start score; give a set that can still be played"
             )
         if isinstance(self.rack, Rack) and self.rack.break_matters and self.breaks is None:
             raise InputError(
@@ -76,9 +79,24 @@ class Match(ABC, Generic[ChanceT]):
             a, b = self.score
         except (TypeError, ValueError):
             raise InputError(
-                f"score is {self.score!r}; give the games of both players, as (2, 1)"
+                f"score is {self.score!r}; give the games that each player has, such as (2, 1)"
             ) from None
         self._check_score(whole(a, "score of player 1"), whole(b, "score of player 2"))
+
+    def _check_own_game(self, game: Game) -> None:
+        if not isinstance(game, Game) or isinstance(game, type):
+            raise InputError(
+                f"rack is {game!r}; give a Rack(p), a Rack(p1, p2), a match, or a game with start, "
+                "moves and winner"
+            )
+        if self.breaks is not None or self.first_breaker != 1:
+            raise InputError(
+                "breaks and first_breaker do not go with a game of your own as the rack, which "
+                "says itself who begins; leave them out, or give Rack(p1, p2) with each player's "
+                "chance in the game that they begin"
+            )
+        if game.winner(game.start) is not None:
+            raise InputError("rack is a game that is over at its start; give one to be played")
 
     def _check_score(self, a: int, b: int) -> None:
         object.__setattr__(self, "score", (a, b))
@@ -107,22 +125,23 @@ class Match(ABC, Generic[ChanceT]):
 
     @abstractmethod
     def fold(self, a: int, b: int) -> Score:
-        """Return the first score from which the match goes on as it does from a:b."""
+        """Return the lowest score from which the rest of the match is the same as from a:b."""
 
     @property
     def break_matters(self) -> bool:
         """Whether the chances depend on who breaks."""
-        return self.rack.break_matters
+        return isinstance(self.rack, (Rack, Match)) and self.rack.break_matters
 
     @property
-    def innermost_rack(self) -> Rack[ChanceT]:
-        """The rack at the bottom of a match of sets, or of sets of sets."""
-        return self.rack if isinstance(self.rack, Rack) else self.rack.innermost_rack
+    def innermost_rack(self) -> Rack[ChanceT] | Game:
+        """The rack, or game of your own, at the bottom of a match of sets, or of sets of sets."""
+        return self.rack.innermost_rack if isinstance(self.rack, Match) else self.rack
 
     @property
     def start(self) -> Any:
         """The state before the first rack."""
-        self.innermost_rack.of_numbers()
+        if isinstance(rack := self.innermost_rack, Rack):
+            rack.of_numbers()
         return self.open(self.first_breaker)
 
     def open(self, breaker: int) -> Any:
@@ -142,8 +161,20 @@ class Match(ABC, Generic[ChanceT]):
         """Return who has won in `state`: 1, 2, or None while the match goes on."""
         return self.decided(state[0], state[1])
 
+    def label(self, state: Any) -> str:
+        """Return the score in `state`, with the breaker or the score of the set below it."""
+        a, b, *rest = state
+        lines = [f"{a}:{b}"]
+        if self.winner(state) is None:  # who would break next is not part of a result
+            if not isinstance(self.rack, Rack):
+                lines += [f"{opener} broke first" for opener in rest[:-1]]
+                lines.append(str(getattr(self.rack, "label", str)(rest[-1])))
+            elif rest:
+                lines.append(f"{rest[0]} breaks")
+        return "\n".join(lines)
+
     def next_breaker(self, state: Any) -> int:
-        """Return who would break the rack after a finished match: the last entry of its state."""
+        """Return who breaks the rack after this match: the last entry of its final state."""
         return int(state[2]) if self.break_matters else 1
 
     def _after_rack(self, a: int, b: int, breaker: int, rack: Rack) -> dict[Any, float]:
@@ -156,16 +187,23 @@ class Match(ABC, Generic[ChanceT]):
             if (chance := rack.chance(winner, breaker)) > 0.0
         }
 
-    def _after_rack_of_set(self, a: int, b: int, rest: list[Any], rack: Match) -> dict[Any, float]:
+    def _after_rack_of_set(
+        self, a: int, b: int, rest: list[Any], rack: Match | Game
+    ) -> dict[Any, float]:
         *opener, inner = rest
         result: dict[Any, float] = {}
         for after, chance in rack.moves(inner).items():
             winner = rack.winner(after)
             if winner is None:
                 target: Any = (a, b, *opener, after)
+            elif winner not in (1, 2):
+                raise GameError(
+                    f"the rack's winner is {winner!r} in {after!r}; give a game that player 1 or "
+                    "player 2 wins"
+                )
             else:
                 score = (a + 1, b) if winner == 1 else (a, b + 1)
-                carried = rack.next_breaker(after)
+                carried = rack.next_breaker(after) if isinstance(rack, Match) else 1
                 target = self._state(
                     score, self.breaks(opener[0], winner) if opener and self.breaks else carried
                 )
@@ -177,4 +215,5 @@ class Match(ABC, Generic[ChanceT]):
         if isinstance(self.rack, Rack) or self.decided(*folded) is not None:
             return (*folded, breaker) if self.break_matters else folded
         opener = (breaker,) if self.breaks and self.break_matters else ()
-        return (*folded, *opener, self.rack.open(breaker))
+        inner = self.rack.open(breaker) if isinstance(self.rack, Match) else self.rack.start
+        return (*folded, *opener, inner)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 
-from evenbreak.checks import number_probabilities, number_probability
+from evenbreak.checks import complement, number_probabilities, number_probability
 
 
 @dataclass(frozen=True)
@@ -41,9 +41,9 @@ class OneBall:
     def moves(self, state: str) -> Mapping[str, float]:
         """Return the probability of each next state, given `state`; one shot is taken."""
         if state == "S1":
-            return {"W": self.p1, "S2": 1.0 - self.p1}
+            return {"W": self.p1, "S2": complement(self.p1)}
         if state == "S2":
-            return {"L": self.p2, "S1": 1.0 - self.p2}
+            return {"L": self.p2, "S1": complement(self.p2)}
         return {}
 
     def winner(self, state: str) -> int | None:

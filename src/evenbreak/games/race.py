@@ -62,7 +62,7 @@ class Race(Match[ChanceT]):
         return None
 
     def fold(self, a: int, b: int) -> Score:
-        """Return the first score from which the race goes on as it does from a:b.
+        """Return the lowest score from which the rest of the race is the same as from a:b.
 
         Once both players are within `win_by` games of what they need, only the difference
         between what they still need matters ("deuce").

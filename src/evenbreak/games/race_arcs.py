@@ -8,21 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools
 from evenbreak.game import ArcArrays
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.match import Score
 from evenbreak.games.rack import Rack
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
 
 class ScoreStates(Sequence[tuple[int, ...]]):
-    """States (a, b) or (a, b, breaker), each made when it is asked for.
+    """The states (a, b) or (a, b, breaker) of a race, made only when they are read.
 
     Parameters
     ----------
@@ -164,10 +163,10 @@ def _reached(
     targets: NDArray[Any],
     probabilities: NDArray[Any],
     start: int,
-) -> tuple[NDArray[np.bool_], NDArray[Any], NDArray[Any], NDArray[Any]]:
+) -> tuple[Bools, NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return which states can be reached, and the arcs between them by their new positions.
 
-    The other first breaker cannot be reached, nor can a breaker whom the format never names.
+    The other first breaker cannot be reached, nor can a breaker that the format never chooses.
     Row k of `targets` and `probabilities` holds the two arcs out of state `sources[k]`.
     """
     from scipy.sparse import csr_array

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import KW_ONLY, dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
-from evenbreak.checks import one_of, probability, together
+from evenbreak.checks import complement, one_of, probability, together
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
     from typing_extensions import TypeVar
+
+    from evenbreak.arrays import Floats
 
     ChanceT = TypeVar("ChanceT", covariant=True, default=Any)
 else:
     from typing import TypeVar
 
     ChanceT = TypeVar("ChanceT", covariant=True)
+
+_ROUNDING = 1e-12
+"""How far p + q may be from 1: what is left of roundings where the two were computed."""
 
 
 @dataclass(frozen=True)
@@ -32,13 +36,20 @@ class Rack(Generic[ChanceT]):
     p2
         P(player 2 wins the rack | player 2 breaks it); None if the break does not matter.
 
-    Either may be an array for the vectorised kernels of `evenbreak.matches`; the graph of a
-    game takes numbers only. The probability of losing is 1 - p, formed once.
+    q1, q2
+        P(the player of p1, p2 loses that rack), where it is known to more digits than 1 - p
+        has; None: 1 - p, which of a p with at most 15 decimals is taken as the decimal (.1 for .9).
+
+    A `Fraction` is kept in `given` for exact answers.
+
+    All may be arrays for the vectorised kernels of `evenbreak.matches`; the graph of a game
+    takes numbers only.
 
     Raises
     ------
     InputError
-        if p1 or p2 is not a probability, or their shapes do not broadcast.
+        if a value is not a probability, p and q do not add up to 1, or the shapes do not
+        broadcast.
 
     Notes
     -----
@@ -52,12 +63,35 @@ class Rack(Generic[ChanceT]):
 
     p1: ChanceT
     p2: ChanceT | float | None = None
+    _: KW_ONLY
+    q1: Any = field(default=None, repr=False)
+    q2: Any = field(default=None, repr=False)
+    given: tuple[Any, Any] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "p1", probability(self.p1, "p1"))
+        object.__setattr__(self, "given", (self.p1, self.p2))
+        self._check("1")
         if self.p2 is not None:
-            object.__setattr__(self, "p2", probability(self.p2, "p2"))
-        _ = self.shape  # an error if there is none
+            self._check("2")
+        elif self.q2 is not None:
+            raise InputError("q2 is given without p2; give both, or neither")
+        _ = self.shape  # raises if p1 and p2 do not broadcast
+
+    def _check(self, player: str) -> None:
+        """Check p and q of a player, and form q if it is not given."""
+        p = probability(getattr(self, "p" + player), "p" + player)
+        q = getattr(self, "q" + player)
+        if q is None:
+            q = complement(p)
+        else:
+            q = probability(q, "q" + player)
+            together(**{"p" + player: p, "q" + player: q})
+            off = abs(p + q - 1.0)
+            if (off if isinstance(off, float) else off.max(initial=0.0)) > _ROUNDING:
+                raise InputError(f"p{player} and q{player} do not add up to 1; correct one of them")
+        # Copies, so that a later change to the caller's array changes nothing here.
+        object.__setattr__(self, "p" + player, copy(p))
+        object.__setattr__(self, "q" + player, copy(q))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -74,15 +108,15 @@ class Rack(Generic[ChanceT]):
     @overload
     def chance(self: Rack[float], player: int, breaker: int = 1) -> float: ...
     @overload
-    def chance(self: Rack[Any], player: int, breaker: int = 1) -> NDArray[np.float64]: ...
+    def chance(self: Rack[Any], player: int, breaker: int = 1) -> Floats: ...
     def chance(self: Rack[Any], player: int, breaker: int = 1) -> Any:
         """Return P(`player` wins the rack | `breaker` breaks it)."""
         one_of(player, "player", (1, 2))
         one_of(breaker, "breaker", (1, 2))
         if self.p2 is None:
-            return self.p1 if player == 1 else 1.0 - self.p1
-        own = self.p1 if breaker == 1 else self.p2
-        return own if player == breaker else 1.0 - own
+            return self.p1 if player == 1 else self.q1
+        own = (self.p1, self.q1) if breaker == 1 else (self.p2, self.q2)
+        return own[player != breaker]
 
     def of_numbers(self) -> Rack[float]:
         """Return the rack itself if it holds numbers, which a graph needs.

@@ -1,7 +1,7 @@
-"""Leagues in the long run: whole seasons simulated, and what gaming a system pays.
+"""Leagues over a season and longer: seasons simulated, and what sandbagging pays and shows.
 
-`players` and `season` say what is played, `play` plays many replicas of it at once, `tally`
-keeps what came of them.
+`players`, `schedule` and `season` describe a season, `many_seasons` plays many replicas of it at
+once, and `tally` keeps what came of them.
 """
 
 import lazy_loader

@@ -2,37 +2,36 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints, Places
+from evenbreak.league.season import Season
 from evenbreak.league.tally import FIFTHS, WEEK_COLUMNS, Tally, fifths_of
 
-if TYPE_CHECKING:
-    from evenbreak.league.season import Season
-
 _DOUBLINGS = 4.0
-"""How far rating errors and moves are told apart: odds of 16 to 1."""
+"""How far rating errors and moves are counted one by one: to odds of 16 to 1."""
 
 _BINS = 128
-"""Gaps of skill that are told apart at most."""
+"""The most gaps of skill that are counted separately."""
 
 ALONE = 1 << 15
-"""Players from which on a batch is one replica: its squares are those of the replicas."""
+"""In a league with more players than this each batch is one replica."""
 
 _LARGE = 1 << 20
-"""Entries of a table of players that is not kept."""
+"""A table of players with more entries than this is not kept."""
 
 _SMALL = 1 << 15
-"""The first whole number that 16 bits with a sign do not hold."""
+"""The first whole number that signed 16 bits cannot hold."""
 
 _BLOCK = 1 << 15
-"""Ratings that are counted at a time, so that they stay in the cache."""
+"""Ratings counted at a time, so that they stay in the cache."""
 
 
 class Ended(NamedTuple):
-    """The arrays that a chunk ends with, players down: one column, or one for each replica."""
+    """The arrays at the end of a chunk, players down: one column, or one for each replica."""
 
     rating: NDArray[Any]
     wins: NDArray[Any]
@@ -55,8 +54,8 @@ class Counting:
         self.errors = np.zeros((season.weeks + 1, bins), dtype=np.int64)
         self.weeks = np.zeros((batches, season.weeks + 1, len(WEEK_COLUMNS)))
         self.powers = np.arange(-self.widest, self.widest + 1)[:, None] ** np.arange(3)
-        # Where the bin of no error is, in the bins of a row's batch.
-        small = np.int16 if batches * bins < _SMALL else np.intp  # few bytes are fast
+        # The bin of no error, among the bins of a row's batch.
+        small = np.int16 if batches * bins < _SMALL else np.intp  # fewer bytes are faster
         zeros = (bins * np.arange(batches) + self.widest).astype(small)
         self.zero = np.broadcast_to(zeros[:, None], (batches, len(season.players))).reshape(-1, 1)
 
@@ -65,9 +64,9 @@ class Counting:
         week: int,
         rating: NDArray[np.int16],
         skill: NDArray[np.int16],
-        here: NDArray[np.bool_] | None,
+        here: Bools | None,
     ) -> None:
-        """Count the rating errors of those who are in the league (None: everybody)."""
+        """Count the rating errors of the players in the league (None: everybody)."""
         bins = 2 * self.widest + 1
         counted = np.zeros(self.batches * bins, dtype=np.int64)
         step = max(1, _BLOCK // rating.shape[1])
@@ -84,18 +83,18 @@ class Counting:
         self.errors[week] = by_batch.sum(axis=0)
         self.weeks[:, week] = by_batch @ self.powers
 
-    def matches(self, cell: NDArray[np.intp], won: NDArray[np.bool_], played: Any) -> None:
-        """Count matches by their place in the tables of all batches, and by who wins.
+    def matches(self, cell: Places, won: Bools, played: Any) -> None:
+        """Count matches by their place in the tables of all batches, and by winner.
 
-        `cell` is even, and used up.
+        `cell` is even, and is overwritten.
         """
         cell += won
         _add_up(self.cells, cell, played)
 
     def scores(self, row: NDArray[Any], apart: NDArray[Any], score: Any, played: Any) -> None:
-        """Count matches by skill difference and what is noted of their final score.
+        """Count matches by skill difference and by class of their final score.
 
-        `row` is that of the skill difference in the tables of all batches.
+        `row` is the row of the skill difference in the tables of all batches.
         """
         look = self.look
         place = (apart.astype(np.intp) + look.widest) * look.outcomes + score
@@ -131,14 +130,14 @@ class Counting:
         )
 
     def _across(self, rows: NDArray[Any]) -> NDArray[Any]:
-        """Return an array of the chunk with a row for each player, all batches side by side."""
+        """Return an array with a row for each player, all batches of the chunk side by side."""
         if self.batches == 1:
             return rows
         many = len(self.season.players)
         return rows.reshape(self.batches, many, -1).transpose(1, 0, 2).reshape(many, -1)
 
     def _products(self, wins: Any, moved: Any, matches: Any, share: int) -> Any:
-        """Return the sums of `PRODUCTS` over the batches; None where a batch is one replica."""
+        """Return the sums of `PRODUCTS` over the batches; None if a batch is one replica."""
         if len(wins) > ALONE:
             return None
         won, gone, played = (
@@ -151,7 +150,7 @@ class Counting:
         sums += [self.replicas * one.sum(axis=1) for one in (won, gone)]
         return np.column_stack(sums)
 
-    def _fifths(self, ended: Ended, share: int, known: Any) -> NDArray[np.int64]:
+    def _fifths(self, ended: Ended, share: int, known: Any) -> Ints:
         """Return matches and wins by batch and fifth of true skill at the start."""
         many = len(self.season.players)
         found = np.empty((self.batches, FIFTHS, 2), dtype=np.int64)
@@ -161,18 +160,18 @@ class Counting:
             found[batch] = _by_fifth(ended.wins[rows], ended.matches[rows], share, fifth)
         return found
 
-    def _gaps(self, width: int) -> NDArray[np.float64]:
+    def _gaps(self, width: int) -> Floats:
         look = self.look
         bins = look.gap // width + 1
         skill = np.arange(-look.gap, look.gap + 1)
         bin_of = np.abs(skill) // width
 
-        def summed(batch: Any, row: Any, *columns: NDArray[Any]) -> list[NDArray[np.float64]]:
+        def summed(batch: Any, row: Any, *columns: NDArray[Any]) -> list[Floats]:
             place = batch * bins + bin_of[row]
             many = self.batches * bins
             return [np.asarray(np.bincount(place, column, many), float) for column in columns]
 
-        # Of a large table a chunk comes to few cells.
+        # A chunk uses few cells of a large table.
         lost, won = self.cells.reshape(-1, 2).T
         both = lost + won
         at = np.flatnonzero(both)
@@ -189,13 +188,13 @@ class Counting:
         return np.column_stack(sums).reshape(self.batches, bins, -1)
 
 
-def _add_up(tables: NDArray[np.int64], where: NDArray[Any], played: Any) -> None:
+def _add_up(tables: Ints, where: NDArray[Any], played: Any) -> None:
     """Add one at each place where a match is played."""
     np.add.at(tables.reshape(-1), where.ravel() if played is None else where[played], 1)
 
 
-def _squares(values: NDArray[Any]) -> NDArray[np.int64]:
-    """Return for each row the sum of its squares."""
+def _squares(values: NDArray[Any]) -> Ints:
+    """Return the sum of squares of each row."""
     found = np.empty(len(values), dtype=np.int64)
     step = max(1, _BLOCK // values.shape[1])
     for start in range(0, len(values), step):
@@ -204,8 +203,8 @@ def _squares(values: NDArray[Any]) -> NDArray[np.int64]:
     return found
 
 
-def _by_player(values: NDArray[Any], most: int) -> NDArray[np.int64] | None:
-    """Return how often each row holds 0, 1, ..., most; None where that is a large table."""
+def _by_player(values: NDArray[Any], most: int) -> Ints | None:
+    """Return how often each row holds 0, 1, ..., most; None if that table is large."""
     many = most + 1
     if len(values) * many > _LARGE:
         return None
@@ -213,9 +212,7 @@ def _by_player(values: NDArray[Any], most: int) -> NDArray[np.int64] | None:
     return np.bincount(place.ravel(), minlength=len(values) * many).reshape(-1, many)
 
 
-def _by_fifth(
-    wins: NDArray[Any], matches: NDArray[Any], share: int, fifth: NDArray[np.int64]
-) -> NDArray[np.int64]:
+def _by_fifth(wins: NDArray[Any], matches: NDArray[Any], share: int, fifth: Ints) -> Ints:
     """Return matches and wins by fifth of true skill at the start."""
     found = np.zeros((FIFTHS, 2), dtype=np.int64)
     for column, values, times in ((0, matches, share), (1, wins, 1)):
@@ -223,7 +220,7 @@ def _by_fifth(
             by_player = values.sum(axis=1, dtype=np.int64) * times
             np.add.at(found[:, column], fifth[:, 0], by_player)
         else:
-            # One column of matches stands for all replicas, and is counted in each of them.
+            # A single column of matches stands for all replicas and counts in each of them.
             each = np.broadcast_to(values, fifth.shape).astype(np.int64)
             np.add.at(found[:, column], fifth.ravel(), each.ravel())
     return found

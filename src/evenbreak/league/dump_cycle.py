@@ -1,12 +1,12 @@
-"""What losing on purpose pays in the long run: so many matches dumped, so many played, again.
+"""What losing on purpose pays in the long run, in cycles of dumping and playing in earnest.
 
 A cycle of D matches dumped and E in earnest is one step of a chain of rating errors,
-C = K^E B^D, and its stochastic limit says at which rating he arrives each time.
+C = K^E B^D, and its stochastic limit is the rating error at which the player arrives each time.
 
-Where a match won is a point up and one lost a point down, the rating comes back to where it
-was exactly if he wins (D + E) / 2 of the E matches: the share that he wins follows from the
-counts alone, whatever the chart. The chart says only how low his rating must lie for that, and
-where it has no race so one-sided, the rating goes down without an end.
+If a match won is a point up and one lost a point down, the rating comes back to where it was
+exactly if the player wins (D + E) / 2 of the E matches: the share won follows from the counts
+alone, whatever the chart. The chart only sets how low the rating must be for that; if it has no
+race that one-sided, the rating falls without end.
 """
 
 from __future__ import annotations
@@ -15,21 +15,24 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.ladder import Ladder
-from evenbreak.league.sandbag import at_the_end, dumped_matrix, earnest_matrix, start_law
+from evenbreak.league.sandbag_pay import (
+    MOST_HELD,
+    at_the_end,
+    dumped_matrix,
+    earnest_matrix,
+    start_law,
+)
 
-Floats = NDArray[np.float64]
-
-_HELD = 1e-6
-"""A chance to be held at the ladder's lower end from which on a cycle has no limit above it."""
 _FOLLOWED, _SQUARINGS = 256, 40
-"""Steps in which a law is followed before the chain is squared, and how often it is."""
+"""Steps taken before the chain is squared, and the most squarings."""
+
 _SETTLED = 1e-15
-"""A change of a law that is but a rounding."""
+"""A smaller change than this is only rounding."""
 
 
 class DumpCycle(NamedTuple):
@@ -40,16 +43,15 @@ class DumpCycle(NamedTuple):
     dumped, earnest
         matches of a cycle.
     rating_error
-        rating less skill when he begins to play in earnest, on average, in points.
+        rating less skill when the matches in earnest begin, on average, in points.
     p_win
-        P(he wins a match in earnest), on average over those of a cycle.
+        P(a match in earnest is won), averaged over those of a cycle.
     profit
-        a match, dumped ones counted, beyond a player who plays all of them in earnest, for ever:
-        he wins half of them, by rules that take as much as they give.
+        per match, dumped ones included, beyond a player who always plays in earnest (and wins
+        half of the matches, if the system takes as much as it gives).
     held
-        P(his rating lies so low as a match in earnest begins that another defeat would take it
-        beyond the lower end of the ladder, or at that end); above a millionth his rating would
-        go further down, and the end, not the chart, decides.
+        P(before a match in earnest the rating is at the lower end of the ladder, or so near that
+        another defeat would pass it); above a millionth the end, and not the chart, decides.
     """
 
     dumped: int
@@ -63,7 +65,7 @@ class DumpCycle(NamedTuple):
 def dump_cycle(
     ladder: Ladder, dumped: int, earnest: int, *, stake: float = 10.0, dumped_stake: float = 1.0
 ) -> DumpCycle:
-    """Return what it pays to dump and to play in earnest by turns, for ever.
+    """Return what it pays to dump matches and play in earnest in turn, forever.
 
     Parameters
     ----------
@@ -72,7 +74,7 @@ def dump_cycle(
     dumped, earnest
         how many matches are dumped and then played, again and again.
     stake, dumped_stake
-        what a match won is worth more than one lost: in earnest, and among those dumped.
+        what a match won is worth more than one lost: in earnest, and where it is dumped.
 
     Raises
     ------
@@ -88,15 +90,10 @@ def dump_cycle(
     return _cycles(ladder, [(down, many)], stake, dumped_stake)[0]
 
 
-def _honest_wins(ladder: Ladder) -> float:
-    """Return P(a player who never dumps wins) in the long run."""
-    return float(ladder.wins @ _limit(earnest_matrix(ladder), start_law(ladder, 0)))
-
-
 def _limit(chain: Floats, start: Floats) -> Floats:
     """Return the stochastic limit of a column-stochastic chain from a start."""
-    # The chain may have a period; that of chain and standstill by turns has none, and the
-    # same limit. A law is soon followed; where it settles slowly, squared steps are longer.
+    # The chain may have a period; its average with standing still has none, and the same limit.
+    # Single steps are cheap; where convergence is slow, squaring makes them longer.
     lazy, law = (chain + np.eye(chain.shape[0])) / 2.0, start
     for _ in range(_SQUARINGS):
         for _ in range(_FOLLOWED):
@@ -112,10 +109,11 @@ def _cycles(
     ladder: Ladder, counts: Iterable[tuple[int, int]], stake: float, dumped_stake: float
 ) -> list[DumpCycle]:
     """Return the long run of each of some cycles: matches dumped, and played in earnest."""
-    honest, step, dump = _honest_wins(ladder), earnest_matrix(ladder), dumped_matrix(ladder)
+    step, dump = earnest_matrix(ladder), dumped_matrix(ladder)
     last, start = at_the_end(ladder), start_law(ladder, 0)
     errors, wins = np.asarray(ladder.errors, dtype=float), np.asarray(ladder.wins)
-    # Where each error is led by a match dumped, and by none.
+    honest = float(wins @ _limit(step, start))
+    # Where a dumped match takes each error, and where no match does.
     falls, here = dump.argmax(axis=0), np.arange(errors.size)
     played, matches = np.eye(errors.size), 0
     found = []
@@ -144,17 +142,17 @@ def best_cycle(
     stake: float = 10.0,
     dumped_stake: float = 1.0,
 ) -> DumpCycle:
-    """Return the cycle of the largest profit a match, among those of some lengths.
+    """Return the cycle with the largest profit per match, among those of some lengths.
 
     Parameters
     ----------
     ladder
         the ladder.
     lengths
-        the matches of a cycle, dumped ones counted.
+        the matches of a cycle, dumped ones included.
     lowest
-        the lowest rating error, in points and below 0, at which he dares to begin to play in
-        earnest, on average; None: any that the chart allows.
+        the lowest mean rating error, in points and below 0, at which the player is willing to
+        start playing in earnest; None: any that the chart allows.
     stake, dumped_stake
         as of `dump_cycle`.
 
@@ -177,6 +175,6 @@ def best_cycle(
         cycle
         for cycle in found
         if not cycle.dumped
-        or (cycle.held < _HELD and (lowest is None or cycle.rating_error >= lowest))
+        or (cycle.held < MOST_HELD and (lowest is None or cycle.rating_error >= lowest))
     ]
     return max(allowed, key=lambda cycle: (cycle.profit, -cycle.dumped))

@@ -1,8 +1,8 @@
-"""The chances and moves of matches as flat tables of whole numbers, for drawing by the million.
+"""The chances and moves of matches as flat tables of whole numbers, for millions of draws.
 
-A match is looked up by two whole differences, of ratings (which race is it, what does it move)
-and of skills (how likely is each score). Chances are held in 32 bits: a draw is 32 random bits
-that are compared with them, so that a chance is off by less than 2^-32.
+A match is looked up by two whole differences: of ratings (which race it is, how ratings move) and
+of skills (how likely each score is). Chances are held in 32 bits and compared with 32 random
+bits, so a chance is off by less than 2^-32.
 """
 
 from __future__ import annotations
@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.handicaps.systems.match_table import MatchTable
 
 CLASSES = 3
-"""What is noted of a final score: hill-hill, shutout, games."""
+"""What is counted of a final score: hill-hill, shutout, games."""
 
 _CERTAIN = 12.0
-"""Doublings of the odds beyond which skills are as far apart as they need be."""
+"""Larger gaps of skill, in doublings of the odds, are treated as this one."""
 
 _AT_ONCE = 64
 """Skill differences whose scores are worked out at a time."""
@@ -35,10 +36,10 @@ class Lookup:
     table
         what it was made of.
     gap
-        the largest skill difference, in whole points; larger ones are taken for it.
+        the largest skill difference, in whole points; larger ones are treated as this one.
     wins
-        P(player 1 wins) in 2^32nds, flat and each twice, so that who wins may be added to the
-        place: 2 * ((skill difference + gap) * races + number of the race).
+        P(player 1 wins) in 2^32nds, flat, at 2 * ((skill difference + gap) * races + number of
+        the race) and the place after it, so that the winner can be added to the place.
     """
 
     table: MatchTable
@@ -47,7 +48,7 @@ class Lookup:
 
     @property
     def widest(self) -> int:
-        """The largest rating difference; larger ones are taken for it."""
+        """The largest rating difference; larger ones are treated as this one."""
         return self.table.widest
 
     @property
@@ -58,20 +59,20 @@ class Lookup:
     @property
     def races(self) -> int:
         """How many different races there are."""
-        return len(self._races[0])
+        return len(self.table.races[0])
 
     @cached_property
-    def twice_race(self) -> NDArray[np.intp]:
-        """Twice the number of the race by rating difference, the negative ones from the end."""
-        return np.asarray(np.roll(2 * self._races[1], -self.widest))
+    def twice_race(self) -> Places:
+        """Twice the number of the race by rating difference, negative ones from the end."""
+        return np.asarray(np.roll(2 * self.table.races[1], -self.widest))
 
     @property
     def outcomes(self) -> int:
-        """How many final scores there is room for at each rating difference."""
+        """The number of final scores that fit at each rating difference."""
         return int(self.table.games.shape[1])
 
     @cached_property
-    def game(self) -> NDArray[np.float64]:
+    def game(self) -> Floats:
         """P(player 1 wins a game) by skill difference, shape (2 * gap + 1,)."""
         scale = self.table.system.scale
         return np.asarray(scale.win_probability(np.arange(-self.gap, self.gap + 1.0)))
@@ -83,7 +84,7 @@ class Lookup:
 
     @cached_property
     def steps(self) -> tuple[int, int] | None:
-        """What every winner and every loser moves; None where it depends on the match."""
+        """The points that every winner and every loser moves; None if they depend on the match."""
         table = self.table
         real = table.games[..., 0] >= 0
         won = np.where(table.won, table.moves[..., 0], table.moves[..., 1])[real]
@@ -96,7 +97,7 @@ class Lookup:
     def by_winner(self) -> tuple[NDArray[np.int16], NDArray[np.int16]] | None:
         """Points of player 1 and of player 2, flat by (rating difference, does player 1 win).
 
-        None where they depend on the final score too.
+        None if they depend on the final score too.
         """
         table = self.table
         moves = table.moves
@@ -122,10 +123,10 @@ class Lookup:
         return np.ascontiguousarray(m), np.ascontiguousarray(n)
 
     @cached_property
-    def classes(self) -> NDArray[np.int64]:
-        """Hill-hill, shutout and games of each final score: (width, outcomes, 3).
+    def classes(self) -> Ints:
+        """Hill-hill, shutout and games of each final score, shape (width, outcomes, 3).
 
-        A match is hill-hill where the loser lacks one game, a shutout where he has none.
+        A match is hill-hill if the loser lacks one game, a shutout if the loser has none.
         """
         games, needs = self.table.games, self.table.needs[:, None, :]
         real = games[..., 0] >= 0
@@ -135,17 +136,17 @@ class Lookup:
 
     @property
     def codes(self) -> int:
-        """How many values `code` has room for."""
+        """The number of values that `code` can have."""
         return 4 * (int(self.classes[..., 2].max()) + 1)
 
     @cached_property
-    def code(self) -> NDArray[np.int64]:
+    def code(self) -> Ints:
         """`classes` as one number, 4 * games + 2 * shutout + hill-hill, flat."""
         return np.asarray(self.classes @ np.array([1, 2, 4])).ravel()
 
     @cached_property
-    def noted(self) -> NDArray[np.int64]:
-        """`classes` of each value of `code`, shape (codes, 3)."""
+    def noted(self) -> Ints:
+        """The `classes` of each value of `code`, shape (codes, 3)."""
         code = np.arange(self.codes)
         return np.column_stack([code & 1, code >> 1 & 1, code >> 2])
 
@@ -156,9 +157,9 @@ class Lookup:
         return one.ravel(), two.ravel()
 
     @cached_property
-    def expected(self) -> NDArray[np.float64]:
-        """The mean of each of `classes` by skill difference and race: (3, rows * races)."""
-        first, _ = self._races
+    def expected(self) -> Floats:
+        """The mean of each of `classes` by skill difference and race, shape (3, rows * races)."""
+        first, _ = self.table.races
         means = np.empty((len(self.game), len(first), CLASSES))
         for start in range(0, len(self.game), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
@@ -167,12 +168,12 @@ class Lookup:
         return np.ascontiguousarray(np.moveaxis(means, 2, 0)).reshape(CLASSES, -1)
 
     @cached_property
-    def cumulative(self) -> tuple[NDArray[np.uint32], NDArray[np.intp]]:
-        """The largest draw of each final score, and the race of each rating difference.
+    def cumulative(self) -> tuple[NDArray[np.uint32], Places]:
+        """The largest draw for each final score, and the race of each rating difference.
 
         The first has shape (final scores, (2 * gap + 1) * races): a table for each score.
         """
-        first, place = self._races
+        first, place = self.table.races
         sums = np.empty((self.outcomes, len(self.game), len(first)))
         for start in range(0, len(self.game), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
@@ -181,24 +182,14 @@ class Lookup:
         last = np.maximum(np.rint(np.ldexp(sums, 32)) - 1.0, 0.0).astype(np.uint32)
         return last.reshape(self.outcomes, -1), place
 
-    @cached_property
-    def _races(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Where each race stands first, and which race each rating difference has."""
-        return _races_of(self.table)
-
 
 def lookup_of(table: MatchTable, gap: float) -> Lookup:
-    """Return the tables for skills that lie up to `gap` points apart."""
+    """Return the tables for skills up to `gap` points apart."""
     certain = _CERTAIN * table.system.scale.points_per_doubling
     size = int(np.ceil(min(max(gap, 1.0), certain)))
     p = table.system.scale.win_probability(np.arange(-size, size + 1.0))
-    wins = np.repeat(_in_bits(table.wins(p)[_races_of(table)[0]].T).ravel(), 2)
+    wins = np.repeat(_in_bits(table.wins(p)[table.races[0]].T).ravel(), 2)
     return Lookup(table, size, wins)
-
-
-def _races_of(table: MatchTable) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    _, first, place = np.unique(table.needs, axis=0, return_index=True, return_inverse=True)
-    return first, place.reshape(-1)
 
 
 def _in_bits(chance: Any) -> NDArray[np.uint32]:

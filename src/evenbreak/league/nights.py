@@ -1,4 +1,4 @@
-"""A season night by night, as its results moved the ratings."""
+"""A season night by night, as its results changed the ratings."""
 
 from __future__ import annotations
 
@@ -6,33 +6,22 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Ints
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.systems.rating_changes import Moves, apply_results, night_problems
+from evenbreak.handicaps.systems.night_problems import night_problems
+from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results
 from evenbreak.handicaps.systems.system import System
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 
 
-class Night(NamedTuple):
-    """A night of a season: the places of its matches in the results, and what they moved."""
+class PlayedNight(NamedTuple):
+    """A night of a season: the rows of its matches in the results, and what they changed."""
 
-    rows: NDArray[np.int64]
-    moves: Moves
-
-
-def nights_of(results: Results) -> list[NDArray[np.int64]]:
-    """Return the places of the matches of each night, in the order of the dates.
-
-    Without dates each match is a night of its own, in the order of the file; among dates, those
-    without one come last.
-    """
-    if results.date is None:
-        return [np.array([row]) for row in range(len(results))]
-    _, night = np.unique(results.date, return_inverse=True)
-    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]
+    rows: Ints
+    changes: RatingChanges
 
 
 def played_nights(
@@ -40,10 +29,13 @@ def played_nights(
     roster: Roster,
     results: Results,
     *,
-    chart: Chart | None = None,
-    apply: Callable[[Roster, NDArray[np.int64]], Moves] | None = None,
-) -> list[Night]:
-    """Return a season night by night, the ratings moved by each.
+    chart: Chart | str | None = None,
+    apply: Callable[[Roster, Ints], RatingChanges] | None = None,
+) -> list[PlayedNight]:
+    """Return a season night by night, with the ratings after each night.
+
+    Without dates each match is a night of its own, in the order of the rows; matches without a
+    date come last.
 
     Parameters
     ----------
@@ -54,9 +46,9 @@ def played_nights(
     results
         the season.
     chart
-        by which races were given where the results state none.
+        which sets the races where the results state none.
     apply
-        how a night's matches move a list; None: by `apply_results`.
+        how the matches of a night change a list of ratings; None: as `apply_results` does.
 
     Raises
     ------
@@ -64,15 +56,23 @@ def played_nights(
         if results cannot be used.
     """
 
-    def by_results(list_: Roster, rows: NDArray[np.int64]) -> Moves:
+    def by_results(list_: Roster, rows: Ints) -> RatingChanges:
         night = results.select(rows)
         for problem in night_problems(system, list_, night, chart=chart):
             raise InputError(f"row {rows[problem.row]} of the results: {problem.message}")
         return apply_results(system, list_, night, chart=chart)
 
     nights, now = [], roster
-    for rows in nights_of(results):
-        moves = (apply or by_results)(now, rows)
-        nights.append(Night(rows, moves))
-        now = moves.after
+    for rows in _nights(results):
+        changes = (apply or by_results)(now, rows)
+        nights.append(PlayedNight(rows, changes))
+        now = changes.after
     return nights
+
+
+def _nights(results: Results) -> list[Ints]:
+    """Return the rows of each night's matches by date; without dates each match is a night."""
+    if results.date is None:
+        return [np.array([row]) for row in range(len(results))]
+    _, night = np.unique(results.date, return_inverse=True)
+    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]

@@ -1,31 +1,30 @@
 """One season match by match: every rack, as a league would write it down.
 
-What `evenbreak.league.play` does for thousands of seasons at a time is done here for one, the
-obvious way, so that the results can be rated like those of any league, and so that the fast
-way has a witness.
+What `evenbreak.league.many_seasons` does for thousands of seasons is done here for one, in the
+obvious way: its results can be rated like those of any league, and it is the witness for the
+fast way.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from evenbreak.checks import whole
-from evenbreak.errors import InputError
+from evenbreak.arrays import Bools, Floats, Ints, short_repr
+from evenbreak.checks import seed_of
 from evenbreak.handicaps.systems.system import PlayedMatch, UpdateRule
-from evenbreak.league.schedule import Round
-from evenbreak.league.season import Season, draws_opponents
+from evenbreak.league.schedule import RandomPairing, Round
+from evenbreak.league.season import Season
 from evenbreak.ratings.results import Results
 
 FIRST_NIGHT = np.datetime64("2025-01-07")
-"""The date of week 1 where nobody says another."""
+"""The date of week 1 by default."""
 
 _APART = 0x6D617463
-"""Keeps the draws of this season apart from those of the replicas of the same seed."""
+"""Makes the draws of this season independent of those of the replicas of the same seed."""
 
 
 class _Match(NamedTuple):
@@ -40,60 +39,55 @@ class _Match(NamedTuple):
     points: tuple[int, int]
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class PlayedSeason:
-    """A season that was played, and what nobody knows of a real one.
+    """A season that was played, with the true skills that are unknown in a real one.
 
     Parameters
     ----------
     results
         the matches, in the order in which they were played: dates, races, scores and racks;
-        players in the order of the season's.
+        players in the order of the season.
     week
-        of each match, from 1 on.
+        of each match, from 1.
     rating_a, rating_b
-        with which the two came, in points.
+        the two ratings before each match, in points.
     skill
         true skill of each player before the first week, in points.
     rating
         of each player after the last week, in points.
     skill_after
-        true skill of each player after the last week, in points: drift is in it.
+        true skill of each player after the last week, in points, drift included.
     """
 
     results: Results
-    week: NDArray[np.int64]
-    rating_a: NDArray[np.int64]
-    rating_b: NDArray[np.int64]
-    skill: NDArray[np.float64]
-    rating: NDArray[np.int64]
-    skill_after: NDArray[np.float64]
+    week: Ints
+    rating_a: Ints
+    rating_b: Ints
+    skill: Floats
+    rating: Ints
+    skill_after: Floats
 
 
-def season_matches(
-    season: Season, seed: int, *, first_night: Any = FIRST_NIGHT, names: Sequence[str] | None = None
-) -> PlayedSeason:
+def season_matches(season: Season, seed: int | np.random.Generator) -> PlayedSeason:
     """Play one season rack by rack and return its matches.
 
-    In each week everybody who is there plays at his skill of the day. The ratings before the
-    week decide its races, and its moves are added at its end, as `apply_results` does with a
-    night's. A match of somebody who is not there is not played.
+    In each week everybody who is present plays at their skill of the day. The ratings before the
+    week set its races, and its moves are added at its end, as `apply_results` does for a night.
+    A match of somebody who is absent is not played.
 
     Parameters
     ----------
     season
         what is played.
     seed
-        a whole number from 0 on; the same one gives the same season.
-    first_night
-        the date of week 1; a week later comes week 2.
-    names
-        of the players; None: those of the season, or 'player 1' and so on.
+        a whole number from 0, which always gives the same season, or a generator.
 
     Raises
     ------
     InputError
-        if the seed is no such number, or the date is none.
+        if the seed is not such a number.
 
     >>> from evenbreak.handicaps import chart, system_of
     >>> from evenbreak.league import LeaguePlayers, RoundRobin, Season
@@ -103,11 +97,7 @@ def season_matches(
     >>> len(played.results), played.week.tolist(), played.results.date[0]
     (6, [1, 1, 2, 2, 3, 3], np.datetime64('2025-01-07'))
     """
-    rng = np.random.default_rng([_APART, whole(seed, "seed")])
-    try:
-        first = np.datetime64(first_night, "D")
-    except ValueError:
-        raise InputError(f"first_night is {first_night!r}; give a date, 2025-01-07") from None
+    rng = np.random.default_rng([_APART, seed_of(seed)])
     players = season.players
     rating = np.array(players.rating, dtype=np.int64)
     skill = rng.normal(players.skill, players.skill_sd)
@@ -126,18 +116,18 @@ def season_matches(
                     played[[a, b]] += 1
         rating += move
         skill = skill + players.drift
-    return _told(season, matches, first, names, began, rating, skill)
+    return _played_season(season, matches, began, rating, skill)
 
 
-def _there(season: Season, week: int, rng: np.random.Generator) -> NDArray[np.bool_]:
-    """Return who plays in a week: a member who is not absent."""
+def _there(season: Season, week: int, rng: np.random.Generator) -> Bools:
+    """Return who plays in a week: members who are not absent."""
     players = season.players
     return np.asarray(players.here(week) & (rng.random(len(players)) >= players.absence))
 
 
 def _rounds(season: Season, week: int, rng: np.random.Generator) -> list[Round]:
-    """Return who meets whom; lots are drawn among the members of the week only."""
-    if not draws_opponents(season.schedule):
+    """Return who meets whom; random opponents are drawn among the members of the week only."""
+    if not isinstance(season.schedule, RandomPairing):
         return list(season.schedule.pairs(week, rng, len(season.players)))
     who = np.flatnonzero(season.players.here(week))
     return [(who[a], who[b]) for a, b in season.schedule.pairs(week, rng, len(who))]
@@ -147,9 +137,9 @@ def _play(
     season: Season,
     week: int,
     pair: tuple[int, int],
-    rating: NDArray[np.int64],
-    played: NDArray[np.int64],
-    today: NDArray[np.float64],
+    rating: Ints,
+    played: Ints,
+    today: Floats,
     rng: np.random.Generator,
 ) -> _Match:
     a, b = pair
@@ -170,7 +160,7 @@ def _points(
     race: tuple[int, int],
     played: tuple[int, int],
 ) -> tuple[int, int]:
-    """Return by how much the two ratings move; the rule sees the winner first."""
+    """Return the points that the two ratings move; the rule sees the winner first."""
     (r, s), (m, n), (i, j) = rating, race, played
     won, lost = racks.count("a"), racks.count("b")
     rule: UpdateRule = season.system.rule
@@ -180,30 +170,26 @@ def _points(
     return down, up
 
 
-def _told(
+def _played_season(
     season: Season,
     matches: Sequence[_Match],
-    first: np.datetime64,
-    names: Sequence[str] | None,
-    began: NDArray[np.float64],
-    rating: NDArray[np.int64],
-    skill_after: NDArray[np.float64],
+    began: Floats,
+    rating: Ints,
+    skill_after: Floats,
 ) -> PlayedSeason:
     """Return the matches as columns."""
-    known = names if names is not None else season.players.names
-    if known is None:
-        known = [f"player {k}" for k in range(1, len(rating) + 1)]
+    names = season.players.names or tuple(f"player {k}" for k in range(1, len(rating) + 1))
     columns = np.array(
         [(row.week, row.a, row.b, *row.rating, *row.race) for row in matches], dtype=np.int64
     ).reshape(-1, 7)
     week, a, b, rating_a, rating_b, race_a, race_b = columns.T
     results = Results(
-        tuple(known),
+        names,
         a,
         b,
         np.array([row.racks.count("a") for row in matches], dtype=np.int64),
         np.array([row.racks.count("b") for row in matches], dtype=np.int64),
-        date=first + 7 * (week - 1),
+        date=FIRST_NIGHT + 7 * (week - 1),
         race_a=race_a,
         race_b=race_b,
         racks=np.array([row.racks for row in matches], dtype=object),

@@ -1,30 +1,43 @@
-"""The players of a simulated league: how they are rated, how well they play, when they play."""
+"""The players of a simulated league: their ratings, their skills, and when they play."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints, short_repr
+from evenbreak.checks import floats, whole_numbers
 from evenbreak.errors import InputError
 
-Floats = NDArray[np.float64]
-Whole = NDArray[np.int64]
-
 ESTABLISHED = 1_000_000
-"""Matches played before by a player of whom nobody says it: more than any newcomer has."""
+"""Matches played before, if nothing else is said: more than any newcomer has."""
 
 _FAR = 15_000
-"""Points beyond which nobody is rated: a season holds differences as 16-bit whole numbers."""
+"""The largest rating or skill, in points: a season holds differences in 16 bits."""
+
+_COLUMNS: dict[str, tuple[bool, int, float]] = {
+    "rating": (True, -_FAR, _FAR),
+    "skill": (False, -_FAR, _FAR),
+    "skill_sd": (False, 0, _FAR),
+    "day_sd": (False, 0, _FAR),
+    "drift": (False, -_FAR, _FAR),
+    "joins": (True, 1, math.inf),
+    "leaves": (True, 0, math.inf),
+    "absence": (False, 0, 1),
+    "played": (True, 0, math.inf),
+}
+"""Whether a column holds whole numbers, and its least and largest value."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class LeaguePlayers:
-    """The players of a league as read-only columns; `LeaguePlayers.of` makes them of less.
+    """The players of a league as read-only columns; `LeaguePlayers.of` fills in defaults.
 
     Parameters
     ----------
@@ -33,60 +46,55 @@ class LeaguePlayers:
     skill
         the true skill at the start, in points of the same scale.
     skill_sd
-        how far the true skill is unknown, in points: each replica of a season draws its own
-        from the normal law of mean `skill` and this standard deviation.
+        how uncertain the true skill is, in points: each replica of a season draws its own skill
+        from a normal distribution with mean `skill` and this standard deviation.
     day_sd
-        how far a player's skill of the day strays from his skill, one standard deviation in
-        points.
+        standard deviation of a player's form from day to day, in points.
     drift
-        points by which the true skill rises a week.
+        points by which the true skill rises each week.
     joins
         the first week in which a player plays, from 1.
     leaves
-        the last week in which he plays; 0 where he stays.
+        the last week in which a player plays; 0 for a player who stays.
     absence
-        P(a player misses a week | he is in the league).
+        P(a player misses a week | the player is in the league).
     played
-        the matches that each had played before the season, for a system that moves newcomers
-        faster.
+        the matches played before the season, for a system that moves newcomers faster.
     names
         the names, or None.
 
     Raises
     ------
     InputError
-        if a column has not a value for each player, or one that it cannot have.
+        if a column does not have a value for each player, or has one that is out of range.
 
     >>> club = LeaguePlayers.of([92, 80, 71], skill=[90, 84.5, 71], joins=[1, 1, 5])
     >>> len(club), club.skill, club.absence
     (3, array([90. , 84.5, 71. ]), array([0., 0., 0.]))
     """
 
-    rating: Whole
+    rating: Ints
     skill: Floats
     skill_sd: Floats
     day_sd: Floats
     drift: Floats
-    joins: Whole
-    leaves: Whole
+    joins: Ints
+    leaves: Ints
     absence: Floats
-    played: Whole
+    played: Ints
     names: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
         many = np.size(self.rating)
         if many < 2 or np.ndim(self.rating) != 1:
-            raise InputError(f"rating has {many} values; give those of two players or more")
-        for field in fields(self):
-            if field.name != "names":
-                kind: Any = np.int64 if field.type == "Whole" else np.float64
-                column = _column(getattr(self, field.name), field.name, kind, many)
-                object.__setattr__(self, field.name, column)
-        _check_range(self)
+            raise InputError(f"rating has {many} values; give one for each of two players or more")
+        for name in _COLUMNS:
+            object.__setattr__(self, name, _column(getattr(self, name), name, many))
+        _refuse_leaving_early(self)
         if self.names is not None:
             names = tuple(self.names)
             if len(names) != many or len(set(names)) < many:
-                raise InputError(f"names are {len(names)}; give each of {many} players his own")
+                raise InputError(f"names is {names!r}; give {many} different names")
             object.__setattr__(self, "names", names)
 
     @classmethod
@@ -104,14 +112,14 @@ class LeaguePlayers:
         played: ArrayLike = ESTABLISHED,
         names: Iterable[str] | None = None,
     ) -> LeaguePlayers:
-        """Return players of columns, or of one number for all of them.
+        """Return players from columns, or from one number for all of them.
 
         Parameters
         ----------
         rating
             a column, one rating for each player.
         skill
-            a column; None: everybody is rated rightly.
+            a column; None: everybody is correctly rated.
         skill_sd, day_sd, drift, joins, leaves, absence, played
             a column each, or one number for everybody.
         names
@@ -141,7 +149,7 @@ class LeaguePlayers:
     def __len__(self) -> int:
         return len(self.rating)
 
-    def here(self, week: int) -> NDArray[np.bool_]:
+    def here(self, week: int) -> Bools:
         """Return who is in the league in a week, absent or not.
 
         >>> LeaguePlayers.of([50, 60, 70], joins=[1, 2, 1], leaves=[0, 0, 1]).here(2)
@@ -151,55 +159,28 @@ class LeaguePlayers:
         return np.asarray(stays & (self.joins <= week))
 
 
-def _column(given: Any, name: str, kind: Any, many: int) -> NDArray[Any]:
-    try:
-        numbers = np.asarray(given)
-        if numbers.dtype.kind not in "biuf":
-            raise ValueError
-    except (TypeError, ValueError):
-        raise InputError(f"{name} is {given!r}; give a number for each player") from None
-    if numbers.ndim > 1 or (numbers.ndim == 1 and len(numbers) != many):
+def _column(given: Any, name: str, many: int) -> NDArray[Any]:
+    whole, low, high = _COLUMNS[name]
+    wanted = "whole numbers " if whole else "numbers "
+    wanted += f"from {low} to {high}" if high < math.inf else f"of {low} or more"
+    numbers = floats(given, name, low=low, high=high, wanted=wanted)
+    if whole:
+        whole_numbers(given, name, wanted=wanted)
+    if numbers.shape not in ((), (many,)):
         raise InputError(
             f"{name} has the shape {numbers.shape}; give one value for each of {many} players"
         )
-    if not np.isfinite(numbers).all():
-        raise InputError(f"{name} holds {_first(numbers, ~np.isfinite(numbers))}; give numbers")
-    if kind is np.int64 and numbers.dtype.kind == "f":
-        broken = numbers != np.floor(numbers)
-        if broken.any():
-            raise InputError(f"{name} holds {_first(numbers, broken)}; give whole numbers")
     # One number for everybody stays one number in memory, however many players there are.
-    column = numbers.astype(kind)  # a copy: a later change of the caller's changes nothing here
+    column = numbers.astype(np.int64 if whole else np.float64)  # a copy: the caller may change it
     column.flags.writeable = False
     return np.broadcast_to(column, (many,))
 
 
-def _check_range(players: LeaguePlayers) -> None:
-    for name, low, high in (
-        ("rating", -_FAR, _FAR),
-        ("skill", -_FAR, _FAR),
-        ("skill_sd", 0, _FAR),
-        ("day_sd", 0, _FAR),
-        ("drift", -_FAR, _FAR),
-        ("joins", 1, math.inf),
-        ("leaves", 0, math.inf),
-        ("absence", 0, 1),
-        ("played", 0, math.inf),
-    ):
-        column = getattr(players, name)
-        outside = (column < low) | (column > high)
-        if outside.any():
-            raise InputError(
-                f"{name} holds {_first(column, outside)}; give numbers "
-                + (f"from {low} to {high}" if high < math.inf else f"of {low} or more")
-            )
-    gone = (players.leaves > 0) & (players.leaves < players.joins)
-    if gone.any():
+def _refuse_leaving_early(players: LeaguePlayers) -> None:
+    gone = np.flatnonzero((players.leaves > 0) & (players.leaves < players.joins))
+    if gone.size:
+        leaves, joins = players.leaves[gone[0]], players.joins[gone[0]]
         raise InputError(
-            f"a player leaves in week {_first(players.leaves, gone)} and joins in week "
-            f"{_first(players.joins, gone)}; give a week not before, or 0 where he stays"
+            f"a player leaves in week {leaves} and joins in week {joins}; give a week not before "
+            "that, or 0 if the player stays"
         )
-
-
-def _first(column: NDArray[Any], where: NDArray[Any]) -> str:
-    return f"{np.ravel(column)[np.argmax(where)]:g}"

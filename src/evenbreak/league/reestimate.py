@@ -1,54 +1,57 @@
-"""Ratings that are worked out anew from all results, as Fargo's are: how wrong they stay.
+"""Ratings that are refitted to all results, as Fargo's are: how far off they stay.
 
-A ladder moves a rating by what the last match says. A league may instead fit all ratings to all
-results, old ones counting less, after each so many weeks. What is left of error then has no
-chain of few states, so it is simulated: leagues of players of known skill play by the ratings
-that they have, and the ratings are fitted again and again.
+A ladder moves a rating by the last match alone. A league may instead refit all ratings to all
+results every week, with older results counting less. The error that remains is not a chain
+with few states, so it is simulated: leagues of players of known skill play by their ratings, and
+the ratings are refitted to all results every week.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.checks import whole
+from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.ladders.comparison import SystemRow
+from evenbreak.handicaps.charts.chart_of import chart_of
+from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
 from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.fit import PRIOR_SD, fit
+from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.stats.summary import Distribution
 
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
 _FIRST_NIGHT = np.datetime64("2001-01-01")
-_NEAR = 1.0 / 6.0
+
+_NEWCOMERS = (1, -1, 1, -1)
+"""How many doublings of the odds each newcomer is better than the mean of the league."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Reestimated:
-    """How wrong fitted ratings are, by simulation, with Monte Carlo standard errors.
+    """How far off refitted ratings are, by simulation, with Monte Carlo standard errors.
 
     Parameters
     ----------
     row
-        the line that `compare_systems` would have of it. The error, the favourite's chance and
-        the length of a match are of the later half of the weeks before newcomers come;
+        the row that `compare_systems` would have for it. The error, the favourite's chance and
+        the length of a match are from the second half of the weeks before newcomers come;
         settling is the newcomers'. The sum of all ratings is fixed, so there is no inflation.
     sd_error
         standard error of `row.sd`, in points, from the differences between the leagues.
     settling_error
-        standard error of `row.settling_mean`, in matches, found likewise.
+        standard error of `row.settling_mean`, in matches, found in the same way.
     unsettled
-        the share of newcomers who had not settled at the end; they count as if they did then,
-        so that where it is not 0 settling takes longer than the row says.
+        the share of newcomers who had not settled by the end. They count as if they settled
+        then, so if it is not 0, settling takes longer than the row says.
     sd_by_week
         shape (leagues, weeks): standard deviation of rating less skill after each week.
     """
@@ -57,52 +60,47 @@ class Reestimated:
     sd_error: float
     settling_error: float
     unsettled: float
-    sd_by_week: NDArray[np.float64]
+    sd_by_week: Floats
 
 
 class _Plan(NamedTuple):
-    """What all leagues of a simulation have in common."""
+    """What all simulated leagues have in common."""
 
-    skill: NDArray[np.float64]
+    skill: Floats
     begun_with: int
     chart: Chart
     scale: Scale
     weeks: tuple[int, int]
-    fit_every: int
     half_life: float | None
-    prior_sd: float
 
 
 class _Course(NamedTuple):
     """What came of one league."""
 
     sd: list[float]
-    settled: NDArray[np.int64]
-    chances: NDArray[np.float64]
-    games: NDArray[np.int64]
+    settled: Ints
+    chances: Floats
+    games: Ints
 
 
 def reestimate(
     skill: ArrayLike,
-    chart: Chart,
+    chart: Chart | str,
     *,
     scale: Any = "fargo",
     weeks: int = 52,
-    newcomers: int = 4,
     newcomer_weeks: int = 30,
-    fit_every: int = 1,
     half_life: float | None = None,
-    prior_sd: float = PRIOR_SD,
     leagues: int = 4,
-    seed: int = 0,
+    seed: int | np.random.Generator = 0,
 ) -> Reestimated:
-    """Return how wrong ratings stay that are fitted anew to all results, old ones fading.
+    """Return how far off ratings stay that are refitted to all results, with old ones fading.
 
-    Players of the given skills, which do not change, are paired by lot each week (with an odd
-    number of players one rests). The chart gives the race for the ratings of the day, rounded
-    to whole points, and every game is decided by the skills. All begin at their mean skill; so
-    do the newcomers, of whom one half is a doubling of the odds better than that and the other
-    half a doubling worse.
+    Players with the given skills, which do not change, are paired at random each week (with an
+    odd number of players one rests). The chart gives the race for the current ratings, rounded
+    to whole points, and the skills decide every game. All players start at their mean skill; so
+    do the newcomers, half of whom are a doubling of the odds better than that, and half a
+    doubling worse.
 
     Parameters
     ----------
@@ -114,29 +112,26 @@ def reestimate(
         what a difference means, as in `fit`.
     weeks
         how many weeks are played before newcomers come, 2 or more.
-    newcomers, newcomer_weeks
-        how many come (an even number, 2 or more), and how many weeks they are followed.
-    fit_every
-        after how many weeks the ratings are fitted again.
+    newcomer_weeks
+        how many weeks the four newcomers are followed.
     half_life
         weeks after which a match counts half; None: age does not matter.
-    prior_sd
-        of the prior, in natural log-odds, as in `fit`.
     leagues
         how many leagues are simulated, 2 or more.
     seed
-        of the random numbers: the same seed gives the same answer.
+        of the random numbers: a whole number, which always gives the same answer, or a
+        generator.
 
     Raises
     ------
     InputError
-        if a parameter is not such a one.
+        if a parameter has a value that it cannot have.
 
     Notes
     -----
-    Fits are those of `ratings.fit` (Bradley-Terry, maximum a posteriori), anchored at the mean
-    skill, which no result can tell. Settled is the first night on which a newcomer comes rated
-    within a sixth of a doubling, as in `compare_systems`.
+    The fit is that of `ratings.fit` (Bradley-Terry, maximum a posteriori), anchored at the mean
+    skill, which results cannot show. A newcomer has settled on the first night with a rating
+    within a sixth of a doubling of the skill, as in `compare_systems`.
 
     >>> import numpy as np
     >>> from evenbreak.handicaps import chart
@@ -148,31 +143,24 @@ def reestimate(
     skills = np.asarray(skill, dtype=float)
     if skills.ndim != 1 or len(skills) < 2 or not np.isfinite(skills).all():
         raise InputError("skill is not a list of two finite numbers or more; give one per player")
-    if not isinstance(chart, Chart):
-        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('fargo_r6_hot')")
-    new = whole(newcomers, "newcomers", at_least=2)
-    if new % 2:
-        raise InputError(f"newcomers is {new}; give an even number, half of them better players")
     if half_life is not None and not half_life > 0.0:
         raise InputError(f"half_life is {half_life!r}; give weeks above 0, or None")
     plan = _Plan(
-        skill=np.append(skills, skills.mean() + by.points_per_doubling * np.resize([1, -1], new)),
+        skill=np.append(skills, skills.mean() + by.points_per_doubling * np.array(_NEWCOMERS)),
         begun_with=len(skills),
-        chart=chart,
+        chart=chart_of(chart),
         scale=by,
         weeks=(
             whole(weeks, "weeks", at_least=2),
             whole(newcomer_weeks, "newcomer_weeks", at_least=1),
         ),
-        fit_every=whole(fit_every, "fit_every", at_least=1),
         half_life=None if half_life is None else 7.0 * half_life,
-        prior_sd=prior_sd,
     )
-    seeds = np.random.SeedSequence(seed).spawn(whole(leagues, "leagues", at_least=2))
-    return _told(plan, [_league(plan, np.random.default_rng(child)) for child in seeds])
+    seeds = np.random.SeedSequence(seed_of(seed)).spawn(whole(leagues, "leagues", at_least=2))
+    return _summed_up(plan, [_league(plan, np.random.default_rng(child)) for child in seeds])
 
 
-def _told(plan: _Plan, courses: list[_Course]) -> Reestimated:
+def _summed_up(plan: _Plan, courses: list[_Course]) -> Reestimated:
     first, later = plan.weeks
     sd = np.array([course.sd for course in courses])
     sds = sd[:, first // 2 :].mean(axis=1)
@@ -204,47 +192,43 @@ def _told(plan: _Plan, courses: list[_Course]) -> Reestimated:
 
 
 def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
-    """Play one league: weeks with the players given, then weeks with the newcomers."""
+    """Play one league: first weeks with the given players, then weeks with newcomers too."""
     skill, (first, later) = plan.skill, plan.weeks
     centre = float(skill.mean())
     rating = np.full(len(skill), centre)
     names = tuple(map(str, range(len(skill))))
-    nights: list[NDArray[np.int64]] = []
+    nights: list[Ints] = []
     dates: list[NDArray[np.datetime64]] = []
     sd: list[float] = []
-    chances: list[NDArray[np.float64]] = []
+    chances: list[Floats] = []
     settled = np.full(len(skill) - plan.begun_with, later)
     for week in range(first + later):
         there = plan.begun_with if week < first else len(skill)
         night, wins = _night(plan, rating[:there], rng)
         nights.append(night)
         dates.append(np.full(night.shape[1], _FIRST_NIGHT + 7 * week))
-        if (week + 1) % plan.fit_every == 0:
-            columns = np.concatenate(nights, axis=1)
-            rating[:there] = fit(
-                Results(names[:there], *columns, date=np.concatenate(dates)),
-                prior_sd=plan.prior_sd,
-                scale=plan.scale,
-                anchor=centre,
-                half_life=plan.half_life,
-                as_of=_FIRST_NIGHT + 7 * week,
-            ).rating
+        columns = np.concatenate(nights, axis=1)
+        rating[:there] = fit(
+            Results(names[:there], *columns, date=np.concatenate(dates)),
+            scale=plan.scale,
+            anchor=centre,
+            half_life=plan.half_life,
+            as_of=_FIRST_NIGHT + 7 * week,
+        ).rating
         error = rating - skill
         if week < first:
             sd.append(float(error[:there].std()))
             chances.append(wins)
         else:
-            near = np.abs(error[plan.begun_with :]) <= _NEAR * plan.scale.points_per_doubling
+            near = np.abs(error[plan.begun_with :]) <= NEAR * plan.scale.points_per_doubling
             settled[near] = np.minimum(settled[near], week - first + 1)
     half = slice(first // 2, first)
     games = np.concatenate(nights[half], axis=1)[2:].sum(axis=0)
     return _Course(sd, settled, np.concatenate(chances[half]), games)
 
 
-def _night(
-    plan: _Plan, rating: NDArray[np.float64], rng: np.random.Generator
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return rows of a, b and the games of each, shape (4, matches), and P(a wins) of each."""
+def _night(plan: _Plan, rating: Floats, rng: np.random.Generator) -> tuple[Ints, Floats]:
+    """Return rows of a, b and the games of each, shape (4, matches), and P(a wins)."""
     order = rng.permutation(len(rating))
     half = len(rating) // 2
     a, b = order[:half], order[half : 2 * half]

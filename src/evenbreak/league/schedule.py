@@ -1,8 +1,8 @@
 """Who meets whom in which week.
 
-A schedule answers `pairs(week, rng, count)`: the rounds of a week, each two arrays of the
-same length, the positions of those who meet. In a round a player occurs once at the most,
-so that whoever plays a season can move all ratings of a round at once.
+A schedule answers `pairs(week, rng, count)`: the rounds of a week, each of them two arrays of the
+same length with the positions of the players who meet. In a round a player occurs at most once,
+so that all ratings of a round can move at once.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.checks import whole
+from evenbreak.arrays import Ints, Places
+from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
 
-Round = tuple[NDArray[np.intp], NDArray[np.intp]]
+Round = tuple[Places, Places]
 """Who meets whom at one time: two arrays of positions, no position twice."""
 
-
 _FEW = 1000
-"""Players of whom an order of all is drawn faster than one of half of them."""
+"""With fewer players than this, shuffling all is faster than drawing half of them."""
 
 
 class Schedule(Protocol):
-    """What every schedule answers."""
+    """What every schedule can answer."""
 
     def pairs(self, week: int, rng: np.random.Generator, count: int) -> Sequence[Round]:
         """Return the rounds of a week (1 is the first) for `count` players."""
@@ -35,7 +35,7 @@ class Schedule(Protocol):
 
 @dataclass(frozen=True)
 class RoundRobin:
-    """Everybody meets everybody before anybody meets twice, and then again.
+    """Everybody meets everybody once before any two meet again, over and over.
 
     With an odd number of players one of them has a bye in each round.
 
@@ -44,12 +44,12 @@ class RoundRobin:
     players
         how many there are, two or more.
     matches_a_week
-        how many matches a player has in a week.
+        matches per player and week.
 
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have; `pairs` raises it for another count.
+        if a number is too small; from `pairs`, if the league has another number of players.
 
     Notes
     -----
@@ -92,12 +92,12 @@ class RoundRobin:
 
 @dataclass(frozen=True)
 class RandomPairing:
-    """Opponents are drawn by lot, anew for each round; of an odd number one sits out.
+    """Opponents are drawn at random for each round; of an odd number one player sits out.
 
     Parameters
     ----------
     matches_a_week
-        how many matches a player has in a week.
+        matches per player and week.
 
     >>> (a, b), = RandomPairing().pairs(1, np.random.default_rng(1), 5)
     >>> len(a), len({*a.tolist(), *b.tolist()})
@@ -116,8 +116,8 @@ class RandomPairing:
 
     def many_pairs(
         self, rng: np.random.Generator, count: int, times: int
-    ) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-        """Return the rounds of a week of many leagues alike, a row for each of them.
+    ) -> list[tuple[Places, Places]]:
+        """Return the rounds of a week for many leagues of one size, a row for each league.
 
         >>> (a, b), = RandomPairing().many_pairs(np.random.default_rng(1), 6, 2)
         >>> np.sort(np.hstack([a, b])).tolist()
@@ -136,15 +136,15 @@ class FixedSchedule:
     Parameters
     ----------
     week
-        the week of each match, from 1 on.
+        the week of each match, from 1.
     a, b
         positions of the two who meet.
 
     Raises
     ------
     InputError
-        if the columns differ in length or hold what is no week or no position, or somebody
-        meets himself; `pairs` raises it if a position is beyond the players.
+        if the columns differ in length, hold something other than weeks and positions, or have
+        somebody meet themselves; from `pairs`, if a position is beyond the players.
 
     >>> fixtures = FixedSchedule([1, 1, 3], [0, 0, 1], [1, 2, 2])
     >>> [(a.tolist(), b.tolist()) for a, b in fixtures.pairs(1, np.random.default_rng(1), 3)]
@@ -153,9 +153,9 @@ class FixedSchedule:
     (3, 3, [])
     """
 
-    week: NDArray[np.int64] = field(repr=False)
-    a: NDArray[np.int64] = field(repr=False)
-    b: NDArray[np.int64] = field(repr=False)
+    week: Ints = field(repr=False)
+    a: Ints = field(repr=False)
+    b: Ints = field(repr=False)
 
     def __init__(self, week: ArrayLike, a: ArrayLike, b: ArrayLike) -> None:
         for name, given, least in (("week", week, 1), ("a", a, 0), ("b", b, 0)):
@@ -167,23 +167,23 @@ class FixedSchedule:
             )
         if (self.a == self.b).any():
             row = int(np.argmax(self.a == self.b))
-            raise InputError(f"match {row} is of {self.a[row]} with himself; give two players")
+            raise InputError(f"match {row} has player {self.a[row]} twice; give two players")
 
     def __len__(self) -> int:
         return len(self.week)
 
     @property
     def weeks(self) -> int:
-        """The last week that has a match; 0 where there is none."""
+        """The last week that has a match; 0 if there is none."""
         return int(self.week.max(initial=0))
 
     def pairs(self, week: int, rng: np.random.Generator, count: int) -> list[Round]:  # noqa: ARG002
-        """Return the rounds of a week; none where the list has no match in it."""
+        """Return the rounds of a week, which may be none."""
         most = int(max(self.a.max(initial=-1), self.b.max(initial=-1)))
         if most >= count:
             raise InputError(
-                f"the schedule has a player {most}, but the league has {count} from 0 on; "
-                "leave out his matches, or add the player"
+                f"the schedule has a player {most}, but the league has players 0 to {count - 1}; "
+                "leave the matches out, or add the player"
             )
         return self._rounds.get(week, [])
 
@@ -191,7 +191,7 @@ class FixedSchedule:
     def _rounds(self) -> dict[int, list[Round]]:
         rows = np.argsort(self.week, kind="stable")
         weeks, starts = np.unique(self.week[rows], return_index=True)
-        parts = np.split(rows, starts[1:])[: len(weeks)]  # of no rows it makes one part
+        parts = np.split(rows, starts[1:])[: len(weeks)]  # no rows would make one part
         return {
             week: rounds_of(self.a[part], self.b[part])
             for week, part in zip(weeks.tolist(), parts, strict=True)
@@ -201,8 +201,8 @@ class FixedSchedule:
 def _matched(rng: np.random.Generator, count: int) -> Round:
     """Return a round in which all ways to pair `count` players are equally likely.
 
-    Of many, half are drawn, in an order drawn by lot; whoever is left meets them in his own
-    order. That is half the work of an order of all.
+    Of many players half are drawn, in random order; the others meet them in their own order.
+    That is half the work of shuffling all.
     """
     half = count // 2
     if count < _FEW:
@@ -215,9 +215,9 @@ def _matched(rng: np.random.Generator, count: int) -> Round:
 
 
 def rounds_of(a: NDArray[Any], b: NDArray[Any]) -> list[Round]:
-    """Return matches as rounds in each of which a player occurs once at the most.
+    """Return matches as rounds in which each player occurs at most once.
 
-    Each match comes as early as it can without overtaking an earlier one of its players.
+    Each match comes as early as possible without overtaking an earlier match of its players.
 
     >>> [(a.tolist(), b.tolist()) for a, b in rounds_of(np.array([0, 0, 2]), np.array([1, 2, 3]))]
     [([0], [1]), ([0], [2]), ([2], [3])]
@@ -231,14 +231,10 @@ def rounds_of(a: NDArray[Any], b: NDArray[Any]) -> list[Round]:
     return [(a[rows].astype(np.intp), b[rows].astype(np.intp)) for rows in rounds]
 
 
-def _whole_column(given: ArrayLike, name: str, least: int) -> NDArray[np.int64]:
-    try:
-        numbers = np.asarray(given, dtype=float)
-        right = numbers.ndim == 1 and bool((numbers == np.floor(numbers)).all())
-    except (TypeError, ValueError):
-        right = False
-    if not right or (numbers < least).any():
-        raise InputError(f"{name} is {given!r}; give a whole number, {least} or more, a match")
+def _whole_column(given: ArrayLike, name: str, least: int) -> Ints:
+    numbers = whole_numbers(given, name, at_least=least)
+    if numbers.ndim != 1:
+        raise InputError(f"{name} has shape {numbers.shape}; give one whole number for each match")
     column = numbers.astype(np.int64)
     column.flags.writeable = False
     return column

@@ -1,4 +1,4 @@
-"""A season: who plays, by which system, whom in which week, and for how long."""
+"""A season: who plays, by which system, against whom in which week, and for how long."""
 
 from __future__ import annotations
 
@@ -7,35 +7,34 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Ints
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.chart import chart as printed_chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.handicaps.systems.match_table import MatchTable, match_table
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.lookup import Lookup, lookup_of
 from evenbreak.league.players import LeaguePlayers
-from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin, Schedule
+from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 from evenbreak.league.tally import fifths_of
 
 _DOUBLINGS = 3.0
-"""How far moves are told by rating difference: to where the odds of a game are 8 to 1."""
+"""The narrowest table of races and moves: to where the odds of a game are 8 to 1."""
 
 _SDS = 5.0
-"""Standard deviations of skill within which a league's skills are taken to lie."""
+"""A league's skills are assumed to lie within this many standard deviations."""
 
 
 @dataclass(frozen=True, eq=False)
 class Season:
     """A season to be simulated.
 
-    A week goes so. Each player's skill of the day is his true skill then and the day's
-    deviation, in whole points; all his matches of the week are played with it. The ratings
-    before the week say all its races, and all moves are added up at its end, as
-    `evenbreak.handicaps.apply_results` does with a night. Then skills drift.
+    In each week a player's skill of the day is the true skill plus the form of that day, in whole
+    points, and holds for all of the player's matches. The ratings before the week set its races,
+    and all moves are added at its end, as `evenbreak.handicaps.apply_results` does for a night.
+    Then skills drift.
 
     Parameters
     ----------
@@ -44,14 +43,14 @@ class Season:
     system
         the handicap system, or its name.
     chart
-        by which the races are given, or its name; None: the system's first.
+        which sets the races, or its name; None: the system's own.
     schedule
-        who meets whom; None: a round robin, again and again.
+        who meets whom; None: a round robin, over and over.
     weeks
         how many weeks are played.
     play
-        'matches': each match is won by its exact chance. 'racks': it is played rack by rack,
-        which gives final scores too. Both have the same law.
+        'matches': the winner of each match is drawn with the exact chance. 'racks': it is played
+        rack by rack, which gives final scores too. Both have the same distribution.
 
     Raises
     ------
@@ -78,8 +77,8 @@ class Season:
             put(self, "system", system_of(self.system))
         if self.chart is None:
             put(self, "chart", self.system.usual_chart())
-        elif not isinstance(self.chart, Chart):
-            put(self, "chart", printed_chart(self.chart))
+        else:
+            put(self, "chart", chart_of(self.chart))
         if self.schedule is None:
             put(self, "schedule", RoundRobin(len(self.players)))
         put(self, "weeks", whole(self.weeks, "weeks", at_least=1))
@@ -91,13 +90,13 @@ class Season:
         """The races, moves and chances of the season's matches."""
         doubling = self.system.scale.points_per_doubling
         least = max(self.chart.rows[-1].difference_from, round(_DOUBLINGS * doubling))
-        # Where no two ratings are further apart than the table is wide, none need be clipped.
+        # If no two ratings are further apart than the table is wide, none need be clipped.
         spread = int(self.players.rating.max() - self.players.rating.min()) + round(doubling)
         return match_table(self.system, self.chart, widest=max(least, min(spread, 2 * least)))
 
     @cached_property
     def lookup(self) -> Lookup:
-        """The same as flat tables of whole numbers, for drawing."""
+        """The same as flat tables of whole numbers, for fast draws."""
         return lookup_of(self.table, self.widest_gap)
 
     @cached_property
@@ -108,7 +107,7 @@ class Season:
         drifted = players.drift * (self.weeks - 1)
         high = players.skill + np.maximum(drifted, 0.0) + around
         low = players.skill + np.minimum(drifted, 0.0) - around
-        # A point more, since drift adds up in another order.
+        # One point more, since drift is added up in another order.
         return int(np.rint(high.max()) - np.rint(low.min())) + 1
 
     @cached_property
@@ -120,18 +119,18 @@ class Season:
         return int(np.abs(self.table.moves).max()) * max(factors, default=1)
 
     @cached_property
-    def fifths(self) -> NDArray[np.int64]:
+    def fifths(self) -> Ints:
         """Each player's fifth by skill at the start, 0 the weakest; one column."""
         return fifths_of(self.players.skill[:, None])
 
     def __reduce__(self) -> Any:
-        # What is worked out is worked out again where the season arrives: it is larger.
+        # Tables are not sent: they are larger than what they are made from.
         given = (self.players, self.system, self.chart, self.schedule, self.weeks, self.play)
         return Season, given
 
 
 def _check_schedule(schedule: Any, players: int) -> None:
-    """Find out before the first week what would stop the season in a later one."""
+    """Find out before the first week what would stop the season in a later week."""
     if isinstance(schedule, RandomPairing):
         return
     if isinstance(schedule, RoundRobin | FixedSchedule):
@@ -140,8 +139,3 @@ def _check_schedule(schedule: Any, players: int) -> None:
         raise InputError(
             f"schedule is {schedule!r}; give RoundRobin, RandomPairing or FixedSchedule"
         )
-
-
-def draws_opponents(schedule: Schedule) -> bool:
-    """Tell whether opponents are drawn by lot, so among those who are there."""
-    return isinstance(schedule, RandomPairing)

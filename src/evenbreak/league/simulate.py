@@ -1,12 +1,16 @@
-"""Many replicas of a season, on as many workers as there are, with the same result for any number.
+"""Many replicas of a season, on any number of workers, with the same result for any number.
 
-Replicas are parted into batches, and these into chunks, by the season and the number of replicas
-alone. Each chunk has its own stream of random numbers, the child of the seed that bears its
-number, and tallies are added in the order of the chunks. So who worked, and how fast, leaves no
-trace in the result.
+Replicas are divided into batches, and these into chunks, by the season and the number of replicas
+alone. Each chunk has its own stream of random numbers, the child of the seed with its number, and
+tallies are added in the order of the chunks. So the result does not depend on who did the work or
+how fast.
 
-Chunks are given out by the parcel, whose tallies are added where they are made: sums of whole
-numbers do not depend on how they are bracketed.
+The replicas of a *batch* share the draw of opponents. Standard errors come from the differences
+between batches, so there must be many of them; but numpy is fast with long arrays. So a *chunk*,
+which is played at a time, has several batches if these are small.
+
+Workers are given several chunks at a time, a parcel, and return the sum of their tallies: sums of
+whole numbers do not depend on how they are bracketed.
 """
 
 from __future__ import annotations
@@ -17,47 +21,84 @@ from contextlib import closing
 from functools import reduce
 from itertools import islice
 from operator import add
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from evenbreak.checks import whole
-from evenbreak.league.batches import Parts, parts_of
-from evenbreak.league.executors import in_order
-from evenbreak.league.play import run_chunk
+from evenbreak.checks import seed_of, whole
+from evenbreak.league.counting import ALONE
+from evenbreak.league.many_seasons import run_chunk
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
+from evenbreak.league.workers import in_order
 
-_BATCH = 64
-"""Tallies that are added up before they are added to the rest: each sum copies what it has."""
+if TYPE_CHECKING:
+    import distributed
 
+_CHUNK = 1 << 16
+"""Players times replicas in a chunk, unless the league alone is larger."""
+
+_BATCHES = 20
+"""The fewest batches, if there are as many replicas: standard errors come from them."""
+
+_CELLS = 1 << 22
+"""The most cells of the tables in which the batches of a chunk count their matches."""
+
+_MATCHES = 1 << 24
+"""The most matches of a chunk with several batches, so that long seasons can use all workers."""
+
+_TALLIES = 64
+"""Tallies that are summed before they are added to the rest, since each sum copies its terms."""
 
 _PARCEL = 1 << 24
-"""Matches, more or less, that are given out at a time: half a second's work, for which it pays to
-send a tally."""
+"""About how many matches are given out at a time: half a second's work."""
 
 _PARCELS = 64
-"""Parcels that there are at least where there are as many chunks: no worker is idle for long."""
+"""The fewest parcels, if there are as many chunks, so that no worker is idle for long."""
+
+
+class Batching(NamedTuple):
+    """How replicas are divided: `replicas` in a batch, `batches` in a chunk."""
+
+    replicas: int
+    batches: int
+
+
+def batching_of(season: Season, replicas: int) -> Batching:
+    """Return how to divide replicas, so that a chunk fits the processor's cache.
+
+    There are 20 batches or more, if there are as many replicas.
+
+    >>> from evenbreak.league import LeaguePlayers, Season
+    >>> season = Season(LeaguePlayers.of([50] * 64), "npl")
+    >>> batching_of(season, 100_000), batching_of(season, 2000)
+    (Batching(replicas=1024, batches=1), Batching(replicas=100, batches=10))
+    """
+    at_once = 1 if len(season.players) > ALONE else _CHUNK // len(season.players)
+    batch = max(1, min(at_once, replicas // _BATCHES))
+    matches = batch * season.weeks * len(season.players) // 2
+    most = at_once // batch, _CELLS // len(season.lookup.wins), _MATCHES // max(matches, 1)
+    return Batching(batch, max(1, min(most)))
 
 
 class _Work(NamedTuple):
-    """What all workers know: the season, and how its replicas are parted into chunks."""
+    """What all workers know: the season, and how its replicas are divided into chunks."""
 
     season: Season
     replicas: int
-    parts: Parts
+    batching: Batching
     seed: int
 
     def chunks(self) -> int:
-        """Return how many chunks there are: the full ones, and one of the replicas left over."""
-        full, left = divmod(self.replicas, self.parts.replicas)
-        return -(-full // self.parts.batches) + (left > 0)
+        """Return the number of chunks: the full ones, and one with the replicas left over."""
+        full, left = divmod(self.replicas, self.batching.replicas)
+        return -(-full // self.batching.batches) + (left > 0)
 
     def parcels(self) -> list[range]:
         """Return the numbers of the chunks of each parcel."""
         matches = (
-            self.parts.replicas
-            * self.parts.batches
+            self.batching.replicas
+            * self.batching.batches
             * self.season.weeks
             * len(self.season.players)
             // 2
@@ -68,12 +109,12 @@ class _Work(NamedTuple):
 
     def play(self, number: int) -> Tally:
         """Return the tally of one chunk."""
-        size, many = self.parts
+        size, many = self.batching
         full, left = divmod(self.replicas, size)
         batches = min(many, full - number * many)
         if batches <= 0:
             size, batches = left, 1
-        # The child that `spawn` gives as the one of this number, without its elder siblings.
+        # The child that `spawn` would give this number, without making the ones before it.
         child = np.random.SeedSequence(self.seed, spawn_key=(number,))
         return run_chunk(self.season, size, child, batches=batches)
 
@@ -82,40 +123,40 @@ def simulate(
     season: Season,
     *,
     replicas: int,
-    seed: int,
-    executor: Executor | None = None,
+    seed: int | np.random.Generator,
+    executor: Executor | distributed.Client | None = None,
     jobs: int = 1,
     progress: Callable[[int, int], None] | None = None,
 ) -> Tally:
-    """Return the tally of many replicas of a season, the same for any workers.
+    """Return the tally of many replicas of a season, the same for any number of workers.
 
     Parameters
     ----------
     season
         what is played.
     replicas
-        how many times, 1 or more. Standard errors want twenty or more.
+        how many, 1 or more; 20 or more for good standard errors.
     seed
-        a whole number from 0; the same one gives the same tally to the last bit.
+        a whole number from 0, which gives the same tally to the last bit, or a generator.
     executor
-        who works: a `DaskExecutor` for a cluster, or any executor of `concurrent.futures`; None
-        for as many processes as `jobs` says.
+        who works: any executor of `concurrent.futures`, or a `distributed.Client` for a dask
+        cluster; None: as many processes as `jobs` says.
     jobs
         number of processes where there is no executor; 1 works in this one.
     progress
-        called with the replicas done and `replicas` as the work begins, and after each parcel.
+        called with the replicas done and `replicas`, at the start and after each parcel.
 
     Raises
     ------
     InputError
         if a number is not whole or too small.
     WorkerError
-        if a worker process ends before its work is done, or the cluster is gone.
+        if a worker process ends before its work is done.
 
     Notes
     -----
-    A script that asks for two jobs or more does so under ``if __name__ == "__main__":``, since
-    each worker imports it. Memory does not grow with the replicas but for some kilobytes a batch.
+    A script that uses two jobs or more must do so under ``if __name__ == "__main__":``, since
+    each worker imports it. Memory grows with the replicas only by some kilobytes a batch.
 
     >>> from evenbreak.league import LeaguePlayers
     >>> season = Season(LeaguePlayers.of([92, 80, 71, 64]), "npl", weeks=12)
@@ -124,39 +165,35 @@ def simulate(
     (1000, array([12000, 12000, 12000, 12000]))
     """
     replicas = whole(replicas, "replicas", at_least=1)
-    seed, jobs = whole(seed, "seed"), whole(jobs, "jobs", at_least=1)
-    # Made once and sent: computed by each worker, its last bits might be those of another machine.
-    _ = season.lookup
-    work = _Work(season, replicas, parts_of(season, replicas), seed)
+    seed, jobs = seed_of(seed), whole(jobs, "jobs", at_least=1)
+
+    work = _Work(season, replicas, batching_of(season, replicas), seed)
     parcels = work.parcels()
     jobs = min(jobs, len(parcels))
-    tell = progress or _tell_nobody
-    tell(0, replicas)
+    if progress is not None:
+        progress(0, replicas)
     with closing(in_order(_play, work, parcels, executor=executor, jobs=jobs)) as tallies:
-        return _sum(_told(tallies, replicas, tell))
+        return _sum(tallies if progress is None else _reported(tallies, replicas, progress))
 
 
 def _play(work: _Work, numbers: range) -> Tally:
     return _sum(map(work.play, numbers))
 
 
-def _told(
-    tallies: Iterable[Tally], replicas: int, tell: Callable[[int, int], None]
+def _reported(
+    tallies: Iterable[Tally], replicas: int, progress: Callable[[int, int], None]
 ) -> Iterator[Tally]:
+    """Yield tallies, and report the replicas done after each."""
     done = 0
     for tally in tallies:
         yield tally
         done += int(tally.replicas.sum())
-        tell(done, replicas)
-
-
-def _tell_nobody(done: int, replicas: int) -> None:
-    pass
+        progress(done, replicas)
 
 
 def _sum(tallies: Iterator[Tally]) -> Tally:
-    """Add tallies up in their order, some at a time: how sums are bracketed changes nothing."""
+    """Add tallies up in their order, some at a time; how sums are bracketed changes nothing."""
     total = next(tallies)
     for first in tallies:
-        total += reduce(add, islice(tallies, _BATCH - 1), first)
+        total += reduce(add, islice(tallies, _TALLIES - 1), first)
     return total

@@ -1,4 +1,4 @@
-"""What is kept of simulated seasons: counts that add up, whatever part of them is counted where."""
+"""What is kept of simulated seasons: counts, which can be added up across workers."""
 
 from __future__ import annotations
 
@@ -8,13 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints, short_repr
 from evenbreak.errors import InputError
 
-Counts = NDArray[np.int64]
-Floats = NDArray[np.float64]
-
 GAP_COLUMNS = ("matches", "stronger_won", "hill_hill", "shutouts", "games")
-"""What is summed for each gap of the two skills."""
+"""What is summed for each gap between the two skills."""
 
 WEEK_COLUMNS = ("players", "error", "error_squared")
 """What is summed for each week."""
@@ -23,22 +21,23 @@ PRODUCTS = (
     *("wins_wins", "wins_matches", "matches_matches", "moved_moved"),
     *("wins_replicas", "moved_replicas"),
 )
-"""What is multiplied for each player in a batch, and summed over the batches."""
+"""The products of sums over a batch, for each player, that are summed over the batches."""
 
 FIFTHS = 5
 """Groups of players by true skill, the weakest first."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Tally:
-    """What replicas of a season came to; two tallies of one season add up to one with `+`.
+    """What replicas of a season came to; two tallies of one season are added with `+`.
 
-    All counts are whole numbers, so that sums of tallies do not depend on how they are
-    bracketed; what is kept batch by batch keeps the order in which tallies are added.
+    All counts are whole numbers, so sums of tallies do not depend on how they are bracketed;
+    what is kept batch by batch keeps the order in which tallies are added.
 
-    The replicas of one batch share the pairings that are drawn by lot, and batches draw their
-    own: batches are independent, and replicas of a batch are so given its pairings. So standard
-    errors come from how sums vary from batch to batch.
+    The replicas of a batch share the random pairings, and each batch draws its own. So batches
+    are independent, replicas of one batch are not, and standard errors come from how sums vary
+    from batch to batch.
 
     Parameters
     ----------
@@ -48,10 +47,10 @@ class Tally:
         of each player, summed over the replicas: matches played, matches won, and the square
         of those won in a season; shape (players,).
     rating, rating_squared
-        of each player, summed over the replicas: the rating after the season, in points less
-        his rating at the start, and the square of that.
+        of each player, summed over the replicas: the change of the rating in the season, in
+        points, and the square of that.
     games
-        games that each player won, summed over the replicas; None where matches are not played
+        games that each player won, summed over the replicas; None if matches are not played
         rack by rack.
     products
         of each player, summed over the batches: the products of `PRODUCTS`, each of two sums
@@ -59,26 +58,25 @@ class Tally:
         in a league so large that a batch is one replica.
     wins_counts
         in how many replicas each player won 0, 1, 2, ... matches: shape (players, most + 1).
-        None where it would be large.
+        None if it would be large.
     rating_counts
         in how many replicas each player's rating moved by -most, ..., most points: shape
-        (players, 2 * most + 1); what moved further stands at the ends. None where it would be
-        large.
+        (players, 2 * most + 1); larger moves are counted at the ends. None if it would be large.
     errors
-        how many players stood at each rating error (rating less true skill, rounded to whole
-        points) at the start and after each week, its drift included: shape (weeks + 1,
-        2 * widest + 1), from -widest to widest, where what is further off stands too.
+        how many players had each rating error (rating less true skill, rounded to whole points)
+        at the start and after each week, its drift included: shape (weeks + 1, 2 * widest + 1),
+        from -widest to widest; larger errors are counted at the ends.
     gap_width
         points of a bin of `gaps`.
     gaps
         shape (batches, bins, 5), the columns of `GAP_COLUMNS` for matches in which the skills of
         the day lie [k * gap_width, (k + 1) * gap_width) points apart, k the bin: matches, those
-        that the stronger won (of equals: half of them), hill-hill, shutouts (the loser won no
-        game), and games in all. Where matches are not played rack by rack the last three are
-        means given the two ratings and skills of each match, and not drawn.
+        that the stronger player won (half of them if the two are equal), hill-hill, shutouts (the
+        loser won no game), and games in all. If matches are not played rack by rack, the last
+        three are means given the two ratings and skills of each match, not drawn.
     weeks
         shape (batches, weeks + 1, 3), the columns of `WEEK_COLUMNS`: players in the league, and
-        their rating errors (as `errors` counts them) and squares of these, summed.
+        the sums of their rating errors (as in `errors`) and of the squares of these.
     fifths
         shape (batches, 5, 2): matches and wins by fifth of true skill at the start.
 
@@ -90,21 +88,21 @@ class Tally:
     (array([50, 50]), array([10000, 10000]), (2, 101, 3))
     """
 
-    replicas: Counts
-    matches: Counts
-    wins: Counts
-    wins_squared: Counts
-    rating: Counts
-    rating_squared: Counts
-    games: Counts | None
-    products: Counts | None
-    wins_counts: Counts | None
-    rating_counts: Counts | None
-    errors: Counts
+    replicas: Ints
+    matches: Ints
+    wins: Ints
+    wins_squared: Ints
+    rating: Ints
+    rating_squared: Ints
+    games: Ints | None
+    products: Ints | None
+    wins_counts: Ints | None
+    rating_counts: Ints | None
+    errors: Ints
     gap_width: int
     gaps: Floats
     weeks: Floats
-    fifths: Counts
+    fifths: Ints
 
     def __add__(self, other: Tally) -> Tally:
         if not isinstance(other, Tally):
@@ -114,7 +112,7 @@ class Tally:
         return Tally(**{field.name: _added(self, other, field.name) for field in fields(Tally)})
 
     @property
-    def error_values(self) -> NDArray[np.int64]:
+    def error_values(self) -> Ints:
         """The rating errors of the columns of `errors`, in points."""
         most = self.errors.shape[1] // 2
         return np.arange(-most, most + 1)
@@ -131,7 +129,7 @@ class Tally:
         -------
         mean, standard error
             arrays of the shape of one batch; NaN where nothing was counted, and for the error
-            where there are fewer than two batches.
+            if there are fewer than two batches.
 
         Notes
         -----
@@ -153,10 +151,10 @@ class Tally:
 
         Returns
         -------
-        matches won in a season, P(he wins | he plays a match), points that his rating moves
-            arrays of shape (players,); NaN where there are fewer than two batches, or the
-            player had no match. As in `mean_and_error`; in a league so large that `products`
-            is None that of the chance takes his number of matches for given.
+        matches won in a season, P(win | the player plays a match), change of the rating
+            arrays of shape (players,); NaN if there are fewer than two batches, or for a player
+            without a match. As in `mean_and_error`; in a league so large that `products` is None
+            the error of the chance treats the number of matches as given.
         """
         n = self.replicas.astype(float)
         batches, seasons = len(n), n.sum()
@@ -182,8 +180,8 @@ class Tally:
         return one, two, three
 
 
-def fifths_of(skill: NDArray[Any]) -> NDArray[np.int64]:
-    """Return each player's fifth by skill, 0 the weakest; equals by their position.
+def fifths_of(skill: NDArray[Any]) -> Ints:
+    """Return each player's fifth by skill, 0 the weakest; equals go by their position.
 
     Parameters
     ----------
@@ -195,7 +193,7 @@ def fifths_of(skill: NDArray[Any]) -> NDArray[np.int64]:
     """
     many = len(skill)
     order = np.argsort(skill, axis=0, kind="stable")
-    fifth: NDArray[np.int64] = np.empty(skill.shape, dtype=np.int64)
+    fifth: Ints = np.empty(skill.shape, dtype=np.int64)
     ranks = (np.arange(many) * FIFTHS // many)[:, None]
     np.put_along_axis(fifth, order, np.broadcast_to(ranks, skill.shape), axis=0)
     return fifth

@@ -11,8 +11,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
 
@@ -23,8 +23,8 @@ _BLOCK = 1 << 16
 class Endings(NamedTuple):
     """P(player 1, 2 wins after exactly k racks): arrays of shape (racks + 1, *parameters)."""
 
-    win_1: NDArray[np.float64]
-    win_2: NDArray[np.float64]
+    win_1: Floats
+    win_2: Floats
 
 
 def race_endings(
@@ -65,12 +65,12 @@ def race_endings(
 
 def _kinds(
     rack: Rack, breaks: BreakFormat | None, shape: tuple[int, ...]
-) -> tuple[list[tuple[int, int]], NDArray[np.float64]]:
-    """Return the possible outcomes of a rack as (winner, row of the next breaker), losses first.
+) -> tuple[list[tuple[int, int]], Floats]:
+    """Return the outcomes of a rack as (winner, row of the next breaker), losses first.
 
     The array holds the probability of each outcome, by row of the breaker and by parameter.
     """
-    chance: dict[tuple[int, int], NDArray[np.float64]] = {}
+    chance: dict[tuple[int, int], Floats] = {}
     rows = 2 if breaks is not None else 1
     for breaker in range(1, rows + 1):
         for winner in (2, 1):
@@ -78,7 +78,7 @@ def _kinds(
             by_row = chance.setdefault(kind, np.zeros((rows, int(np.prod(shape)))))
             by_row[breaker - 1] = np.broadcast_to(rack.chance(winner, breaker), shape).ravel()
     for row in range(rows):
-        # Every row must be written at every rack, so that nothing stays behind in it.
+        # Every row must be written at every rack, or it would keep the scores of an earlier one.
         if not any(after == row for _, after in chance):
             chance[2, row] = np.zeros((rows, int(np.prod(shape))))
     kinds = sorted(chance, reverse=True)
@@ -89,8 +89,8 @@ def _play(
     need_1: int,
     first: int,
     kinds: list[tuple[int, int]],
-    chances: NDArray[np.float64],
-    ends: NDArray[np.float64],
+    chances: Floats,
+    ends: Floats,
 ) -> None:
     """Fill `ends` for one block of parameters."""
     _, rows, size = chances.shape
@@ -122,7 +122,7 @@ def _play(
         ends[winner - 1] += leaving[winner - 1, :, i].reshape(ends.shape[1:])
 
 
-def _move(chances: NDArray[np.float64], mass: NDArray[np.float64]) -> NDArray[np.float64]:
+def _move(chances: Floats, mass: Floats) -> Floats:
     moved = np.zeros((len(chances), *mass.shape[1:]))
     for kind, row in zip(*np.nonzero(chances.any(axis=2)), strict=True):
         moved[kind] += chances[kind, row] * mass[row]

@@ -8,6 +8,7 @@ two matches are compared on a fine grid, and every change of sign is refined.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -23,6 +24,7 @@ from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack
 from evenbreak.matches.form_roots import form_roots, sign_at
 from evenbreak.matches.formats import MatchFormat, match_format
+from evenbreak.matches.parameters import rack_in
 from evenbreak.matches.win import win_probability
 from evenbreak.matches.win_forms import Form, degree_of, product, win_forms
 
@@ -121,7 +123,7 @@ def even_probability(
     >>> even_probability("5:1", p2=0.9, breaks="alternate")
     ()
     """
-    line = _Line.of(p2, break_odds, breaks, first_breaker)
+    line = _Line(p2, break_odds, breaks, first_breaker)
     match = _read(played)
     if not line.break_matters and degree_of(match) <= _HIGHEST_DEGREE:
         one, two = win_forms(match)
@@ -164,7 +166,7 @@ def crossings(
     >>> crossings("5:5, winner breaks", "5:5, loser breaks", p2=0.7).better
     (0,)
     """
-    line = _Line.of(p2, break_odds, breaks, first_breaker)
+    line = _Line(p2, break_odds, breaks, first_breaker)
     one, two = _read(format_1), _read(format_2)
     exact = not line.break_matters and degree_of(one) + degree_of(two) <= _HIGHEST_DEGREE
     if exact:
@@ -179,7 +181,7 @@ def crossings(
 
 
 def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = None) -> Rack:
-    """Return the rack of the players that `crossings` looks at for p1, a number or an array.
+    """Return the rack of the two players that `crossings` compares at p1, a number or an array.
 
     >>> rack_along(0.6, break_odds=2.25)
     Rack(p1=0.6, p2=0.6)
@@ -191,7 +193,7 @@ def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = N
     if break_odds is None:
         return Rack(p1)
     if not 0.0 < break_odds < np.inf:
-        raise InputError(f"break_odds is {break_odds!r}; give a number above 0")
+        raise InputError(f"break_odds is {break_odds!r}; give a finite number above 0")
     lost = break_odds * (1.0 - np.asarray(p1))
     return Rack(p1, lost / (lost + p1))
 
@@ -207,30 +209,20 @@ def _difference(one: MatchFormat, two: MatchFormat) -> Form:
     return [x - y for x, y in pairs]
 
 
-class _Line(NamedTuple):
-    """The pairs of players that matches are compared for: one pair for each p1."""
+@dataclass(frozen=True)
+class _Line:
+    """The pairs of players for which matches are compared: one pair for each p1."""
 
     p2: float | None
     break_odds: float | None
-    breaks: BreakFormat | None
+    breaks: BreakFormat | str | None
     first_breaker: int
 
-    @classmethod
-    def of(
-        cls,
-        p2: float | None,
-        break_odds: float | None,
-        breaks: BreakFormat | str | None,
-        first_breaker: int,
-    ) -> _Line:
-        one_of(first_breaker, "first_breaker", (1, 2))
-        if isinstance(breaks, str):
-            if breaks not in BREAK_FORMATS:
-                known = ", ".join(BREAK_FORMATS)
-                raise InputError(f"breaks is {breaks!r}; give one of {known}")
-            breaks = BREAK_FORMATS[breaks]
-        rack_along(0.5, p2=p2, break_odds=break_odds)
-        return cls(p2, break_odds, breaks, first_breaker)
+    def __post_init__(self) -> None:
+        one_of(self.first_breaker, "first_breaker", (1, 2))
+        if isinstance(self.breaks, str):
+            one_of(self.breaks, "breaks", tuple(BREAK_FORMATS))
+        rack_along(0.5, p2=self.p2, break_odds=self.break_odds)
 
     @property
     def break_matters(self) -> bool:
@@ -238,7 +230,8 @@ class _Line(NamedTuple):
 
     def match(self, played: MatchFormat, p1: Any) -> Match:
         rack = rack_along(p1, p2=self.p2, break_odds=self.break_odds)
-        return played.match(rack, breaks=self.breaks, first_breaker=self.first_breaker)
+        breaks = BREAK_FORMATS[self.breaks] if isinstance(self.breaks, str) else self.breaks
+        return played.match(rack, breaks=breaks, first_breaker=self.first_breaker)
 
     def log_odds(self, played: MatchFormat, p1: Any) -> Any:
         """Return the log-odds of the match, accurate in both tails; NaN where a chance is 0."""
@@ -254,12 +247,12 @@ class _Line(NamedTuple):
 
     def point(self, played: MatchFormat, p1: float) -> Crossing:
         match = self.match(played, p1)
-        return Crossing(p1, match.innermost_rack.p2, win_probability(match))
+        return Crossing(p1, rack_in(match).p2, win_probability(match))
 
 
 @lru_cache(maxsize=64)
 def _log_odds_on_grid(line: _Line, played: MatchFormat) -> Any:
-    """Return the curve of a match, worked out once for all comparisons."""
+    """Return the log-odds of a match on the grid, calculated once for all comparisons."""
     return line.log_odds(played, _P1.copy())
 
 

@@ -1,4 +1,4 @@
-"""After how many racks a match ends, and who wins it then.
+"""After how many racks a match ends, and who wins it.
 
 Races of racks are solved on antidiagonals. Every other match is played rack by rack over all
 its states at once: a rack leads from each state to one of two, depending on who wins it.
@@ -7,17 +7,16 @@ its states at once: a rack leads from each state to one of two, depending on who
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from evenbreak.arrays import Floats
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
-from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import Endings, race_endings
+from evenbreak.matches.parameters import rack_in
 from evenbreak.matches.rack_graph import rack_moves
 
 _LONGEST = 100_000
@@ -30,7 +29,7 @@ def is_bounded(match: Match) -> bool:
         return True
     if not isinstance(match, Race) or match.win_by > 1:
         return False
-    return isinstance(match.rack, Rack) or is_bounded(match.rack)
+    return not isinstance(match.rack, Match) or is_bounded(match.rack)
 
 
 def endings_of(match: Match, never: Any, tail: float) -> Endings:
@@ -43,49 +42,42 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
     never
         P(the match never ends), of that shape.
     tail
-        a match without a longest length is followed until the probability that it is still
-        going on (and ends some time) is at most this; for 100,000 racks at most, or fewer if
-        there are so many parameters that they would not fit in memory.
+        for a match without a longest length: follow it until P(it is still going on, but will
+        end) is at most this, for 100,000 racks at most, and fewer where so many parameters
+        would not fit in memory.
     """
     winner = match.decided(*match.score)
-    rack = match.innermost_rack
+    rack = rack_in(match)
     shape = rack.shape
     if winner is not None:
         return Endings(*(np.full((1, *shape), float(winner == player)) for player in (1, 2)))
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
         need_1, need_2 = match.m - match.score[0], match.n - match.score[1]
         return race_endings(need_1, need_2, rack, match.breaks, match.first_breaker)
-    size = math.prod(shape)
-    play = _play_of(match, size)
+    enough, most = np.broadcast_to(never, shape).ravel() + tail, math.inf
     if is_bounded(match):
-        wins = _followed(play, np.zeros(size), math.inf)
+        enough = np.zeros(enough.size)
     else:
-        most = min(_LONGEST, max(1_000, _MOST_CELLS // max(size, 1)))
-        wins = _followed(play, np.broadcast_to(never, shape).ravel() + tail, most)
+        most = min(_LONGEST, max(1_000, _MOST_CELLS // max(enough.size, 1)))
+    wins = _followed(match, enough, most)
     return Endings(*(wins[:, i].reshape(len(wins), *shape) for i in (0, 1)))
 
 
-@dataclass(frozen=True)
-class _Play:
-    """The states of a match as arrays: where a won and a lost rack lead, and how likely each is."""
+def _followed(match: Match, enough: Floats, most: float) -> Floats:
+    """Return P(player 1, 2 wins after exactly k racks); shape (racks + 1, 2, parameters).
 
-    won: csr_array
-    lost: csr_array
-    p_won: NDArray[np.float64]
-    p_lost: NDArray[np.float64]
-    alive: int
-
-
-def _play_of(match: Match, size: int) -> _Play:
+    The match is followed until P(it is still going on) is at most `enough`, one value for each
+    pair of parameters, but for `most` racks at the most.
+    """
     moves = rack_moves(match)
     row = {state: i for i, state in enumerate(moves)}
-    alive, columns = len(moves), np.arange(len(moves))
+    alive, size, columns = len(moves), enough.size, np.arange(len(moves))
 
     def place(state: Any) -> int:
         """Return a state's row; the wins of player 1, player 2 are collected in the last two."""
         return row[state] if state in row else alive + (match.winner(state) == 2)
 
-    def after(player: int) -> tuple[csr_array, NDArray[np.float64]]:
+    def after(player: int) -> tuple[csr_array, Floats]:
         targets, chances = zip(*(pair[player - 1] for pair in moves.values()), strict=True)
         rows = [place(state) for state in targets]
         matrix = csr_array((np.ones(alive), (rows, columns)), shape=(alive + 2, alive))
@@ -93,18 +85,11 @@ def _play_of(match: Match, size: int) -> _Play:
         return matrix, np.array([flat[id(p)] for p in chances])
 
     (won, p_won), (lost, p_lost) = after(1), after(2)
-    return _Play(won, lost, p_won, p_lost, alive)
-
-
-def _followed(play: _Play, enough: NDArray[np.float64], most: float) -> NDArray[np.float64]:
-    states, size = play.p_won.shape
-    mass = np.zeros((states, size))
+    mass = np.zeros((alive, size))
     mass[0] = 1.0
     wins = [np.zeros((2, size))]
     while len(wins) <= most and (mass.sum(axis=0) > enough).any():
-        moved: NDArray[np.float64] = play.won @ (play.p_won * mass) + play.lost @ (
-            play.p_lost * mass
-        )
-        mass = moved[: play.alive]
-        wins.append(moved[play.alive :].copy())
+        moved: Floats = won @ (p_won * mass) + lost @ (p_lost * mass)
+        mass = moved[:alive]
+        wins.append(moved[alive:].copy())
     return np.array(wins)

@@ -1,12 +1,12 @@
-"""When an evening of matches ends: several tables, a list of matches, random lengths.
+"""When an evening of matches ends: several tables, a list of matches, random times.
 
-Whenever a table is free, the first match on the list whose players are both free begins there.
-The lengths of matches are independent of each other.
+Whenever a table is free, the first match on the list whose players are both free begins there;
+between two matches the table is idle for the turnover. The luck of the matches and the
+turnovers are independent, and the pace of the evening stretches everything alike.
 
-With one table the end is the sum of all lengths, a convolution. With several tables and no
-player on the list twice, the state after each match is the list of times at which the tables
-become free, in order; the distribution of the end is exact as long as there are few such
-states. Otherwise the evening is simulated many times.
+With one table, or one for each match, the end on an evening of the usual pace has a distribution
+that can be calculated (`table_time`); otherwise the evening is simulated many times. The pace of
+the evening is then averaged over by calculation.
 """
 
 from __future__ import annotations
@@ -17,20 +17,22 @@ from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from evenbreak.checks import whole
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import kind_of, kind_or_usual, whole
 from evenbreak.errors import InputError
-from evenbreak.matches.quantiles import quantile_of
+from evenbreak.matches.minutes import between, ended_by
+from evenbreak.matches.pace import Pace, Turnover, pace_of
+from evenbreak.matches.quantiles import TIE
+from evenbreak.matches.table_time import End, all_at_once, one_after_another
 
-Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
-
-_MOST_MOVES = 1_000_000  # states times lengths of one exact step
 _WORK = 200_000_000  # matches times matches times simulated runs
 _FEWEST_RUNS, _MOST_RUNS = 1_000, 50_000
 _MOST_MATCHES = 1_000
 _LONGEST = 100_000  # games of a match
+_Y = np.linspace(-6.0, 6.0, 241)  # the evening's luck, a standard normal
+_Y_CHANCE = np.exp(-(_Y**2) / 2.0) / np.exp(-(_Y**2) / 2.0).sum()
 
 
 class LengthLike(Protocol):
@@ -56,39 +58,41 @@ class Length(NamedTuple):
 
 @dataclass(frozen=True)
 class Evening:
-    """When the last match ends; the unit of time is one game.
+    """When the last match ends, in minutes.
 
     Parameters
     ----------
     mean, sd
         mean and standard deviation of the end.
     p90
-        the smallest time by which all matches are over with probability .9.
+        the time by which all matches are over with probability .9.
     runs
-        how many evenings were simulated; 0 if the answer is exact.
-    mean_error
-        the standard error of `mean` from the simulation; 0 if exact. `p90` has none: it is a
-        whole number, which usually comes out the same each time.
+        how many evenings were simulated; 0 if the end was calculated.
+    mean_error, p90_error
+        the standard errors of `mean` and `p90` from the simulation; 0 if calculated.
     """
 
     mean: float
     sd: float
-    p90: int
+    p90: float
     runs: int
     mean_error: float
+    p90_error: float
 
     @property
     def exact(self) -> bool:
-        """Whether the answer is exact, found without simulation."""
+        """Whether the answer was calculated, without simulation."""
         return self.runs == 0
 
 
 def evening(
     lengths: Sequence[LengthLike],
+    pace: Pace | str,
     *,
+    turnover: Turnover | None = None,
     tables: int = 1,
     players: Sequence[tuple[Hashable, Hashable]] | None = None,
-    rng: np.random.Generator | None = None,
+    rng: np.random.Generator | int | None = None,
     runs: int | None = None,
 ) -> Evening:
     """Return when an evening of matches ends.
@@ -98,42 +102,52 @@ def evening(
     lengths
         the length of each match in games, in the order of the list: a `Length`, a
         `MatchLength` or a `RaceOdds`.
+    pace
+        how fast matches are played: a `Pace`, or the name of a discipline in `PACES`.
+    turnover
+        the time between two matches on a table; None: the usual one.
     tables
         how many tables there are.
     players
         the two players of each match, so that nobody plays two matches at once; None: no
         player is on the list twice.
     rng
-        the source of random numbers, if any are needed; None: a generator with seed 0.
+        the source of random numbers, if any are needed: a generator or a seed; None: seed 0.
     runs
-        how often to simulate the evening; None: find the exact answer if that is quick, else
-        simulate 50,000 evenings, fewer for more than about sixty matches.
+        how often to simulate the evening; None: calculate the end if there is one table, or
+        one for each match and no player twice, else simulate 50,000 evenings, fewer for more
+        than about sixty matches.
 
     Raises
     ------
     InputError
         if there is no match, a length is not a distribution, `tables` is not a whole number
-        above 0, `players` does not have one pair of different players for each match, or
-        more than a thousand matches would have to be simulated.
+        above 0, `players` does not have one pair of different players for each match, there is
+        no such discipline, or there are more than a thousand matches.
+
+    Notes
+    -----
+    What is calculated is on a grid of 1/500 of the standard deviation of the end, which moves
+    `p90` by less than .02 minutes for up to a hundred matches.
 
     >>> coin = Length([1, 2], [0.5, 0.5])
-    >>> evening([coin] * 4).p90, evening([coin] * 4).mean, evening([coin] * 4, tables=2).mean
-    (7, 6.0, 3.375)
+    >>> one = evening([coin] * 4, "9-ball")
+    >>> round(one.mean, 1), round(one.p90, 1)
+    (81.1, 108.9)
     """
+    pace = pace_of(pace) if isinstance(pace, str) else kind_of(pace, "pace", Pace)
+    between_matches = kind_or_usual(turnover, "turnover", Turnover)
     found = [_chances(length, f"length {k}") for k, length in enumerate(lengths, 1)]
-    if not found:
-        raise InputError("lengths is empty; give one for each match")
+    if not 0 < len(found) <= _MOST_MATCHES:
+        raise InputError(f"lengths has {len(found):,} matches; give 1 to {_MOST_MATCHES:,}")
     tables = min(whole(tables, "tables", at_least=1), len(found))
     pairs = _numbered(players, len(found))
-    if runs is None:
-        end = None
-        if tables == 1:
-            end = _one_table(found)
-        elif len(np.unique(pairs)) == pairs.size:
-            end = _all_at_once(found) if tables == len(found) else _several_tables(found, tables)
-        if end is not None:
-            return _exact(end)
-    return _simulated(found, tables, pairs, rng or np.random.default_rng(0), runs)
+    if runs is None and tables == 1:
+        return _calculated(one_after_another(found, pace, between_matches), pace)
+    if runs is None and tables == len(found) and len(np.unique(pairs)) == pairs.size:
+        return _calculated(all_at_once(found, pace), pace)
+    rng = np.random.default_rng(0 if rng is None else rng)
+    return _simulated(found, pace, between_matches, tables, pairs, rng, runs)
 
 
 def _chances(length: LengthLike, name: str) -> Floats:
@@ -168,88 +182,79 @@ def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int)
     )
 
 
-def _one_table(lengths: list[Floats]) -> Floats:
-    end = np.ones(1)
-    for length in lengths:
-        end = np.convolve(end, length)
-    return end
+def _calculated(end: End, pace: Pace) -> Evening:
+    """Return an evening from the distribution of its end at the usual pace."""
+    factor = np.exp(pace.evening_sd * _Y - pace.evening_sd**2 / 2.0)
+
+    def reached(minutes: Floats) -> bool:
+        by_then = np.interp(minutes / factor, end.minutes, end.ended, left=0.0)
+        return bool(_Y_CHANCE @ by_then >= 0.9 * (1.0 - TIE))
+
+    most = end.minutes[-1] * factor[-1]
+    p90 = float(between(0.0, most, reached))
+    return Evening(end.mean, _with_pace(end.mean, end.sd, pace), p90, 0, 0.0, 0.0)
 
 
-def _all_at_once(lengths: list[Floats]) -> Floats:
-    """Return the distribution of the longest of all."""
-    longest = max(map(len, lengths))
-    padded = np.array([np.pad(length, (0, longest - len(length))) for length in lengths])
-    return np.diff(padded.cumsum(axis=1).prod(axis=0), prepend=0.0)
-
-
-def _several_tables(lengths: list[Floats], tables: int) -> Floats | None:
-    """Return the distribution of the end if no player plays twice; None if it has too many states.
-
-    A state is the list of times at which the tables become free, in order; the next match begins
-    at the first of them.
-    """
-    base = sum(map(len, lengths))
-    if tables * math.log2(base) > 62:
-        return None
-    place = base ** np.arange(tables - 1, -1, -1)
-    states = np.zeros((1, tables), dtype=np.int64)
-    chances: Floats = np.ones(1)
-    for length in lengths:
-        games = np.flatnonzero(length)
-        if len(states) * len(games) > _MOST_MOVES:
-            return None
-        after = np.repeat(states, len(games), axis=0)
-        after[:, 0] += np.tile(games, len(states))
-        after.sort(axis=1)
-        key, first, back = np.unique(after @ place, return_index=True, return_inverse=True)
-        arriving: Floats = np.outer(chances, length[games]).ravel()
-        chances = np.bincount(back, arriving, len(key)).astype(float)
-        states = after[first]
-    end: Floats = np.bincount(states[:, -1], chances).astype(float)
-    return end
-
-
-def _exact(end: Floats) -> Evening:
-    times = np.arange(len(end))
-    mean = float(times @ end)
-    sd = math.sqrt(float((times - mean) ** 2 @ end))
-    return Evening(mean, sd, quantile_of(end.tolist(), 0.9), 0, 0.0)
+def _with_pace(mean: float, sd: float, pace: Pace) -> float:
+    """Return the standard deviation of the end if the pace of the evening is not known."""
+    square = (mean**2 + sd**2) * math.exp(pace.evening_sd**2)
+    return math.sqrt(max(square - mean**2, 0.0))
 
 
 def _simulated(
-    lengths: list[Floats], tables: int, pairs: Ints, rng: np.random.Generator, runs: int | None
+    lengths: list[Floats],
+    pace: Pace,
+    turnover: Turnover,
+    tables: int,
+    pairs: Ints,
+    rng: np.random.Generator,
+    runs: int | None,
 ) -> Evening:
     matches = len(lengths)
-    if matches > _MOST_MATCHES:
-        raise InputError(f"lengths has {matches:,} matches; give {_MOST_MATCHES:,} at most")
     if runs is None:
         runs = min(_MOST_RUNS, max(_FEWEST_RUNS, _WORK // matches**2))
     runs = whole(runs, "runs", at_least=2)
-    played = np.empty((runs, matches), dtype=np.int64)
+    minutes = np.empty((runs, matches))
     for k, length in enumerate(lengths):
-        played[:, k] = np.searchsorted(np.cumsum(length)[:-1], rng.random(runs), side="right")
-    end = np.sort(_ends(played, tables, pairs))
-    sd = float(end.std(ddof=1))
-    p90 = int(end[math.ceil(0.9 * runs) - 1])
-    return Evening(float(end.mean()), sd, p90, runs, sd / math.sqrt(runs))
+        games = np.searchsorted(np.cumsum(length)[:-1], rng.random(runs), side="right")
+        minutes[:, k] = pace.draw(games, rng)
+    end = _ends(minutes, turnover.draw((runs, matches), rng), tables, pairs)
+    mean, sd = float(end.mean()), float(end.std(ddof=1))
+
+    def ended(q: float) -> float:
+        def reached(by: Floats) -> bool:
+            return bool(ended_by(by, end, pace.evening_sd).mean() >= q * (1.0 - TIE))
+
+        most = end.max() * math.exp(6.0 * pace.evening_sd)
+        return float(between(0.0, most, reached))
+
+    error = 0.3 / math.sqrt(runs)  # of the share of evenings that end by a time, around .9
+    return Evening(
+        mean=mean,
+        sd=_with_pace(mean, sd, pace),
+        p90=ended(0.9),
+        runs=runs,
+        mean_error=sd / math.sqrt(runs),
+        p90_error=(ended(0.9 + error) - ended(0.9 - error)) / 2.0,
+    )
 
 
-def _ends(lengths: Ints, tables: int, pairs: Ints) -> Ints:
-    """Return when each evening ends, given the length of each match in it."""
-    runs, matches = lengths.shape
+def _ends(minutes: Floats, turnover: Floats, tables: int, pairs: Ints) -> Floats:
+    """Return when each evening ends, given the time of each match and after it on the table."""
+    runs, matches = minutes.shape
     row = np.arange(runs)
-    table_free = np.zeros((runs, tables), dtype=np.int64)
-    ready = np.zeros((runs, matches), dtype=np.int64)  # when both players of a match are free
-    never = np.iinfo(np.int64).max // 2
+    table_free = np.zeros((runs, tables))
+    ready = np.zeros((runs, matches))  # when both players of a match are free
+    ends = np.zeros(runs)
     shared = (pairs[:, None, :, None] == pairs[None, :, None, :]).any(axis=(2, 3))
     for _ in range(matches):
         table = table_free.argmin(axis=1)
         free = table_free[row, table]
         # Of the matches that can begin soonest, the first on the list.
         match = np.maximum(ready, free[:, None]).argmin(axis=1)
-        done = np.maximum(ready[row, match], free) + lengths[row, match]
-        table_free[row, table] = done
-        np.maximum(ready, np.where(shared[match], done[:, None], 0), out=ready)
-        ready[row, match] = never
-    ends: Ints = table_free.max(axis=1)
+        done = np.maximum(ready[row, match], free) + minutes[row, match]
+        table_free[row, table] = done + turnover[row, match]
+        np.maximum(ends, done, out=ends)
+        np.maximum(ready, np.where(shared[match], done[:, None], 0.0), out=ready)
+        ready[row, match] = np.inf
     return ends

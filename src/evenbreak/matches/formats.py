@@ -5,13 +5,16 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from evenbreak.checks import whole
+from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
+
+BETWEEN = r"[:/\-–—−]"
+"""What may stand between the two numbers of a race or a score, as a regular expression."""
 
 _LONGEST = 1000
 _WAYS = (
@@ -70,9 +73,8 @@ class MatchFormat:
             object.__setattr__(self, name, whole(getattr(self, name), name, at_least=1))
         if self.ahead and self.win_by > 1:
             raise InputError(f"win_by is {self.win_by} in an n-ahead match; leave it out")
-        if self.breaks is not None and self.breaks not in BREAK_FORMATS:
-            known = ", ".join(BREAK_FORMATS)
-            raise InputError(f"breaks is {self.breaks!r}; give one of {known}")
+        if self.breaks is not None:
+            one_of(self.breaks, "breaks", tuple(BREAK_FORMATS))
 
     def match(
         self, rack: Rack, *, breaks: BreakFormat | None = None, first_breaker: int = 1
@@ -138,8 +140,8 @@ def match_format(text: str) -> MatchFormat:
     text
         `9:5` (player 1, called A, needs 9 games, player 2, called B, needs 5), `7:7 win by 2`,
         `ahead 5:3`, or one of them `of` another, which is then the set: `3:1 of 3:3`.
-        `best of 9` means `5:5`. The break format may follow: `winner breaks`, or loser,
-        alternate, A or B. Each number is from 1 to 1000.
+        `best of 9` means `5:5`; `9-5` and `9/5` mean `9:5`. The break format may follow:
+        `winner breaks`, or loser, alternate, A or B. Each number is from 1 to 1000.
 
     Raises
     ------
@@ -154,6 +156,8 @@ def match_format(text: str) -> MatchFormat:
     27
     >>> str(match_format("ahead 5:3, A breaks"))
     'ahead 5:3 A breaks'
+    >>> str(match_format("9-5")), str(match_format("3/1 of 3/3"))
+    ('9:5', '3:1 of 3:3')
     >>> str(match_format("best of 5 of 3:3"))
     '3:3 of 3:3'
     >>> match_format("nine games")
@@ -161,7 +165,8 @@ def match_format(text: str) -> MatchFormat:
     ...
     evenbreak.errors.InputError: 'nine games' is not a match format; write 9:5, '7:7 win by 2', ...
     """
-    words = re.sub(r" ?: ?", ":", " ".join(str(text).lower().split()))
+    words = " ".join(str(text).lower().split())
+    words = re.sub(rf"(?<=\d) ?{BETWEEN} ?(?=\d)", ":", words)
     for most in map(int, _BEST_OF.findall(words)):
         if most % 2 == 0:
             raise InputError(
@@ -190,7 +195,7 @@ def match_format(text: str) -> MatchFormat:
 
 
 def _half(most: int) -> str:
-    """Return the race that takes at most so many games, or one more.
+    """Return the race that is the best of so many games; of one more if the number is even.
 
     >>> _half(9), _half(10)
     ('5:5', '6:6')

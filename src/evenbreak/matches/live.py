@@ -15,13 +15,10 @@ from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import checked_match
+from evenbreak.matches.parameters import checked_match, rack_in, unit_of
 from evenbreak.matches.rack_by_rack import racks_within
 from evenbreak.matches.rack_graph import breaker_in, rack_moves
 from evenbreak.matches.score_chain import NEVER, ScoreChain
-
-_LONGEST = 100_000
-"""Racks after which a length that is not reached is given up."""
 
 
 class Standing(NamedTuple):
@@ -139,7 +136,8 @@ def live_odds(
     >>> [(standing.scores[0], standing.p_win_1) for standing in live.comebacks()]
     [((1, 1), 0.25), ((2, 1), 0.5)]
     """
-    checked_match(match).innermost_rack.of_numbers()
+    match = checked_match(match)
+    rack_in(match).of_numbers()
     values = _Values(match, _state_at(match, set_score))
     state, scores = values.start, _scores_of(match, values.start)
     scores = (match.score, *scores[1:])
@@ -209,7 +207,7 @@ class _Values:
 def _state_at(match: Match, set_score: Score | None) -> Any:
     if set_score is None:
         return match.start
-    inside = match.rack
+    inside = unit_of(match)
     if isinstance(inside, Rack) or not isinstance(inside.rack, Rack):
         raise InputError(
             "set_score is given, but the match is not one of sets of racks; leave it out"
@@ -217,7 +215,7 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     under_way = replace(inside, score=set_score, first_breaker=match.first_breaker)
     if under_way.decided(*under_way.score) is not None:
         a, b = under_way.score
-        raise InputError(f"set_score is {a}:{b}, where the set is over; count the set in the score")
+        raise InputError(f"set_score is {a}:{b}, where the set is over; count it in the score")
     if match.decided(*match.score) is not None:
         raise InputError("set_score is given, but the match is over; leave it out")
     return (*match.start[:-1], under_way.start)
@@ -226,15 +224,16 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
 def _scores_of(match: Match, state: Any) -> tuple[Score, ...]:
     """Return the scores in a state, that of the match first."""
     own = (state[0], state[1])
-    if isinstance(match.rack, Rack) or match.winner(state) is not None:
+    rack = unit_of(match)
+    if isinstance(rack, Rack) or match.winner(state) is not None:
         return (own,)
-    return (own, *_scores_of(match.rack, state[-1]))
+    return (own, *_scores_of(rack, state[-1]))
 
 
 def _counted(match: Match, scores: tuple[Score, ...], winner: int) -> tuple[Score, ...]:
     """Return the scores after a rack, including the racks that a state leaves out."""
     (a, b), *inside = scores
-    rack = match.rack
+    rack = unit_of(match)
     if not isinstance(rack, Rack):
         inner = _counted(rack, tuple(inside), winner)
         if rack.decided(*inner[0]) is None:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
-from evenbreak.matches.parameters import checked_match
+from evenbreak.matches.parameters import checked_match, rack_in
 from evenbreak.matches.races import race_odds
 
 
@@ -54,7 +53,8 @@ def match_odds(match: Match) -> MatchOdds:
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks or of sets, with plain numbers as probabilities.
+        a race or an n-ahead match, of racks, of sets or of a game of your own, with plain
+        numbers as probabilities. For other games see `game_odds`.
 
     Raises
     ------
@@ -70,13 +70,10 @@ def match_odds(match: Match) -> MatchOdds:
     >>> odds.p_win_1, odds.mean_games, odds.games_p50, odds.p_hill_hill, odds.p_shutout_1
     (0.5, 2.5, 2, 0.5, 0.25)
     """
-    rack = checked_match(match).innermost_rack
-    if not isinstance(rack.p1, float) or not isinstance(rack.p2, float | None):
-        raise InputError("match holds arrays; use win_probability and match_length for those")
+    match = checked_match(match)
+    rack = rack_in(match).of_numbers()
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
-        race = race_odds(
-            match.m, match.n, rack.p1, rack.p2, match.breaks, match.first_breaker, match.score
-        )
+        race = race_odds(match.m, match.n, rack, match.breaks, match.first_breaker, match.score)
         return MatchOdds(
             p_win_1=race.p_win_1,
             p_win_2=race.p_win_2,

@@ -15,11 +15,11 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 from functools import reduce
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import first_breaker
+from evenbreak.matches.parameters import first_breaker, unit_of
 from evenbreak.matches.score_chain import NEVER, ScoreChain, ratio
 
 
@@ -85,7 +85,7 @@ def unit_outcomes(match: Match, *, lengths: bool = True) -> dict[int, Outcomes]:
 
 
 def _unit(match: Match, breaker: int, *, lengths: bool) -> Outcomes:
-    rack = match.rack
+    rack = unit_of(match)
     if isinstance(rack, Rack):
         inside: dict[tuple[int, int], Outcome] = {
             (winner, breaker): Outcome(rack.chance(winner, breaker), 1.0, 0.0) for winner in (1, 2)
@@ -102,7 +102,7 @@ def _unit(match: Match, breaker: int, *, lengths: bool) -> Outcomes:
 
 
 def _mixture(parts: list[Outcome]) -> Outcome:
-    """Return the outcome 'one of these', by the law of total variance."""
+    """Return the outcome that any of these happens, by the law of total variance."""
     if len(parts) == 1:
         return parts[0]
     chance = sum((part.chance for part in parts), 0.0)
@@ -117,7 +117,7 @@ def _square(sd: Any, surprise: Any, unit: Any) -> Any:
 
 
 def _unit_of_length(lengths: Iterable[Any]) -> Any:
-    """Return the longest of some lengths, but at least 1; elementwise for arrays."""
+    """Return the greatest of some lengths, at least 1; elementwise for arrays."""
     return reduce(_greater, lengths, 1.0)
 
 
@@ -135,7 +135,7 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
         return Outcomes({(winner, breaker): Outcome(1.0, 0.0, 0.0)}, 0.0)
     start = (*match.fold(*score), breaker)
     units = unit_outcomes(match, lengths=lengths)
-    arcs = _score_chain(match, start, units)
+    arcs = score_arcs(match, start, {breaker: unit.by_result for breaker, unit in units.items()})
     chain = ScoreChain(
         {
             state: {target: outcome.chance for target, outcome in row.items()}
@@ -155,21 +155,25 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
 _State = tuple[int, int, int]
 _Result = tuple[int, int]
 _Arcs = dict[_State, dict[_State | _Result, Outcome]]
+_Of = TypeVar("_Of")
 
 
-def _score_chain(match: Match, start: _State, units: dict[int, Outcomes]) -> _Arcs:
+def score_arcs(
+    match: Match, start: _State, units: dict[int, dict[_Result, _Of]]
+) -> dict[_State, dict[_State | _Result, _Of]]:
     """Return the arcs from each (a, b, breaker) to the next one, or to (winner, next breaker).
 
-    All scores with the same result are one final state, which keeps eliminated rows short.
+    An arc carries what `units` has for its unit and result. All scores with the same result are
+    one final state, which keeps eliminated rows short.
     """
-    arcs: _Arcs = {}
+    arcs: dict[_State, dict[_State | _Result, _Of]] = {}
     queue = [start]
     for state in queue:
         if state in arcs:
             continue
         a, b, breaker = state
-        row: dict[_State | _Result, Outcome] = {}
-        for (won, after), outcome in units[breaker].by_result.items():
+        row: dict[_State | _Result, _Of] = {}
+        for (won, after), outcome in units[breaker].items():
             score = match.fold(a + (won == 1), b + (won == 2))
             winner = match.decided(*score)
             if winner is None:

@@ -1,4 +1,4 @@
-"""Quantiles of a distribution on whole numbers, with exact ties recognised.
+"""Quantiles of a distribution on whole numbers, exact where probabilities tie with the level.
 
 P(length <= k) is often exactly the level asked for (an even race 2:2 lasts two racks with
 probability 1/2), and sums of floats miss it by the last digit. So the level counts as reached

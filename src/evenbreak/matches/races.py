@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from evenbreak.checks import number_probability, one_of, whole
+from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, checked_format
 from evenbreak.games.rack import Rack
@@ -46,7 +46,7 @@ class RaceOdds(NamedTuple):
 
     @property
     def p_win_2(self) -> float:
-        """P(player 2 wins the race); summed by itself, so it is accurate even if it is tiny."""
+        """P(player 2 wins the race); a sum of its own, so it is accurate even if it is tiny."""
         return _total(self.win_2)
 
     @property
@@ -78,8 +78,7 @@ class RaceOdds(NamedTuple):
 def race_odds(
     m: int,
     n: int,
-    p1: float,
-    p2: float | None = None,
+    rack: Rack[float] | float,
     breaks: BreakFormat | None = None,
     first_breaker: int = 1,
     score: tuple[int, int] = (0, 0),
@@ -90,11 +89,10 @@ def race_odds(
     ----------
     m, n
         the games that player 1 and player 2 need.
-    p1, p2
-        P(player 1, 2 wins a rack | that player breaks it); if p2 is None, the break does not
-        matter and p1 is P(player 1 wins a rack).
+    rack
+        one rack, or P(player 1 wins a rack) where the break does not matter.
     breaks
-        who breaks next; needed with p2.
+        who breaks next; needed with Rack(p1, p2).
     first_breaker
         who breaks the first rack, 1 or 2.
     score
@@ -113,7 +111,7 @@ def race_odds(
     >>> round(race.p_win_1, 12), race.games
     (0.592592592593, [2, 3, 4])
     """
-    rack = Rack(number_probability(p1, "p1"), None if p2 is None else number_probability(p2, "p2"))
+    rack = (rack if isinstance(rack, Rack) else Rack(rack)).of_numbers()
     first_breaker = one_of(first_breaker, "first_breaker", (1, 2))
     need_1 = whole(m, "m") - whole(score[0], "score of player 1")
     need_2 = whole(n, "n") - whole(score[1], "score of player 2")
@@ -155,9 +153,10 @@ def _total(chances: Sequence[float]) -> float:
 
 
 def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, float, int, int]]:
-    """Return for each breaker P(1 wins), P(2 wins) and the place here of the next breaker for each.
+    """Return (P(1 wins), P(2 wins), next breaker if 1 wins, if 2 wins) for each breaker.
 
-    If the break does not matter, one entry stands for both breakers.
+    The next breaker is a position in this list. If the break does not matter, one entry stands
+    for both breakers.
     """
     if breaks is None or not rack.break_matters:
         return [(rack.chance(1), rack.chance(2), 0, 0)]

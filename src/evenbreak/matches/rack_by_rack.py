@@ -5,7 +5,7 @@ still going on after k racks) over the states that the next rack leads to. Short
 worked out in plain Python, longer ones with a sparse matrix. For very long ones the matrix of a
 rack is squared again and again, so 2^j racks cost j products. After every product each row is
 scaled so that it sums to 1 together with the probability of having ended; otherwise rounding
-would add up to an end that is not there.
+errors would add up and the match would seem to end.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Moves = Mapping[Hashable, Sequence[tuple[Hashable, float]]]
 _Arcs = list[list[tuple[int, float]]]
 
 _PATIENCE = 100_000
-"""After this many additions in plain Python it is quicker to load scipy."""
+"""More additions than this take longer in plain Python than with scipy, loading included."""
 _LONGEST = 100_000
 """The most racks that are played one by one, in a match with many states."""
 _MOST_STATES = 1_000

@@ -1,4 +1,4 @@
-"""The states of a match, rack by rack: a rack leads from each of them to one of two."""
+"""The states of a match, and the two to which the next rack can lead from each of them."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from typing import Any
 
 from evenbreak.games.match import Match
 from evenbreak.games.rack import Rack
-from evenbreak.matches.parameters import with_rack
+from evenbreak.matches.parameters import rack_in, with_rack
 
 RackMoves = dict[Any, tuple[tuple[Any, Any], tuple[Any, Any]]]
 
 
 def rack_moves(match: Match, start: Any = None) -> RackMoves:
-    """Return where a rack leads: by state, (next state, chance) if player 1, player 2 wins it.
+    """Return the next state and its chance for each winner of the next rack, by state.
 
-    Both are listed, even with a chance of 0: people win racks that a model gives them no
-    chance of. States that are not listed are final.
+    The entry for player 1 comes first. Both are listed, even with a chance of 0, as people win
+    racks in which a model gives them no chance. States that are not listed are final.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def rack_moves(match: Match, start: Any = None) -> RackMoves:
     >>> rack_moves(Race(2, 1, Rack(0.75)))
     {(0, 0): (((1, 0), 0.75), ((0, 1), 0.25)), (1, 0): (((2, 0), 0.75), ((1, 1), 0.25))}
     """
-    rack = match.innermost_rack
+    rack = rack_in(match)
     template = with_rack(match, Rack(0.5, 0.5) if rack.break_matters else Rack(0.5))
     chances = {breaker: (rack.chance(1, breaker), rack.chance(2, breaker)) for breaker in (1, 2)}
     moves: RackMoves = {}
@@ -45,7 +45,7 @@ def rack_moves(match: Match, start: Any = None) -> RackMoves:
 
 
 def breaker_in(match: Match, state: Any) -> int:
-    """Return who breaks in a state that goes on; 1 where the break does not matter.
+    """Return who breaks the next rack in a state; 1 where the break does not matter.
 
     >>> from evenbreak.games import Race, winner_breaks
     >>> breaker_in(Race(2, 1, Rack(0.6, 0.5), breaks=winner_breaks), (1, 0, 2))

@@ -1,8 +1,8 @@
-"""The chain of a match's scores: what follows from each of them, by elimination of states.
+"""The Markov chain of a match's scores, solved by elimination of states.
 
 Only positive numbers are added, multiplied and divided (see `evenbreak.chains.elimination`), so
-every answer keeps its relative accuracy however long play goes on. All values may be floats or
-arrays of one shape.
+every answer keeps its relative accuracy however long play goes on. All values may be floats,
+arrays of one shape, or fractions.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 from evenbreak.chains.elimination import Elimination
 
 NEVER = "never"
-"""The final state of play that can neither end nor leave a set of states."""
+"""The final state that stands for play that never ends."""
 
 
 def ratio(x: Any, y: Any) -> Any:
@@ -31,7 +31,7 @@ def ratio(x: Any, y: Any) -> Any:
 
 
 class _Elimination(Elimination):
-    """Elimination of states, some of which may never be left; for arrays, at some places only."""
+    """Elimination of states, some of which may never be left (in arrays, for some entries)."""
 
     def __init__(self, arcs: list[dict[int, Any]], leaks: list[Any]) -> None:
         self.stays: dict[int, Any] = {}
@@ -69,7 +69,7 @@ class ScoreChain:
             row = {t: chance for t, chance in rows[state].items() if t != state}
             self._ends.append({t: chance for t, chance in row.items() if t not in self._place})
             among.append({self._place[t]: chance for t, chance in row.items() if t in self._place})
-        self._factor = _Elimination(among, [sum(row.values(), 0.0) for row in self._ends])
+        self._factor = _Elimination(among, [sum(row.values()) for row in self._ends])
 
     def solve(
         self,
@@ -92,7 +92,7 @@ class ScoreChain:
             the expected total, given the state; final states with a reward included.
         """
         final = final or {}
-        own = [0.0 if reward is None else reward(state) for state in self._place]
+        own = [0 if reward is None else reward(state) for state in self._place]
         for k, row in enumerate(self._ends):
             for target in row.keys() & final.keys():
                 own[k] = own[k] + row[target] * final[target]

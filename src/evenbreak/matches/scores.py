@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any, Generic, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, short_repr
 from evenbreak.checks import number_probability
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match, Score
@@ -15,11 +15,12 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import ChanceT, Rack
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.outcomes import outcomes_of, unit_outcomes
-from evenbreak.matches.parameters import at_score, broadcast, first_breaker, in_shape
+from evenbreak.matches.parameters import at_score, first_breaker, in_shape
 
 _MOST_SETS = 10_000
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class FinalScores(Generic[ChanceT]):
     """The distribution of the final score of a match.
@@ -50,7 +51,7 @@ def final_scores(
 @overload
 def final_scores(
     match: Match[Any], score: Score | None = None, *, tail: float = 1e-12
-) -> FinalScores[NDArray[np.float64]]: ...
+) -> FinalScores[Floats]: ...
 def final_scores(
     match: Match, score: Score | None = None, *, tail: float = 1e-12
 ) -> FinalScores[Any]:
@@ -79,7 +80,7 @@ def final_scores(
     >>> final_scores(Race(2, 1, Rack(0.5))).probability
     {(2, 0): 0.25, (0, 1): 0.5, (1, 1): 0.25}
     """
-    match, shape = broadcast(at_score(match, score))
+    match, shape = at_score(match, score)
     tail = number_probability(tail, "tail")
     bounded = is_bounded(match)
     never = 0.0 if bounded else outcomes_of(match, lengths=False).never
@@ -106,9 +107,7 @@ def final_scores(
 @overload
 def hill_hill_probability(match: Match[float], score: Score | None = None) -> float | None: ...
 @overload
-def hill_hill_probability(
-    match: Match[Any], score: Score | None = None
-) -> NDArray[np.float64] | None: ...
+def hill_hill_probability(match: Match[Any], score: Score | None = None) -> Floats | None: ...
 def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     """Return P(the last possible rack decides): the race m:n comes to m - 1 : n - 1.
 
@@ -122,7 +121,7 @@ def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     """
     if not isinstance(match, Race) or match.win_by > 1:
         return None
-    match, shape = broadcast(at_score(match, score))
+    match, shape = at_score(match, score)
     if match.decided(*match.score) is not None:
         return in_shape(0.0, shape)
     ends = final_scores(match).probability

@@ -8,11 +8,10 @@ from evenbreak.checks import one_of
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.matches.outcomes import unit_outcomes
-from evenbreak.matches.parameters import at_score, broadcast, first_breaker, in_shape
+from evenbreak.matches.parameters import at_score, first_breaker, in_shape
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from evenbreak.arrays import Floats
 
 
 @overload
@@ -22,7 +21,7 @@ def shutout_probability(
 @overload
 def shutout_probability(
     match: Match[Any], score: Score | None = None, *, player: int = 1
-) -> NDArray[np.float64] | None: ...
+) -> Floats | None: ...
 def shutout_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins and the other player scores nothing from the start score on).
 
@@ -55,7 +54,7 @@ def shutout_probability(match: Match, score: Score | None = None, *, player: int
     one_of(player, "player", (1, 2))
     if not isinstance(match, Race):
         return None
-    match, shape = broadcast(at_score(match, score))
+    match, shape = at_score(match, score)
     a, b = match.score
     # P(the run has come this far and this player breaks next), by breaker.
     run: dict[int, Any] = {first_breaker(match): 1.0}

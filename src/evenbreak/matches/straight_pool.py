@@ -20,11 +20,10 @@ import math
 from collections.abc import Iterator
 from dataclasses import KW_ONLY, dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.matches.quantiles import quantile_of
@@ -156,7 +155,7 @@ def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
     )
 
 
-def _aligned(match: StraightPool) -> list[tuple[NDArray[Any], NDArray[Any]]]:
+def _aligned(match: StraightPool) -> list[tuple[Floats, Floats]]:
     """Return for each player P(T = i) for i = 1, 2, ..., n, and P(T >= i) up to i = n + 1."""
     players = [
         (match.points_1, exact(match.p1), exact(match.safety_1)),
@@ -175,7 +174,7 @@ def _aligned(match: StraightPool) -> list[tuple[NDArray[Any], NDArray[Any]]]:
     return laws
 
 
-def _innings_to(points: int, p: Fraction, safety: Fraction, *, at_least: int) -> NDArray[Any]:
+def _innings_to(points: int, p: Fraction, safety: Fraction, *, at_least: int) -> Floats:
     """Return P(the points are reached in inning i), i = 1, 2, ...; zero if they never are."""
     if p * safety == 0:
         return np.zeros(at_least)

@@ -18,21 +18,18 @@ _EVEN = (0.4, 0.6)
 class EvenPoints(NamedTuple):
     """The points of player 2 that make a match nearest to even.
 
-    `p_win_1` is P(player 1 wins the match) with them; `p_win_1_less` and `p_win_1_more` are the
-    same with a point less and a point more for player 2, None beyond the points allowed.
+    `p_win_1` is P(player 1 wins the match) with them.
     """
 
     points_2: int
     p_win_1: float
-    p_win_1_less: float | None
-    p_win_1_more: float | None
 
     @property
     def is_even(self) -> bool:
-        """Whether each player wins with 0.4 or more; no points do that if these do not.
+        """Whether each player wins with probability 0.4 or more.
 
-        Where the points are few, or one player is far better, no number of points may come
-        anywhere near an even match.
+        If not, no other number of points makes the match even either: the points are too few,
+        or one player is far better.
 
         >>> even_points(100, 0.9, 0.85).is_even, even_points(1, 0.9, 0.8).is_even
         (True, False)
@@ -41,16 +38,16 @@ class EvenPoints(NamedTuple):
 
 
 class Spot(NamedTuple):
-    """What the weaker player of a match should need, the stronger needing what they need now.
+    """How many points the weaker player should need, if the stronger still needs as many as now.
 
     Parameters
     ----------
     weaker
-        who that is, 1 or 2.
+        the weaker player, 1 or 2.
     points
         how many points they should need; None if no number of points makes the match even.
     p_win_1
-        P(player 1 wins the match) then; None likewise.
+        P(player 1 wins the match) with these points; None if there are none.
     """
 
     weaker: int
@@ -101,7 +98,7 @@ def even_points(
     first: int = 1,
     most: int = 10_000,
 ) -> EvenPoints:
-    """Return how many points player 2 should need, where player 1 needs `points_1`.
+    """Return how many points player 2 should need when player 1 needs `points_1`.
 
     Parameters
     ----------
@@ -143,9 +140,7 @@ def even_points(
         low, high = (middle, high) if win(middle) < 0.5 else (low, middle)
     # 1 is among them for a player 1 who never wins, whatever player 2 needs.
     nearest = min({1, low or 1, high}, key=lambda points_2: (abs(win(points_2) - 0.5), points_2))
-    less = win(nearest - 1) if nearest > 1 else None
-    more = win(nearest + 1) if nearest < most else None
-    return EvenPoints(nearest, win(nearest), less, more)
+    return EvenPoints(nearest, win(nearest))
 
 
 def _balls_an_inning(p: float | Fraction, safety: float | Fraction) -> Fraction | float:

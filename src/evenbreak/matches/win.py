@@ -2,54 +2,83 @@
 
 from __future__ import annotations
 
-from typing import Any, overload
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any, Literal, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.special import betainc
+from numpy.typing import ArrayLike
 
-from evenbreak.checks import one_of, plain, probability, together, whole_numbers
+from evenbreak.arrays import Floats
+from evenbreak.checks import one_of, plain, probability, together, whole, whole_numbers
 from evenbreak.errors import InputError
+from evenbreak.game import Game
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.matches.exact_win import exact_win, exact_win_of_game
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, broadcast, in_shape
+from evenbreak.matches.own_games import ends_of_game
+from evenbreak.matches.parameters import at_score, in_shape, rack_in
+from evenbreak.stats.beta_tail import beta_tail
 
 
 @overload
 def win_probability(
-    match: Match[float], score: Score | None = None, *, player: int = 1
+    match: Match[float],
+    score: Score | None = None,
+    *,
+    player: int = 1,
+    exact: Literal[False] = False,
 ) -> float: ...
 @overload
+def win_probability(  # type: ignore[overload-overlap]  # a match is a game too
+    match: Match[Any], score: Score | None = None, *, player: int = 1, exact: Literal[False] = False
+) -> Floats: ...
+@overload
 def win_probability(
-    match: Match[Any], score: Score | None = None, *, player: int = 1
-) -> NDArray[np.float64]: ...
-def win_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
+    match: Game, score: Any = None, *, player: int = 1, exact: Literal[True]
+) -> Fraction: ...
+@overload
+def win_probability(
+    match: Game, score: Any = None, *, player: int = 1, exact: Literal[False] = False
+) -> float: ...
+def win_probability(match: Game, score: Any = None, *, player: int = 1, exact: bool = False) -> Any:
     """Return P(`player` wins the match).
 
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks or of sets. The probabilities of its innermost
-        rack may be arrays; p1 and p2 are broadcast together.
+        a race or an n-ahead match, of racks, of sets or of a game of your own, or any other
+        game (see `evenbreak.game`). The probabilities of its innermost rack may be arrays; p1
+        and p2 are broadcast together.
     score
         the score now, in racks (in sets for a match of sets); the match's first breaker
-        breaks the next rack. None: the match's own start score.
+        breaks the next rack. None: the match's own start score. For any other game, the
+        state now.
     player
-        1 or 2. Each player's chance is worked out by itself, never as 1 minus the other's, so
-        both are accurate even if tiny. They add up to 1 minus P(the match never ends).
+        1 or 2, or any player of a game of your own. Each player's chance is worked out by
+        itself, never as 1 minus the others', so all are accurate even if tiny. They add up to
+        1 minus P(the match never ends).
+    exact
+        whether to calculate in fractions. A chance of the rack given as a `Fraction` is taken
+        as it is, a float as the decimal that it prints: 0.6 is 3/5.
 
     Returns
     -------
-    float or numpy.ndarray
-        a float for plain numbers, otherwise an array of the shape of the parameters.
+    float, numpy.ndarray or Fraction
+        a float for plain numbers, otherwise an array of the shape of the parameters; a
+        fraction if `exact`.
 
     Raises
     ------
     InputError
-        if the score cannot be reached, `match` is another game, or `player` is not 1 or 2.
+        if the score cannot be reached, `match` is not a game, `player` is not one, or an
+        exact answer is asked for arrays.
+    GameError, ChainError
+        as `game_odds` does, for a game of your own; also, with `exact`, if the moves from a
+        state of it do not sum to exactly 1.
 
     Notes
     -----
@@ -61,9 +90,20 @@ def win_probability(match: Match, score: Score | None = None, *, player: int = 1
     0.552
     >>> win_probability(Race(2, 1, Rack([0.5, 0.9], 0.5), breaks=winner_breaks)).round(3)
     array([0.25, 0.81])
+    >>> win_probability(Race(3, 2, Rack(0.6)), exact=True)
+    Fraction(297, 625)
+    >>> from evenbreak.games import OneBall
+    >>> win_probability(OneBall(0.5, 0.25)), win_probability(Race(2, 2, OneBall(0.5, 0.25)))
+    (0.8, 0.896)
     """
+    if not isinstance(match, Match) and isinstance(match, Game):
+        whole(player, "player", at_least=1)
+        ends = ends_of_game(match, score)
+        return exact_win_of_game(ends, player) if exact else ends.p_win(player)
     one_of(player, "player", (1, 2))
-    match, shape = broadcast(at_score(match, score))
+    if exact and isinstance(match, Match):
+        return exact_win(match if score is None else replace(match, score=score), player)
+    match, shape = at_score(match, score)
     return in_shape(_win(match, player), shape)
 
 
@@ -76,9 +116,9 @@ def _win(match: Match, player: int) -> Any:
     need = match.m - match.score[0], match.n - match.score[1]
     rack = match.rack
     if not match.break_matters:
-        one = rack.chance(player) if isinstance(rack, Rack) else _win(rack, player)
+        one = _win(rack, player) if isinstance(rack, Match) else rack_in(match).chance(player)
         mine, theirs = need if player == 1 else need[::-1]
-        return betainc(mine, theirs, one)
+        return beta_tail(mine, theirs, one)
     if isinstance(rack, Rack):
         endings = race_endings(*need, rack, match.breaks, match.first_breaker)[player - 1]
         return np.minimum(endings.sum(axis=0), 1.0)  # rounding may take a sum above 1
@@ -88,7 +128,7 @@ def _win(match: Match, player: int) -> Any:
 @overload
 def race_win_probability(p: float, m: int, n: int) -> float: ...
 @overload
-def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> NDArray[np.float64]: ...
+def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Floats: ...
 def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     """Return W(p; m, n): P(player 1 wins m games before player 2 wins n), elementwise.
 
@@ -122,7 +162,7 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     needs_1, needs_2 = whole_numbers(m, "m", at_least=0), whole_numbers(n, "n", at_least=0)
     chances = probability(p, "p")
     together(p=chances, m=needs_1, n=needs_2)
-    chance = betainc(needs_1, needs_2, chances)
+    chance = np.asarray(beta_tail(needs_1, needs_2, chances))
     if not (needs_1.all() and needs_2.all()):
         won_1, won_2 = needs_1 == 0, needs_2 == 0
         if (won_1 & won_2).any():

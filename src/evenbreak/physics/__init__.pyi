@@ -1,5 +1,7 @@
 from .aimed import AimedShot as AimedShot
 from .aimed import aimed_shot as aimed_shot
+from .ball_friction import BALL_FRICTION as BALL_FRICTION
+from .ball_friction import SlipFriction as SlipFriction
 from .collision import Collision as Collision
 from .collision import Jump as Jump
 from .collision import axis_tilt as axis_tilt
@@ -21,6 +23,8 @@ from .equipment import density_range as density_range
 from .equipment import floats_in as floats_in
 from .equipment import volume_range as volume_range
 from .friction import friction_of_incline as friction_of_incline
+from .friction import friction_of_pull as friction_of_pull
+from .friction import friction_of_speeds as friction_of_speeds
 from .friction import friction_of_stop as friction_of_stop
 from .friction import friction_of_throw as friction_of_throw
 from .friction import miscue_offset as miscue_offset
@@ -34,7 +38,7 @@ from .leg import State as State
 from .objects import Ball as Ball
 from .objects import Cloth as Cloth
 from .objects import Cue as Cue
-from .objects import Table as Table
+from .objects import PoolTable as PoolTable
 from .offset import NATURAL_ROLL_OFFSET as NATURAL_ROLL_OFFSET
 from .offset import ContactPoint as ContactPoint
 from .offset import ball_speed_ratio as ball_speed_ratio
@@ -80,7 +84,6 @@ from .table_speed import lag_speed as lag_speed
 from .table_speed import roll_distance as roll_distance
 from .table_speed import roll_time as roll_time
 from .table_speed import table_speed as table_speed
-from .throw import BALL_FRICTION as BALL_FRICTION
 from .throw import FRICTION_LAWS as FRICTION_LAWS
 from .throw import Aim as Aim
 from .throw import aim as aim

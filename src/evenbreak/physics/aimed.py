@@ -1,8 +1,7 @@
 """A shot that allows for throw: aimed so that the object ball goes where it should (P4.6).
 
-The throw depends on the spin that the cue ball has when it gets there, that on how far it
-goes, and that on where it is aimed. So the cut is found for the whole shot at once, from where
-the balls stand.
+The throw depends on the spin with which the cue ball arrives, the spin on how far the cue ball
+travels, and that on where it is aimed. So the cut is found for the shot as a whole.
 """
 
 from __future__ import annotations
@@ -13,31 +12,33 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from evenbreak.arrays import Floats
+from evenbreak.checks import kind_or_usual
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats
+from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
 from evenbreak.physics.leg import State, on_table, place_of, time_to
-from evenbreak.physics.objects import Cloth, Table
-from evenbreak.physics.shot import Shot, one_number, shot, sound_strike, spin_ratios, travel_for
+from evenbreak.physics.objects import Cloth, PoolTable
+from evenbreak.physics.shot import Shot, shot, sound_strike, spin_ratios, travel_for
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
-from evenbreak.physics.throw import BALL_FRICTION, throw_angle
+from evenbreak.physics.throw import throw_angle
 
 _THINNEST = 0.5 * math.pi - 1e-9
-"""Short of a right angle, at which nothing is hit."""
+"""Just short of a right angle, at which nothing is hit."""
 
 
 @dataclass(frozen=True, eq=False)
 class AimedShot:
-    """A shot that sends the object ball to a target, and the one that would but for throw.
+    """A shot that sends the object ball to a target, with and without allowing for throw.
 
     Parameters
     ----------
     shot
         the shot that allows for throw.
     unaided
-        the same strike with the line of centres at the target: how the shot misses.
+        the same strike aimed with the line of centres through the target; throw makes it miss.
     target
-        metres; shape (2,).
+        in metres; shape (2,).
     """
 
     shot: Shot
@@ -46,28 +47,28 @@ class AimedShot:
 
     @property
     def distance(self) -> float:
-        """From the object ball to the target, in metres."""
+        """The distance from the object ball to the target, in metres."""
         return float(np.linalg.norm(self.target - self.shot.object_position))
 
     @property
     def turn(self) -> float:
-        """By how much the line of centres points beside the target, in radians.
+        """The angle by which the line of centres points beside the target, in radians.
 
-        Above 0 on the side of the thinner cut.
+        Above 0 towards the thinner cut.
         """
         thinner = math.copysign(1.0, self.unaided.cut)
         return thinner * _between(self.shot.line_of_centres, self.unaided.line_of_centres)
 
     @property
     def offset(self) -> float:
-        """How far beside the target the line of centres points, in metres; as `turn`."""
+        """How far beside the target the line of centres points, in metres; signed as `turn`."""
         return self.distance * math.tan(self.turn)
 
     @property
     def miss(self) -> float:
-        """How far beside the target the object ball would go unaided, in metres.
+        """How far the unaided shot would miss the target, in metres.
 
-        Above 0 on the side of the thicker cut, where throw takes it as a rule; 0 without a hit.
+        Above 0 on the thick side, where throw usually takes it; 0 without a hit.
         """
         return self.distance * math.tan(self.unaided.throw or 0.0)
 
@@ -79,40 +80,40 @@ def aimed_shot(
     target: Sequence[float],
     *,
     cloth: Cloth | None = None,
-    table: Table | None = None,
-    mu: float = BALL_FRICTION,
+    table: PoolTable | None = None,
+    mu: float | SlipFriction = BALL_FRICTION,
     friction: str = "limited",
 ) -> AimedShot:
-    """Trace the shot that sends an object ball towards a target, throw allowed for.
+    """Trace the shot that sends an object ball to a target, allowing for throw.
 
     Parameters
     ----------
     strike, cloth, table, mu, friction
-        as `shot` takes them.
+        as for `shot`.
     cue_ball, object_ball, target
-        where they are on the table, x and y in metres.
+        where they are on the table: x and y in metres.
 
     Raises
     ------
     InputError
-        if no shot sends the ball there: it would have to be cut by a right angle or more.
+        if no shot sends the ball there: it would take a cut of a right angle or more.
 
     Notes
     -----
-    Source: P4.6, which takes the spin as given.
+    Source: P4.6, where the spin is given.
 
     >>> from evenbreak.physics.pockets import pockets
     >>> from evenbreak.physics.strike import strike
-    >>> corner = pockets(Table())[3]
+    >>> corner = pockets(PoolTable())[3]
     >>> found = aimed_shot(strike(1.5, -0.2), (0.7, 0.4), (1.2, 0.4), (corner.x, corner.y))
     >>> found.shot.object_leg.ending, found.unaided.object_leg.ending
     ('pocket', 'cushion')
     >>> round(math.degrees(found.turn), 2), round(math.degrees(found.shot.throw), 2)
     (3.16, 3.16)
     """
-    cloth, table = cloth or Cloth(), table or Table()
+    cloth, table = kind_or_usual(cloth, "cloth", Cloth), kind_or_usual(table, "table", PoolTable)
     sound_strike(strike)
-    mu = one_number(mu, "mu", low=0.0)
+    mu = one_friction(mu)
     places = {"cue_ball": cue_ball, "object_ball": object_ball, "target": target}
     start, standing, goal = (place_of(value, name) for name, value in places.items())
     diameter = strike.ball.diameter
@@ -122,8 +123,8 @@ def aimed_shot(
     for name, place in (("cue_ball", start), ("object_ball", standing)):
         on_table(place, name, table, strike.ball.radius)
     travel_for(0.0, distance, diameter)  # refuses balls that overlap
-    distance = max(distance, diameter)  # of balls that touch, rounding may say less
-    # How far to the right of the line through the balls the target lies.
+    distance = max(distance, diameter)  # rounding may bring touching balls closer
+    # The angle of the target to the right of the line through the balls.
     wanted = -_between(standing - start, goal - standing)
 
     def trace(cut: float) -> Shot:
@@ -140,13 +141,13 @@ def aimed_shot(
         )
 
     def throw(cut: float) -> float:
-        spin = _spin_after(strike, cloth, travel_for(cut, distance, diameter))
-        if spin is None:
+        """Return the throw to the left, as the angles are to the right."""
+        now = _state_after(strike, cloth, travel_for(cut, distance, diameter))
+        if now is None:
             return 0.0
-        turn = math.copysign(1.0, cut)
-        return turn * float(
-            throw_angle(abs(cut), spin[0], turn * spin[1], mu=mu, friction=friction)
-        )
+        spin = spin_ratios(now, strike.ball.radius)
+        found = throw_angle(cut, *spin, mu=mu, friction=friction, speed=now.speed)
+        return -found if cut < 0.0 else found
 
     def short(cut: float, thrown: float) -> float:
         return wanted - (cut - thrown - math.asin(diameter * math.sin(cut) / distance))
@@ -155,23 +156,22 @@ def aimed_shot(
     return AimedShot(trace(_solve(lambda cut: short(cut, throw(cut)))), trace(plain), goal)
 
 
-def _spin_after(strike: Strike, cloth: Cloth, travel: float) -> tuple[float, float] | None:
-    """Return J_y and J_z once the cue ball has gone so far; None where it does not get there."""
+def _state_after(strike: Strike, cloth: Cloth, travel: float) -> State | None:
+    """Return the cue ball after it has travelled this far; None if it stops before."""
     slide = Slide(strike.ball, cloth, np.zeros(2), strike.velocity, strike.spin)
     time = time_to(slide, np.array([1.0, 0.0]), travel)
     if time >= (1.0 - 1e-9) * float(slide.stop_time):
         return None
-    now = State(time, slide.at(time), slide.velocity_at(time), slide.spin_at(time))
-    return spin_ratios(now, strike.ball.radius)
+    return State(time, slide.at(time), slide.velocity_at(time), slide.spin_at(time))
 
 
 def _solve(short: Callable[[float], float]) -> float:
-    """Return the cut angle at which the object ball is not short of its direction."""
+    """Return the cut angle at which `short` is 0, in radians."""
     low, high = -_THINNEST, _THINNEST
     if short(low) < 0.0 or short(high) > 0.0:
         raise InputError(
-            "target is where no cut sends the object ball: it would take a right angle or more; "
-            "give a target farther ahead of the cue ball, or other places of the balls"
+            "target cannot be reached: the cut would be a right angle or more; give a target "
+            "farther ahead of the cue ball, or move the balls"
         )
     for _ in range(50):
         middle = 0.5 * (low + high)

@@ -1,4 +1,4 @@
-"""What the rules allow a ball to be (section 1, P1.1 to P1.3)."""
+"""The sizes and weights of balls that the rules allow (section 1, P1.1 to P1.3)."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-from evenbreak.checks import one_of
+from evenbreak.checks import kind_of, one_of
 from evenbreak.physics.objects import Ball
 from evenbreak.physics.units import INCH, OUNCE
 
 
 class BallSet(NamedTuple):
-    """The balls of a game as its rules have them.
+    """The balls of a game, according to its rules.
 
     Parameters
     ----------
@@ -21,7 +21,7 @@ class BallSet(NamedTuple):
     masses
         the smallest and the largest mass, in kilograms.
     tolerance
-        by how much a diameter may be off, in metres.
+        the allowed deviation of a diameter, in metres.
     """
 
     diameters: tuple[float, ...]
@@ -40,7 +40,7 @@ BALL_SETS: Mapping[str, BallSet] = MappingProxyType(
         "carom": _set((2 + 27 / 64, 2 + 3 / 8, 2 + 7 / 16), 7.0, 7.5),
     }
 )
-"""The ball sets of the games, by name."""
+"""The ball sets, by game."""
 
 LIQUIDS: Mapping[str, float] = MappingProxyType(
     {
@@ -50,7 +50,7 @@ LIQUIDS: Mapping[str, float] = MappingProxyType(
         "mercury": 13_600.0,
     }
 )
-"""Densities in kg/m^3 near 25 degrees Celsius, the solutions saturated (P1.2; its 1440 for
+"""Densities in kg/m^3 near 25 degrees Celsius; the solutions are saturated (P1.2, whose 1440 for
 sugar is too high)."""
 
 
@@ -61,6 +61,7 @@ def volume_range(balls: BallSet) -> tuple[float, float]:
     >>> round(low / INCH**3, 3), round(high / INCH**3, 3)
     (5.924, 6.004)
     """
+    kind_of(balls, "balls", BallSet)
     low, high = min(balls.diameters), max(balls.diameters)
     return (
         Ball(radius=(low - balls.tolerance) / 2.0).volume,
@@ -69,7 +70,7 @@ def volume_range(balls: BallSet) -> tuple[float, float]:
 
 
 def density_range(balls: BallSet) -> tuple[float, float]:
-    """Return the least and the greatest density that the rules allow, in kg/m^3 (P1.2).
+    """Return the smallest and the largest density that the rules allow, in kg/m^3 (P1.2).
 
     >>> [round(density / 1000.0, 2) for density in density_range(BALL_SETS["pool"])]
     [1.58, 1.75]
@@ -79,12 +80,12 @@ def density_range(balls: BallSet) -> tuple[float, float]:
 
 
 def floats_in(balls: BallSet, liquid: str) -> bool:
-    """Return whether every ball of a set floats in one of `LIQUIDS` (P1.2).
+    """Return whether every ball of a set floats in a liquid, one of `LIQUIDS` (P1.2).
 
     Raises
     ------
     InputError
-        if it is none of those liquids.
+        if it is not one of those liquids.
 
     >>> [name for name in LIQUIDS if floats_in(BALL_SETS["pool"], name)]
     ['caesium chloride solution', 'mercury']

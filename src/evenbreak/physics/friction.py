@@ -1,23 +1,27 @@
-"""Friction: how it is measured, and what it does to a block that slides (section 1)."""
+"""Friction: how to measure it, and how it slows a sliding block (section 1)."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from evenbreak.physics.arrays import Floats, numbers, plain, positive, together
+from evenbreak.arrays import Floats
+from evenbreak.checks import plain, together
+from evenbreak.errors import InputError
+from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.units import GRAVITY
 
 
 def friction_of_incline(angle: Any) -> Any:
-    """Return the coefficient of a block that slides down an incline at a steady speed (P1.4).
+    """Return the friction of a block that slides down an incline at constant speed (P1.4).
 
     Parameters
     ----------
     angle
-        the slope, in radians.
+        of the incline, in radians.
 
     >>> round(friction_of_incline(math.radians(20.0)), 4)
     0.364
@@ -25,14 +29,75 @@ def friction_of_incline(angle: Any) -> Any:
     return plain(np.tan(numbers(angle, "angle", low=0.0, high=math.pi / 2.0)))
 
 
+def friction_of_pull(force: Any, weight: Any) -> Any:
+    """Return the friction of a block, from the force that slides it at constant speed.
+
+    Parameters
+    ----------
+    force, weight
+        the reading of the scale that pulls it, and its weight, in the same unit. If instead two
+        energies were measured, the force is the energy lost over the distance between them.
+
+    Notes
+    -----
+    Source: section 1, methods (1) and (3).
+
+    >>> friction_of_pull(1.5, 6.0)
+    0.25
+    """
+    force, weight = numbers(force, "force", low=0.0), positive(weight, "weight")
+    together(force=force, weight=weight)
+    return plain(force / weight)
+
+
+def friction_of_speeds(first: Any, second: Any, distance: Any, *, gravity: float = GRAVITY) -> Any:
+    """Return the friction of a sliding block, from its speeds at two points of its path.
+
+    Parameters
+    ----------
+    first, second
+        its speeds at the two points, in m/s; it cannot be faster at the second.
+    distance
+        between the points, in metres.
+    gravity
+        metres per second squared.
+
+    Raises
+    ------
+    InputError
+        if the block is faster at the second point.
+
+    Notes
+    -----
+    Source: section 1, method (3): T = T_0 - mu M g x at two points, where the mass cancels.
+
+    >>> friction_of_speeds(5.0, 3.0, 4.0, gravity=10.0)
+    0.2
+    """
+    first, second = numbers(first, "first", low=0.0), numbers(second, "second", low=0.0)
+    distance, pull = positive(distance, "distance"), positive(gravity, "gravity")
+    together(first=first, second=second, distance=distance, gravity=pull)
+    if np.any(second > first):
+        raise InputError("second is above first; a sliding block does not gain speed")
+    return plain((first - second) * (first + second) / (2.0 * pull * distance))
+
+
+@overload
+def friction_of_throw(sideways: float, ahead: float) -> float: ...
+
+
+@overload
+def friction_of_throw(sideways: ArrayLike, ahead: ArrayLike) -> Floats: ...
 def friction_of_throw(sideways: Any, ahead: Any) -> Any:
-    """Return the ball-ball friction of a ball that misses by `sideways` at a distance (P1.6).
+    """Return the friction between balls, from how far a frozen ball is thrown off line (P1.6).
+
+    Exercise 1.2 measures it with several sets of balls, with chalk, talc or water between them.
 
     Parameters
     ----------
     sideways, ahead
-        how far the object ball of two frozen balls lands from the point that they aim at, and
-        how far away that point is, in the same unit.
+        how far from its target the second of two frozen balls lands, and how far away that
+        target is, in the same unit.
 
     >>> round(friction_of_throw(4.0, 72.0), 4)
     0.0556
@@ -43,7 +108,7 @@ def friction_of_throw(sideways: Any, ahead: Any) -> Any:
 
 
 def friction_of_stop(distance: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
-    """Return the coefficient of what slides or rolls a distance until it stops, in a time.
+    """Return the friction of an object that stops after a distance and a time.
 
     Parameters
     ----------
@@ -56,8 +121,8 @@ def friction_of_stop(distance: Any, time: Any, *, gravity: float = GRAVITY) -> A
 
     Notes
     -----
-    Source: section 1, mu = d / (g t^2 / 2): for a sliding block its coefficient of sliding
-    friction, for a rolling ball the effective one of rolling.
+    Source: section 1, mu = d / (g t^2 / 2). For a sliding block this is the coefficient of
+    sliding friction, for a rolling ball the effective coefficient of rolling resistance.
 
     >>> friction_of_stop(1.0, 1.0, gravity=10.0)
     0.2
@@ -69,7 +134,7 @@ def friction_of_stop(distance: Any, time: Any, *, gravity: float = GRAVITY) -> A
 
 
 def sliding_speed(speed: Any, friction: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
-    """Return the speed of a block that has slid for a time; 0 once it has stopped.
+    """Return the speed of a block that has slid for a time, in m/s; 0 once it has stopped.
 
     >>> round(sliding_speed(50.0, 0.2, 0.5, gravity=386.0), 9)
     11.4
@@ -79,7 +144,7 @@ def sliding_speed(speed: Any, friction: Any, time: Any, *, gravity: float = GRAV
 
 
 def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
-    """Return how far a block has slid after a time; it stays where it has stopped.
+    """Return how far a block has slid after a time, in metres; it stays where it stops.
 
     >>> round(sliding_distance(50.0, 0.2, 0.5, gravity=386.0), 9)
     15.35
@@ -90,7 +155,7 @@ def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = G
 
 
 def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAVITY) -> Any:
-    """Return dT/dt, the rate at which a sliding block of this speed gains energy: below 0.
+    """Return dT/dt, the rate at which the energy of a sliding block changes, in watts: below 0.
 
     >>> round(sliding_power(2.0, 0.1, 1.0, gravity=10.0), 9)
     -2.0
@@ -99,8 +164,14 @@ def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAV
     return plain(-slowing * mass * speed)
 
 
+@overload
+def miscue_offset(friction: float) -> float: ...
+
+
+@overload
+def miscue_offset(friction: ArrayLike) -> Floats: ...
 def miscue_offset(friction: Any) -> Any:
-    """Return the largest offset b/R from the centre at which the tip does not slip (P1.7).
+    """Return the largest offset b/R from the centre without a miscue (P1.7).
 
     Parameters
     ----------
@@ -114,8 +185,16 @@ def miscue_offset(friction: Any) -> Any:
     return plain(friction / np.hypot(1.0, friction))
 
 
+@overload
+def tip_friction_of(offset: float) -> float: ...
+
+
+@overload
+def tip_friction_of(offset: ArrayLike) -> Floats: ...
 def tip_friction_of(offset: Any) -> Any:
-    """Return the friction of a tip that begins to slip at an offset b/R (P1.7).
+    """Return the static friction of a tip that starts to slip at an offset b/R (P1.7).
+
+    Exercise 1.3 finds the offset with the shaft upright on a ball.
 
     >>> round(tip_friction_of(0.5), 3)
     0.577
@@ -126,7 +205,7 @@ def tip_friction_of(offset: Any) -> Any:
 
 
 def _block(speed: Any, friction: Any, gravity: Any, **third: Any) -> tuple[Floats, Floats, Floats]:
-    """Return a block's speed, how fast it loses it, and the third number, or refuse them."""
+    """Return a block's speed, its deceleration and a third number, all checked."""
     found = {
         "speed": numbers(speed, "speed", low=0.0),
         "friction": positive(friction, "friction"),

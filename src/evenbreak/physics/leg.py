@@ -1,6 +1,6 @@
-"""One ball's way, from when it is set in motion until it rests, hits something or falls.
+"""The path of one ball, from its start until it stops, hits something or drops into a pocket.
 
-It slides and then rolls, as `slide` has it; here the way has an end and a clock.
+It slides and then rolls, as described in `slide`; here the path has an end and a clock.
 """
 
 from __future__ import annotations
@@ -12,10 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
-from evenbreak.physics.objects import Table
+from evenbreak.physics.arrays import numbers
+from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.rolling import Energy, kinetic_energy
 from evenbreak.physics.slide import Slide
@@ -24,14 +25,14 @@ ENDINGS = ("rest", "hit", "cushion", "pocket")
 """How a leg can end."""
 
 _SLACK = 1e-9
-"""A nanometre: what rounding may push a ball into the cushion that it rolls along."""
+"""A nanometre: how far rounding may push a ball into a cushion along which it rolls."""
 
 _INSTANT = 1e-12
-"""What rounding may let a ball slide that is struck into natural roll, in seconds."""
+"""Shorter slides, in seconds, are rounding errors: the ball is in natural roll from the start."""
 
 
 class State(NamedTuple):
-    """A ball at a time: seconds, metres (2), m/s (2), rad/s (3)."""
+    """A ball at a time in seconds: position in metres, velocity in m/s, spin in rad/s."""
 
     time: float
     position: Floats
@@ -40,12 +41,12 @@ class State(NamedTuple):
 
     @property
     def speed(self) -> float:
-        """The speed in m/s."""
+        """The speed, in m/s."""
         return math.hypot(*self.velocity)
 
 
 class Phase(NamedTuple):
-    """A ball that slides, or rolls, from one state to another.
+    """A part of a path in which the ball only slides, or only rolls.
 
     Parameters
     ----------
@@ -56,7 +57,7 @@ class Phase(NamedTuple):
     begin, end
         the states at its two ends.
     length
-        of the way, in metres.
+        of that part of the path, in metres.
     """
 
     ball: str
@@ -68,20 +69,20 @@ class Phase(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Leg:
-    """The way of one ball on the table.
+    """The path of one ball on the table.
 
     Parameters
     ----------
     name
         'cue ball' or 'object ball'.
     slide
-        the ball from its first moment on, had it room for ever.
+        the ball from the start of the path, as on an endless table.
     begin, end
         seconds on the clock of the shot.
     ending
         'rest', 'hit' (the cue ball meets the object ball), 'cushion' or 'pocket'.
     pocket
-        which pocket, '' where it is none.
+        the name of the pocket, '' if there is none.
     """
 
     name: str
@@ -93,11 +94,11 @@ class Leg:
 
     @property
     def roll_begin(self) -> float:
-        """When natural roll begins; the end, where it slides until then."""
+        """When natural roll begins, in seconds; the end if the ball only slides."""
         return min(self.begin + float(self.slide.slide_time), self.end)
 
     def state(self, time: float) -> State:
-        """Return the ball at a time of the shot; before and after, as at its ends."""
+        """Return the ball at a time of the shot; beyond the path, its state at the nearer end."""
         now = min(max(time, self.begin), self.end)
         since = now - self.begin
         slide = self.slide
@@ -106,7 +107,7 @@ class Leg:
     def energy(self, time: float) -> Energy:
         """Return the ball's kinetic energy at a time of the shot, in joules.
 
-        Sidespin counts, and stays even when the ball rests, as nothing here wears it off.
+        Sidespin counts even after the ball has stopped, since in this model it does not wear off.
         """
         state = self.state(time)
         radius = self.slide.ball.radius
@@ -115,7 +116,7 @@ class Leg:
 
     @property
     def phases(self) -> tuple[Phase, ...]:
-        """What the ball does one after the other; nothing that takes no time."""
+        """The parts of the path in order, without those that take no time."""
         times = {"slides": (self.begin, self.roll_begin), "rolls": (self.roll_begin, self.end)}
         return tuple(
             Phase(self.name, motion, self.state(begin), self.state(end), self._length(begin, end))
@@ -125,19 +126,19 @@ class Leg:
 
     @property
     def length(self) -> float:
-        """The length of the whole way, in metres."""
+        """The length of the path, in metres."""
         return sum(phase.length for phase in self.phases)
 
     def path(self, points: int = 100, *, motion: str | None = None) -> Floats:
-        """Return the way as rows of x, y (metres) and t (seconds).
+        """Return the path as rows of x, y (metres) and t (seconds).
 
         Parameters
         ----------
         points
-            how many for each of its phases, at even times, 2 or more; where two phases meet,
-            the point stands once.
+            how many for each phase, evenly spaced in time, 2 or more; a point shared by two
+            phases appears once.
         motion
-            'slides' or 'rolls' for that part alone; shape (0, 3) where there is none.
+            'slides' or 'rolls' for that part alone; shape (0, 3) if there is none.
 
         Raises
         ------
@@ -155,7 +156,7 @@ class Leg:
         return np.column_stack([self.slide.at(times - self.begin), times])
 
     def _length(self, begin: float, end: float) -> float:
-        """Return the length of the way between two times: a line, or a piece of a parabola."""
+        """Return the length of the path between two times: a line, or a piece of a parabola."""
         first, last = self.slide.velocity_at(begin - self.begin), self.state(end).velocity
         # The acceleration is constant, so the speed squared is a quadratic in time.
         change = last - first
@@ -172,20 +173,20 @@ def leg_until(
     name: str,
     slide: Slide,
     begin: float,
-    table: Table,
+    table: PoolTable,
     *,
     hit: float = math.inf,
 ) -> Leg:
-    """Return the way of a ball until it rests, or meets what is first in its way.
+    """Return the path of a ball until it stops, or meets the first thing in its way.
 
     Parameters
     ----------
     name, slide, begin
-        as `Leg` takes them; the ball begins inside the cushions.
+        as for `Leg`; the ball starts inside the cushions.
     table
-        whose cushions and pockets end the way.
+        whose cushions and pockets end the path.
     hit
-        the seconds after which it hits the other ball.
+        the seconds after which the ball hits the other ball.
     """
     radius = slide.ball.radius
     walls = {
@@ -196,7 +197,7 @@ def leg_until(
     }
     cushion = min(time_to(slide, np.array(wall), at + _SLACK) for wall, at in walls.items())
     rest = float(slide.stop_time)
-    # A ball that would only just touch the other has no speed left to hit it with.
+    # A ball that only just reaches the other has no speed left to hit it with.
     if hit <= cushion and hit < rest * (1.0 - 1e-9):
         return Leg(name, slide, begin, begin + hit, "hit")
     if rest <= cushion:
@@ -208,14 +209,14 @@ def leg_until(
 
 
 def time_to(slide: Slide, normal: Floats, level: float) -> float:
-    """Return when a ball first goes past a line, from the near side; infinity where never.
+    """Return when a ball first crosses a line, in seconds; infinity if it never does.
 
     Parameters
     ----------
     slide
-        one ball.
+        one ball, on the near side of the line.
     normal, level
-        the line of the points whose product with `normal` is `level`, in metres.
+        the line: the points whose product with `normal` is `level`, in metres.
     """
     start, rolls, rests = 0.0, float(slide.slide_time), float(slide.stop_time)
     for begin, end in ((start, rolls), (rolls, rests)):
@@ -232,36 +233,36 @@ def time_to(slide: Slide, normal: Floats, level: float) -> float:
 
 
 def place_of(value: Sequence[float], name: str) -> Floats:
-    """Return a place on the table as an array of x and y, or refuse it."""
+    """Return a position on the table as an array, if it is one x and one y."""
     place = numbers(value, name)
     if place.shape != (2,):
         raise InputError(f"{name} has shape {place.shape}; give x and y")
     return place
 
 
-def on_table(position: Floats, name: str, table: Table, radius: float) -> None:
-    """Refuse a ball that is not on the table, or is partly in a cushion."""
+def on_table(position: Floats, name: str, table: PoolTable, radius: float) -> None:
+    """Raise an error if a ball is off the table or overlaps a cushion."""
     x, y = (float(value) for value in position)
     inside = radius - _SLACK <= x <= table.length - radius + _SLACK
     if not (inside and radius - _SLACK <= y <= table.width - radius + _SLACK):
         raise InputError(
-            f"{name} is at ({x:.4g}, {y:.4g}) m; its centre has to be on the table, "
-            f"{radius:.4g} m or more inside {table.length:.4g} by {table.width:.4g} m"
+            f"{name} is at ({x:.4g}, {y:.4g}) m; give a place on the table, {radius:.4g} m or more "
+            f"inside its {table.length:.4g} by {table.width:.4g} m"
         )
 
 
 def _first_time(room: float, pace: float, gain: float) -> float:
-    """Return the first time at which pace t + gain t^2 / 2 passes room from below."""
+    """Return the first time at which pace t + gain t^2 / 2 exceeds room, in seconds."""
     square = pace * pace + 2.0 * gain * room
     if square < 0.0 or (pace <= 0.0 and gain <= 0.0):
         return math.inf
     root = math.sqrt(square)
-    # Of the two forms of the root the one that subtracts nothing.
+    # Of the two forms of the root, the one without a difference, which would lose digits.
     return 2.0 * room / (pace + root) if pace > 0.0 else (root - pace) / gain
 
 
 def _arc(along: float, beside: float) -> float:
-    """Return the integral of sqrt(v^2 + beside^2) by v, from 0 to `along`."""
-    if beside < 1e-100:  # along / beside may be more than a float holds
+    """Return the integral of sqrt(v^2 + beside^2) over v from 0 to `along`."""
+    if beside < 1e-100:  # along / beside may overflow
         return 0.5 * along * abs(along)
     return 0.5 * (along * math.hypot(along, beside) + beside**2 * math.asinh(along / beside))

@@ -1,12 +1,12 @@
-"""What a shot is played with: ball, cloth, table and cue."""
+"""The equipment: ball, cloth, table and cue."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
-from evenbreak.errors import InputError
-from evenbreak.physics.arrays import LARGEST
+from evenbreak.checks import number
+from evenbreak.physics.arrays import LARGEST, LEAST
 from evenbreak.physics.units import GRAVITY, INCH, OUNCE
 
 
@@ -17,14 +17,14 @@ class Ball:
     Parameters
     ----------
     mass
-        kilograms; a pool ball has 5.5 to 6 ounces.
+        kilograms; a pool ball weighs 5.5 to 6 ounces.
     radius
-        metres; a pool ball has a diameter of 2.25 inches, within 0.005.
+        metres; the diameter of a pool ball is 2.25 inches, to within 0.005.
 
     Raises
     ------
     InputError
-        if one is not a finite number above 0.
+        if one is not a number from 1e-50 to 1e50.
 
     Notes
     -----
@@ -65,22 +65,22 @@ class Ball:
 
 @dataclass(frozen=True)
 class Cloth:
-    """The cloth that a ball slides and rolls on, and the gravity that holds it there.
+    """The cloth that a ball slides and rolls on, and the gravity that holds the ball down.
 
     Parameters
     ----------
     mu_slide
         coefficient of sliding friction between ball and cloth.
     mu_roll
-        effective coefficient of rolling resistance: a rolling ball slows down by
-        mu_roll times gravity.
+        effective coefficient of rolling resistance: a rolling ball decelerates at mu_roll
+        times gravity.
     gravity
         metres per second squared.
 
     Raises
     ------
     InputError
-        if one is not a finite number above 0.
+        if one is not a number from 1e-50 to 1e50.
 
     Notes
     -----
@@ -100,26 +100,36 @@ class Cloth:
         _positive(self, "gravity", "metres per second squared")
 
     @property
+    def slide_deceleration(self) -> float:
+        """How fast a ball loses speed while it slides, in m/s^2."""
+        return self.mu_slide * self.gravity
+
+    @property
+    def roll_deceleration(self) -> float:
+        """How fast a ball loses speed while it rolls, in m/s^2."""
+        return self.mu_roll * self.gravity
+
+    @property
     def table_speed(self) -> float:
-        """The table speed, 1 / mu_roll: how slowly a rolling ball comes to rest."""
+        """The table speed, 1 / mu_roll: the higher, the farther a ball rolls."""
         return 1.0 / self.mu_roll
 
 
 @dataclass(frozen=True)
-class Table:
-    """The playing area between the noses of the cushions.
+class PoolTable:
+    """A table: the playing area between the noses of the cushions.
 
     Parameters
     ----------
     length, width
-        metres; a nine-foot table has 100 by 50 inches.
+        metres; 100 by 50 inches on a nine-foot table.
 
     Raises
     ------
     InputError
-        if one is not a finite number above 0.
+        if one is not a number from 1e-50 to 1e50.
 
-    >>> round(Table().length / INCH, 9)
+    >>> round(PoolTable().length / INCH, 9)
     100.0
     """
 
@@ -138,15 +148,15 @@ class Cue:
     Parameters
     ----------
     mass
-        kilograms; 18 ounces are usual.
+        kilograms; 18 ounces is typical.
     tip_friction
-        coefficient of static friction between tip and ball; beyond the offset that it
-        allows, the tip slips: a miscue (P1.7).
+        coefficient of static friction between tip and ball; it sets the offset beyond which
+        the tip slips, a miscue (P1.7).
 
     Raises
     ------
     InputError
-        if one is not a finite number above 0.
+        if one is not a number from 1e-50 to 1e50.
 
     >>> round(Cue().mass / OUNCE, 9)
     18.0
@@ -161,16 +171,7 @@ class Cue:
 
 
 def _positive(thing: object, name: str, wanted: str) -> None:
-    """Make a field a float, or refuse it."""
-    value = getattr(thing, name)
-    try:
-        number = math.nan if isinstance(value, str | bytes) else float(value)
-    except (TypeError, ValueError, OverflowError):
-        number = math.nan
-    if not (0.0 < number < math.inf):
-        raise InputError(f"{name} is {value!r}; give a finite number above 0 ({wanted})")
-    if not (1.0 / LARGEST <= number <= LARGEST):
-        raise InputError(
-            f"{name} is {value!r}; give a number from {1.0 / LARGEST:g} to {LARGEST:g}"
-        )
-    object.__setattr__(thing, name, number)
+    """Make a field a float, if it is a number within the limits."""
+    wanted = f"a number from {LEAST:g} to {LARGEST:g} ({wanted})"
+    found = number(getattr(thing, name), name, low=LEAST, high=LARGEST, wanted=wanted)
+    object.__setattr__(thing, name, found)

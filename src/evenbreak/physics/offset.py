@@ -1,35 +1,46 @@
-"""Where the tip meets the ball, and the spin that it gives (section 3, P3.4 to P3.11).
+"""Where the tip meets the ball, and the spin that this gives (section 3, P3.4 to P3.11).
 
-Seen from behind the cue ball, a contact point is (y, z): y across, to the left, z above the
-cloth, both in units of the ball's radius R, so that the centre is (0, 1). An offset from the
-centre is b / R; it is below 0 for draw. Spin is J = R omega / V, and its sign follows the
-right-handed frame: J_y above 0 is topspin; J_z above 0, counterclockwise from above, comes
-from a tip to the right, y below 0.
+Seen from behind the cue ball, a contact point is (y, z): y to the left and z above the cloth,
+both in units of the ball's radius R, so the centre is (0, 1). An offset from the centre is b / R,
+below 0 for draw. Spin is J = R omega / V, with the signs of a right-handed frame: J_y above 0 is
+topspin; J_z above 0, counterclockwise from above, comes from a tip to the right, y below 0.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
+from evenbreak.checks import kind_of, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import numbers, plain, positive, together
+from evenbreak.physics.arrays import LEAST, numbers, positive
 from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
 
 NATURAL_ROLL_OFFSET = 0.4
-"""The height above the centre, over R, at which a ball is struck into natural roll (P3.5)."""
+"""The height above the centre, over R, at which a hit gives natural roll at once (P3.5).
+
+In exercise 3.1 a stripe struck there, with the cue in its plane, seems to stand still.
+"""
 
 
 class ContactPoint(NamedTuple):
-    """A point of the ball as seen from behind: y to the left and z above the cloth, over R."""
+    """A point of the ball seen from behind: y to the left and z above the cloth, over R."""
 
     y: Any
     z: Any
 
 
+@overload
+def spin_of_offset(offset: float) -> float: ...
+
+
+@overload
+def spin_of_offset(offset: ArrayLike) -> Floats: ...
 def spin_of_offset(offset: Any) -> Any:
     """Return the spin J = R omega / V that an offset b/R gives (P3.4).
 
@@ -39,8 +50,14 @@ def spin_of_offset(offset: Any) -> Any:
     return plain(2.5 * _offset(offset))
 
 
+@overload
+def offset_for(spin: float) -> float: ...
+
+
+@overload
+def offset_for(spin: ArrayLike) -> Floats: ...
 def offset_for(spin: Any) -> Any:
-    """Return the offset b/R that gives a spin J; beyond 1 the tip would miss the ball (P3.4).
+    """Return the offset b/R that gives a spin J; beyond 1 the tip misses the ball (P3.4).
 
     >>> offset_for(1.0)
     0.4
@@ -48,8 +65,14 @@ def offset_for(spin: Any) -> Any:
     return plain(numbers(spin, "spin") / 2.5)
 
 
+@overload
+def strike_side(y: float) -> float: ...
+
+
+@overload
+def strike_side(y: ArrayLike) -> Floats: ...
 def strike_side(y: Any) -> Any:
-    """Return the sidespin J_z just after the tip has struck at y, at any height (P3.6).
+    """Return the sidespin J_z just after a hit at y, at any height (P3.6).
 
     >>> strike_side(-0.4)
     1.0
@@ -57,13 +80,19 @@ def strike_side(y: Any) -> Any:
     return plain(-2.5 * _offset(y, "y"))
 
 
+@overload
+def roll_side(y: float, z: float) -> float: ...
+
+
+@overload
+def roll_side(y: ArrayLike, z: ArrayLike) -> Floats: ...
 def roll_side(y: Any, z: Any) -> Any:
-    """Return the sidespin J_z once the ball that was struck at (y, z) rolls (P3.6).
+    """Return the sidespin J_z of a ball struck at (y, z), once it rolls (P3.6).
 
     Notes
     -----
-    Source: P3.6, 7/2 y/z without its sign: the points of equal sidespin lie on straight lines
-    through (0, 0), where the ball stands on the cloth.
+    Source: P3.6, where the size is 7/2 y/z: points of equal sidespin lie on straight lines
+    through (0, 0), where the ball touches the cloth.
 
     >>> roll_side(-0.5, 0.5)
     3.5
@@ -74,9 +103,9 @@ def roll_side(y: Any, z: Any) -> Any:
 
 
 def small_circle_point(side: Any) -> ContactPoint:
-    """Return the point nearest to the centre that gives a sidespin once the ball rolls (P3.7).
+    """Return the contact point nearest to the centre for a sidespin in natural roll (P3.7).
 
-    It lies on the circle of radius R/2 that touches the ball's centre and the cloth.
+    It lies on the circle of radius R/2 through the centre of the ball and the cloth.
 
     Parameters
     ----------
@@ -91,10 +120,16 @@ def small_circle_point(side: Any) -> ContactPoint:
     return ContactPoint(plain(-slope * z), plain(z))
 
 
-def largest_roll_side(offset: Any) -> Any:
-    """Return the largest sidespin in natural roll that an offset from the centre allows (P3.8).
+@overload
+def largest_roll_side(offset: float) -> float: ...
 
-    At the miscue offset of a tip it is 7/2 of the tip's friction.
+
+@overload
+def largest_roll_side(offset: ArrayLike) -> Floats: ...
+def largest_roll_side(offset: Any) -> Any:
+    """Return the largest sidespin in natural roll for an offset from the centre (P3.8).
+
+    At the miscue limit of a tip it is 7/2 of the tip's friction.
 
     >>> round(largest_roll_side(2.0**-0.5), 9)
     3.5
@@ -103,47 +138,49 @@ def largest_roll_side(offset: Any) -> Any:
 
 
 def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth) -> ContactPoint:
-    """Return where a standing ball would have to be struck to move as this one does now (P3.9).
+    """Return where a ball at rest would have to be struck to move as this one does now (P3.9).
 
-    As the ball slides, the point moves along a straight line through (0, 0), out from a lower
-    point and in from a higher one, until natural roll begins at z = 7/5.
+    While the ball slides, this point moves along a straight line through (0, 0), outwards from
+    a low point and inwards from a high one, until natural roll begins at z = 7/5.
 
     Parameters
     ----------
     contact
-        where it was struck.
+        where the ball was struck.
     speed
-        V_0 just after that, m/s, above 0.
+        V_0 just after that, in m/s, above 0.
     time
         seconds since then.
     cloth
-        that it slides on.
+        on which the ball slides.
 
     >>> now = effective_contact(ContactPoint(0.2, 0.8), 2.0, 0.1, Cloth(gravity=10.0))
     >>> round(now.y, 4), round(now.z, 4)
     (0.2222, 0.8889)
     """
+    kind_of(contact, "contact", ContactPoint)
     y, z = _offset(contact.y, "y"), _height(contact.z)
     speed, time = positive(speed, "speed"), numbers(time, "time", low=0.0)
     together(y=y, z=z, speed=speed, time=time)
-    slowing = cloth.mu_slide * cloth.gravity
+    slowing = kind_of(cloth, "cloth", Cloth).slide_deceleration
     # Natural roll ends it at 5/7 z of the speed, slower or faster than the ball began.
     rolls = 5.0 / 7.0 * z
     lost = np.minimum(slowing * time / speed, np.abs(1.0 - rolls))
     now = 1.0 - np.sign(1.0 - rolls) * lost
-    # What is lost by then may round to all there is.
+    # By then all of the speed may be lost to rounding, so it is kept on its side of `rolls`.
     stretch = 1.0 / np.where(rolls < 1.0, np.maximum(now, rolls), np.minimum(now, rolls))
     return ContactPoint(plain(y * stretch), plain(z * stretch))
 
 
 def contact_for_later(later: ContactPoint, z: Any) -> ContactPoint:
-    """Return where to strike at a height z, so that the ball comes to move as if struck `later`.
+    """Return where to strike at a height z so that the ball later moves as if struck at `later`.
 
     The two points and (0, 0) lie on one line (P3.9).
 
     >>> contact_for_later(ContactPoint(0.3, 1.0), 0.7)
     ContactPoint(y=0.21, z=0.7)
     """
+    kind_of(later, "later", ContactPoint)
     z, height, y = _height(z), _height(later.z, "later.z"), numbers(later.y, "later.y")
     together(**{"later.y": y, "later.z": height, "z": z})
     # Where sidespin lasts, `later` may lie beyond the ball; what the tip can strike may not.
@@ -152,17 +189,17 @@ def contact_for_later(later: ContactPoint, z: Any) -> ContactPoint:
 
 
 def gearing_tip(cut: Any, z: Any = 1.0 + NATURAL_ROLL_OFFSET) -> ContactPoint:
-    """Return where to strike so that the ball, once it rolls, hits another without throw (P4.27).
+    """Return where to strike so that the ball, once it rolls, throws nothing (P4.27).
 
-    The points for one cut lie on a straight line through (0, 0). A ball that hits at once, before
-    the cloth slows it, is struck at the y of z = 7/5, at any height.
+    The points for one cut lie on a straight line through (0, 0). If the ball hits at once, before
+    the cloth slows it, strike at the y of z = 7/5, at any height.
 
     Parameters
     ----------
     cut
         cut angle to the right, in radians.
     z
-        the height at which to strike, over R; 7/5, natural roll at once, where it is not given.
+        the height at which to strike, over R; by default 7/5, natural roll at once.
 
     >>> tip = gearing_tip(np.pi / 6.0)
     >>> round(tip.y, 9), round(tip.z, 9)
@@ -173,17 +210,23 @@ def gearing_tip(cut: Any, z: Any = 1.0 + NATURAL_ROLL_OFFSET) -> ContactPoint:
     return ContactPoint(plain(-side * z / 3.5), plain(z))
 
 
+@overload
+def stun_offset(speed: float, distance: float, cloth: Cloth) -> float: ...
+
+
+@overload
+def stun_offset(speed: ArrayLike, distance: ArrayLike, cloth: Cloth) -> Floats: ...
 def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
-    """Return how far below the centre to strike, so that backspin is gone after a distance.
+    """Return how far below the centre to strike so that the backspin is gone after a distance.
 
     Parameters
     ----------
     speed
-        of the ball just after the tip, m/s.
+        of the ball just after the tip, in m/s.
     distance
-        metres to where it shall be a stun shot.
+        metres to where the ball should be a stun shot.
     cloth
-        that it slides on.
+        on which the ball slides.
 
     Returns
     -------
@@ -192,7 +235,7 @@ def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
     Raises
     ------
     InputError
-        if the ball would stop before, so that no offset does it.
+        if the ball stops before that at any offset.
 
     Notes
     -----
@@ -204,25 +247,32 @@ def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
     speed = positive(speed, "speed")
     distance = numbers(distance, "distance", low=0.0)
     together(speed=speed, distance=distance)
-    lost = 2.0 * cloth.mu_slide * cloth.gravity * distance / speed**2
+    slowing = kind_of(cloth, "cloth", Cloth).slide_deceleration
+    lost = 2.0 * slowing * distance / speed**2
     if np.any(lost > 1.0):
         raise InputError(
             "distance is more than a ball of this speed slides; give a higher speed, or less "
-            f"than {float(np.min(speed)) ** 2 / (2.0 * cloth.mu_slide * cloth.gravity):.4g} m"
+            f"than {float(np.min(speed)) ** 2 / (2.0 * slowing):.4g} m"
         )
     # 1 - sqrt(1 - lost), written so that small offsets keep their digits.
     return plain(-lost / (1.0 + np.sqrt(1.0 - lost)))
 
 
+@overload
+def ball_speed_ratio(offset: float, ball_ratio: float) -> float: ...
+
+
+@overload
+def ball_speed_ratio(offset: ArrayLike, ball_ratio: ArrayLike) -> Floats: ...
 def ball_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
-    """Return the speed of the ball over that of the stick, struck off centre (P3.10).
+    """Return the speed of the ball over that of the stick, for a hit off centre (P3.10).
 
     Parameters
     ----------
     offset
         b/R, in any direction.
     ball_ratio
-        mass of the ball over mass of the stick, 1/3 for 6 and 18 ounces.
+        mass of the ball over mass of the stick, such as 1/3 for 6 and 18 ounces.
 
     >>> round(ball_speed_ratio(0.0, 1 / 3), 9), round(ball_speed_ratio(0.3, 1 / 3), 4)
     (1.5, 1.2834)
@@ -232,8 +282,14 @@ def ball_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     return plain(2.0 / (1.0 + ratio + 2.5 * offset**2))
 
 
+@overload
+def roll_speed_ratio(offset: float, ball_ratio: float) -> float: ...
+
+
+@overload
+def roll_speed_ratio(offset: ArrayLike, ball_ratio: ArrayLike) -> Floats: ...
 def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
-    """Return the speed of natural roll over that of the stick, struck so far up (P3.11).
+    """Return the speed of natural roll over that of the stick, by offset up or down (P3.11).
 
     >>> round(roll_speed_ratio(0.3, 1 / 3), 4)
     1.1917
@@ -242,8 +298,14 @@ def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     return plain((5.0 + 5.0 * _offset(offset)) / 7.0 * ratio)
 
 
+@overload
+def best_lag_offset(ball_ratio: float) -> float: ...
+
+
+@overload
+def best_lag_offset(ball_ratio: ArrayLike) -> Floats: ...
 def best_lag_offset(ball_ratio: Any) -> Any:
-    """Return the height above the centre, b/R, from which a ball rolls farthest (P3.11).
+    """Return the offset above the centre, b/R, at which a ball rolls farthest (P3.11).
 
     There the length of a lag depends least on where the tip meets the ball.
 
@@ -254,7 +316,7 @@ def best_lag_offset(ball_ratio: Any) -> Any:
 
 
 def _height(value: Any, name: str = "z") -> Any:
-    return numbers(value, name, low=0.0, high=2.0, open_low=True)
+    return numbers(value, name, low=LEAST, high=2.0)
 
 
 def _offset(value: Any, name: str = "offset") -> Any:

@@ -1,9 +1,9 @@
-"""The six pockets of a table, as gaps in its cushions that a ball fits through or does not.
+"""The six pockets of a table, as gaps between the cushions that a ball fits through or not.
 
-The table's corner is (0, 0), x runs along it from the head cushion to the foot cushion and y
-to the left of that. A pocket is a straight mouth between the noses of two cushions: across
-the corner, or along the side. The source text has no pockets; the mouths are 4 1/2 inches at
-the corners and 5 at the sides, the smallest that are usual.
+A corner of the table is (0, 0); x runs along it from the head cushion to the foot cushion, and y
+to the left of that. A pocket is a straight mouth between the noses of two cushions: across the
+corner, or along the side. The source text has no pockets; the mouths here are 4 1/2 inches at the
+corners and 5 inches at the sides, the tightest in common use.
 """
 
 from __future__ import annotations
@@ -11,7 +11,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from evenbreak.physics.objects import Table
+from evenbreak.checks import kind_of
+from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.units import INCH
 
 CORNER_MOUTH = 4.5 * INCH
@@ -25,18 +26,18 @@ POCKET_NAMES = ("head-right", "side-right", "foot-right", "foot-left", "side-lef
 
 
 class Pocket(NamedTuple):
-    """A pocket: the middle of its mouth, the unit vector that leads into it, and its width.
+    """A pocket: where its mouth is, the direction into it, and its width.
 
     Parameters
     ----------
     name
         one of `POCKET_NAMES`.
     x, y
-        the middle of the mouth, metres.
+        the middle of the mouth, in metres.
     into_x, into_y
-        the direction straight into it.
+        the unit vector straight into it.
     mouth
-        between the noses of the cushions, metres.
+        its width between the noses of the cushions, in metres.
     """
 
     name: str
@@ -52,13 +53,13 @@ class Pocket(NamedTuple):
         Parameters
         ----------
         x, y
-            the ball's centre, no farther away than the mouth is wide.
+            the ball's centre in metres, no farther away than the mouth is wide.
         along_x, along_y
-            its direction, of any length.
+            its direction, a vector of any length.
         radius
-            of the ball.
+            of the ball, in metres.
 
-        >>> pocket = pockets(Table())[1]
+        >>> pocket = pockets(PoolTable())[1]
         >>> pocket.takes(pocket.x, 0.03, 0.0, -1.0, 0.0286)
         True
         >>> pocket.takes(pocket.x, 0.03, 1.0, -0.3, 0.0286)
@@ -72,12 +73,11 @@ class Pocket(NamedTuple):
         return beside <= 0.5 * self.width_from(along_x, along_y) - radius + 1e-9
 
     def width_from(self, along_x: float, along_y: float) -> float:
-        """Return how wide the mouth is for a ball that comes in this direction, in metres.
+        """Return how wide the mouth is for a ball coming in this direction, in metres.
 
-        A ball that comes at a slant finds it as narrow as it looks from there; from behind
-        it is below 0.
+        At an angle it is as narrow as it looks from there; from behind it is below 0.
 
-        >>> pocket = pockets(Table())[1]
+        >>> pocket = pockets(PoolTable())[1]
         >>> pocket.width_from(0.0, -2.0) == pocket.mouth, pocket.width_from(1.0, 0.0)
         (True, 0.0)
         """
@@ -85,12 +85,13 @@ class Pocket(NamedTuple):
         return self.mouth * facing / math.hypot(along_x, along_y)
 
 
-def pockets(table: Table) -> tuple[Pocket, ...]:
+def pockets(table: PoolTable) -> tuple[Pocket, ...]:
     """Return the six pockets of a table, in the order of `POCKET_NAMES`.
 
-    >>> [pocket.name for pocket in pockets(Table())][2]
+    >>> [pocket.name for pocket in pockets(PoolTable())][2]
     'foot-right'
     """
+    kind_of(table, "table", PoolTable)
     slant = math.sqrt(0.5)
     inset = 0.5 * slant * CORNER_MOUTH
     far, across, middle = table.length - inset, table.width - inset, 0.5 * table.length

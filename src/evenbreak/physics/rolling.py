@@ -1,8 +1,8 @@
-"""The energy of a rolling ball, and rolling elsewhere (section 2, P2.4 to P2.6).
+"""The energy of a rolling ball, other shapes, and spin without speed (section 2, P2.4 to P2.6).
 
-A round body of inertia k M R^2 that rolls without slipping carries (1 + k) times the energy of
-its motion, k = 2/5 for a ball. On a slope it is as if only 1 / (1 + k) of the slope's pull
-acted, and so the rolling resistance that one body shows tells that of another.
+A round body with inertia k M R^2 that rolls without slipping has (1 + k) times the energy of its
+motion; k = 2/5 for a ball. On a slope it accelerates as if only 1 / (1 + k) of the pull acted,
+so the rolling resistance measured with one shape gives that of another.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.arrays import numbers, plain, positive, together
+from evenbreak.checks import kind_of, plain, together
+from evenbreak.physics.arrays import numbers, positive
 from evenbreak.physics.objects import Ball, Cloth
 from evenbreak.physics.units import GRAVITY, INCH
 
@@ -23,23 +24,23 @@ MOON_GRAVITY = 63.8 * INCH
 SHAPES: Mapping[str, float] = MappingProxyType(
     {"ball": 0.4, "cylinder": 0.5, "hollow ball": 2.0 / 3.0, "ring": 1.0}
 )
-"""The inertia of round bodies about their axis of rolling, in units of M R^2."""
+"""The moment of inertia of round bodies about their rolling axis, in units of M R^2."""
 
 
 class Energy(NamedTuple):
-    """Kinetic energy in joules, of motion and of spin."""
+    """Kinetic energy in joules: of the motion and of the spin."""
 
     translational: Any
     rotational: Any
 
     @property
     def total(self) -> Any:
-        """The two together."""
+        """The sum of the two."""
         return self.translational + self.rotational
 
 
 def kinetic_energy(ball: Ball, speed: Any, rim_speed: Any) -> Energy:
-    """Return the energy of a ball of this speed and this rim speed R omega, both in m/s.
+    """Return the energy of a ball with a speed and a rim speed R omega, both in m/s.
 
     Notes
     -----
@@ -49,24 +50,26 @@ def kinetic_energy(ball: Ball, speed: Any, rim_speed: Any) -> Energy:
     >>> round(energy.translational / energy.total, 6)
     0.714286
     """
+    mass = kind_of(ball, "ball", Ball).mass
     speed, rim_speed = numbers(speed, "speed"), numbers(rim_speed, "rim_speed")
     together(speed=speed, rim_speed=rim_speed)
-    return Energy(plain(0.5 * ball.mass * speed**2), plain(0.2 * ball.mass * np.square(rim_speed)))
+    return Energy(plain(0.5 * mass * speed**2), plain(0.2 * mass * np.square(rim_speed)))
 
 
 def rolling_friction(mu_roll: Any, *, shape: float = SHAPES["ball"]) -> Any:
-    """Return the coefficient of rolling, sin of the slope, of what has an effective one.
+    """Return the coefficient of rolling friction, from the effective one of a shape.
 
     Parameters
     ----------
     mu_roll
-        the effective coefficient, slowing over gravity, which differs between shapes.
+        the effective coefficient, deceleration over gravity, which depends on the shape.
     shape
-        the inertia in units of M R^2.
+        the moment of inertia in units of M R^2.
 
     Notes
     -----
-    Source: section 2; 7/5 mu_roll for a ball. It is the same for every shape of the material.
+    Source: section 2; 7/5 mu_roll for a ball. It is the same for every shape of one material,
+    and equals the sine of the slope on which the body rolls at constant speed.
 
     >>> round(rolling_friction(1 / 96.7), 4)
     0.0145
@@ -83,16 +86,16 @@ def rolling_time(
     shape: float = SHAPES["ball"],
     gravity: float = GRAVITY,
 ) -> Any:
-    """Return how long a round body takes to roll a distance to rest, in seconds (P2.5).
+    """Return how long a round body takes to roll a given distance and stop, in seconds (P2.5).
 
     Parameters
     ----------
     distance
         metres.
     friction
-        the coefficient of rolling that `rolling_friction` tells.
+        the coefficient of rolling friction, as from `rolling_friction`.
     shape
-        the inertia in units of M R^2.
+        the moment of inertia in units of M R^2.
     gravity
         metres per second squared, such as `MOON_GRAVITY`.
 
@@ -107,16 +110,16 @@ def rolling_time(
 
 
 class SpinStop(NamedTuple):
-    """A ball that stands and spins, until it rests: times in seconds, distances in metres.
+    """A ball that starts with spin but no speed, until it stops.
 
     Parameters
     ----------
     roll_speed
-        of natural roll, m/s.
+        of natural roll, in m/s.
     slide_time, slide_distance
-        until natural roll begins.
+        seconds and metres until natural roll begins.
     roll_time, roll_distance
-        from then on until it rests.
+        seconds and metres from then until it stops.
     """
 
     roll_speed: Any
@@ -127,32 +130,33 @@ class SpinStop(NamedTuple):
 
     @property
     def distance(self) -> Any:
-        """How far the ball goes in all, in metres."""
+        """The total distance, in metres."""
         return self.slide_distance + self.roll_distance
 
 
 def spin_stop(rim_speed: Any, cloth: Cloth) -> SpinStop:
-    """Return how far a standing ball goes by its topspin or draw alone (P2.6).
+    """Return how far topspin or draw alone takes a ball (P2.6).
 
-    That is the cue ball after a full hit: its speed is gone, its spin is not.
+    For example the cue ball after a full hit, which has lost its speed but not its spin.
 
     Parameters
     ----------
     rim_speed
         R omega in m/s, of either sign.
     cloth
-        that it slides and rolls on.
+        on which the ball slides and rolls.
 
     Notes
     -----
-    Source: P2.6: the distance goes with the square of the spin.
+    Source: P2.6: the distance grows with the square of the spin.
 
     >>> stop = spin_stop(90.0, Cloth(mu_slide=0.2, mu_roll=0.0103, gravity=386.0))
     >>> round(stop.slide_distance, 4), round(stop.roll_distance, 4), round(stop.distance, 4)
     (4.2825, 83.1562, 87.4387)
     """
     speed = 2.0 / 7.0 * np.abs(numbers(rim_speed, "rim_speed"))
-    pull, resistance = cloth.mu_slide * cloth.gravity, cloth.mu_roll * cloth.gravity
+    kind_of(cloth, "cloth", Cloth)
+    pull, resistance = cloth.slide_deceleration, cloth.roll_deceleration
     parts = (
         speed,
         speed / pull,

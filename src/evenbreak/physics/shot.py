@@ -1,13 +1,12 @@
-"""A shot traced whole: the tip, the slide, the hit, and both balls until they rest.
+"""A whole shot: the tip, the slide, the hit, and both balls until they stop.
 
-The cue ball goes straight, since a level cue turns it about level axes across its way and
-about the upright one only. It slides and rolls until it touches the object ball; the spin that
-it has by then goes into the hit; after that both balls slide, the cue ball on a parabola, and
-roll to rest. The way of a ball ends at the first cushion or pocket: there are no cushions in
-the model. A ball that friction makes hop stays on the cloth here, and the energy of its hop is
-lost at the hit.
+The cue ball goes straight, since a level cue gives it no spin about its direction of travel. It
+slides and rolls until it touches the object ball and enters the hit with the spin that is left;
+then both balls slide, the cue ball on a parabola, and roll until they stop. The path of a ball ends
+at the first cushion or pocket: the model has no rebounds. A ball that friction makes hop stays on
+the cloth here, and the energy of the hop counts as lost at the hit.
 
-On the table (0, 0) is a corner, x runs along it and y to the left of that.
+On the table (0, 0) is a corner, x runs along the table and y to the left of that.
 """
 
 from __future__ import annotations
@@ -18,52 +17,57 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from evenbreak.checks import one_of
+from evenbreak.arrays import Floats
+from evenbreak.checks import kind_of, kind_or_usual, number, one_of
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers
+from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, place_of, time_to
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import Energy
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
-from evenbreak.physics.throw import BALL_FRICTION, FRICTION_LAWS
+from evenbreak.physics.throw import FRICTION_LAWS
 
 _ROUNDING = 1e-12
-"""By how much, in diameters, the distance of balls that touch may be off by reckoning it."""
+"""The rounding error allowed in the distance between touching balls, in diameters."""
 
 
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """A shot from the tip until both balls rest, or the table ends.
+    """A shot from the tip until both balls stop or reach a cushion or a pocket.
 
     Parameters
     ----------
     strike
         how the cue ball was struck.
     cloth, table
-        what it is played on.
+        on which it is played.
     direction
         of the shot on the table, in radians from x, counterclockwise.
     cut
-        the cut angle in radians, above 0 where the object ball is cut to the right.
+        the cut angle in radians, above 0 if the object ball is cut to the right.
     object_position
-        where the object ball stands at first, metres; shape (2,).
+        where the object ball is at first, in metres; shape (2,).
+    mu, friction
+        the friction between the balls, and its law.
     approach
-        the cue ball until the hit, or until what kept it from one.
+        the cue ball's path until the hit, or until it ends without one.
     collision
-        the hit, for a cut to the left its mirror image; None where there is none.
+        the hit; None if there is none.
     cue_leg, object_leg
-        the balls after it; None where there is none.
+        the paths of the balls after the hit; None if there is none.
     """
 
     strike: Strike
     cloth: Cloth
-    table: Table
+    table: PoolTable
     direction: float
     cut: float
     object_position: Floats
+    mu: float | SlipFriction
+    friction: str
     approach: Leg
     collision: Collision | None
     cue_leg: Leg | None
@@ -76,12 +80,12 @@ class Shot:
 
     @property
     def at_hit(self) -> State | None:
-        """The cue ball just before the hit."""
+        """The cue ball just before the hit; None without a hit."""
         return self.approach.state(self.approach.end) if self.reached else None
 
     @property
     def ghost_position(self) -> Floats:
-        """Where the cue ball's centre is at the hit, or would be; shape (2,)."""
+        """Where the cue ball's centre is at the hit, or would be, in metres; shape (2,)."""
         return self.object_position - self.strike.ball.diameter * self.line_of_centres
 
     @property
@@ -96,25 +100,25 @@ class Shot:
 
     @property
     def throw(self) -> float | None:
-        """By how much the object ball leaves the line of centres, in radians.
+        """The angle between the object ball's path and the line of centres, in radians.
 
-        Above 0 where it is thrown forward, towards the direction of the shot. None without
+        Above 0 if the ball is thrown forward, towards the direction of the shot. None without
         a hit.
         """
         return None if self.collision is None else float(self.collision.throw)
 
     @property
     def object_direction(self) -> float | None:
-        """The direction in which the object ball leaves, as `direction`; None without a hit."""
+        """The direction in which the object ball leaves, in radians from x; None without a hit."""
         turn = math.copysign(1.0, self.cut)
         return None if self.throw is None else self.direction - self.cut + turn * self.throw
 
     @property
     def deflection(self) -> float | None:
-        """The angle between the shot and the cue ball's path once it rolls, in radians.
+        """The angle between the shot and the cue ball's path once the ball rolls, in radians.
 
-        Above 0 away from the object ball's side. None where there is no hit, or where the
-        cue ball stands still after it.
+        Above 0 on the side away from the object ball. None if there is no hit, or if the cue
+        ball stands still after it.
         """
         if self.cue_leg is None:
             return None
@@ -125,19 +129,19 @@ class Shot:
 
     @property
     def legs(self) -> tuple[Leg, ...]:
-        """The ways of the balls: the cue ball's until the hit, its own after, the object ball's."""
+        """The paths: the cue ball's before the hit, the cue ball's after it, the object ball's."""
         return tuple(
             leg for leg in (self.approach, self.cue_leg, self.object_leg) if leg is not None
         )
 
     @property
     def phases(self) -> tuple[Phase, ...]:
-        """What each ball does, one after the other."""
+        """The phases of all paths, path by path."""
         return tuple(phase for leg in self.legs for phase in leg.phases)
 
     @property
     def end(self) -> float:
-        """When the last ball rests, or leaves what is modelled, in seconds."""
+        """When the last path ends, in seconds."""
         return max(leg.end for leg in self.legs)
 
     def energy(self, time: float) -> Energy:
@@ -155,10 +159,10 @@ def shot(
     distance: float,
     *,
     cloth: Cloth | None = None,
-    table: Table | None = None,
+    table: PoolTable | None = None,
     cue_ball: Sequence[float] | None = None,
     direction: float = 0.0,
-    mu: float = BALL_FRICTION,
+    mu: float | SlipFriction = BALL_FRICTION,
     friction: str = "limited",
 ) -> Shot:
     """Trace a shot at an object ball.
@@ -166,29 +170,29 @@ def shot(
     Parameters
     ----------
     strike
-        one strike that is no miscue; the object ball is like its ball.
+        one strike, not a miscue; the object ball is equal to its ball.
     cut
         the cut angle in radians, above 0 to the right and below 0 to the left, less than a
         right angle either way.
     distance
-        between the centres of the two balls at first, metres.
+        between the centres of the two balls at first, in metres.
     cloth, table
-        a cloth of speed 100 and a nine-foot table where they are not given.
+        by default a cloth of speed 100 and a nine-foot table.
     cue_ball
-        where its centre is, metres; on the middle of the head string where it is not given.
+        where its centre is, in metres; by default on the middle of the head string.
     direction
-        of the shot, in radians from x, the way along the table.
+        of the shot, in radians from x, which runs along the table.
     mu, friction
-        as `collide` takes them.
+        as for `collide`.
 
     Raises
     ------
     InputError
-        if a number is out of range, the strike a miscue, or a ball not on the table.
+        if a number is out of range, the strike is a miscue, or a ball is not on the table.
 
     Notes
     -----
-    Source: P3.10, P2.1 to P2.3 and P4.2, one after the other.
+    Source: P3.10, P2.1 to P2.3 and P4.2, one after another.
 
     >>> from evenbreak.physics.strike import strike
     >>> from evenbreak.physics.units import INCH
@@ -198,16 +202,16 @@ def shot(
     >>> [leg.ending for leg in found.legs], round(math.degrees(found.deflection), 1)
     (['hit', 'rest', 'rest'], 35.7)
     """
-    cloth, table = cloth or Cloth(), table or Table()
+    cloth, table = kind_or_usual(cloth, "cloth", Cloth), kind_or_usual(table, "table", PoolTable)
     sound_strike(strike)
-    # Also where no ball is hit, and nothing asks for them.
+    # Check these even if no ball is hit.
     one_of(friction, "friction", FRICTION_LAWS)
-    mu = one_number(mu, "mu", low=0.0)
-    cut, direction = one_number(cut, "cut"), one_number(direction, "direction")
+    mu = one_friction(mu)
+    cut, direction = number(cut, "cut"), number(direction, "direction")
     if abs(cut) >= 0.5 * math.pi:
-        raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2, not those")
+        raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2")
     ball = strike.ball
-    travel = travel_for(cut, one_number(distance, "distance"), ball.diameter)
+    travel = travel_for(cut, number(distance, "distance"), ball.diameter)
     if cue_ball is None:
         cue_ball = (0.25 * table.length, 0.5 * table.width)
     place = place_of(cue_ball, "cue_ball")
@@ -224,23 +228,21 @@ def shot(
     cue_leg = object_leg = None
     if approach.ending == "hit":
         found = _collision(approach, cut, mu, friction)
-        turn = (math.copysign(1.0, cut), direction)
         after = {
             "cue ball": (struck, found.cue_velocity, found.cue_spin),
             "object ball": (standing, found.object_velocity, found.object_spin),
         }
         cue_leg, object_leg = (
-            leg_until(name, _set_off(ball, cloth, *state, *turn), approach.end, table)
+            leg_until(name, _set_off(ball, cloth, *state, direction), approach.end, table)
             for name, state in after.items()
         )
-    return Shot(
-        strike, cloth, table, direction, cut, standing, approach, found, cue_leg, object_leg
-    )
+    setting = (strike, cloth, table, direction, cut, standing, mu, friction)
+    return Shot(*setting, approach, found, cue_leg, object_leg)
 
 
 def sound_strike(strike: Strike) -> None:
-    """Refuse a strike that is several, or a miscue."""
-    if np.ndim(strike.speed):
+    """Raise an error if there is more than one strike, or it is a miscue."""
+    if np.ndim(kind_of(strike, "strike", Strike).speed):
         raise InputError(f"strike is {np.size(strike.speed)} strikes; give one")
     if strike.miscue:
         raise InputError(
@@ -251,22 +253,22 @@ def sound_strike(strike: Strike) -> None:
 
 
 def travel_for(cut: float, distance: float, diameter: float) -> float:
-    """Return how far the cue ball goes to the hit, from the distance between the centres.
+    """Return how far the cue ball travels to the hit, in the unit of the two lengths.
 
     Parameters
     ----------
     cut
-        in radians.
+        cut angle in radians.
     distance, diameter
-        of the centres, and of the balls, in any unit of length.
+        between the centres, and of the balls, in any unit of length.
 
     >>> travel_for(0.0, 10.0, 2.0)
     8.0
     """
     if distance < diameter * (1.0 - _ROUNDING):
         raise InputError(
-            f"distance is {distance:.4g} m between the centres; give {diameter:.4g} m, where "
-            "the balls touch, or more"
+            f"distance is {distance:.4g} m between the centres; give {diameter:.4g} m "
+            "(where the balls touch) or more"
         )
     distance = max(distance, diameter)
     sideways = diameter * math.sin(cut)
@@ -274,7 +276,7 @@ def travel_for(cut: float, distance: float, diameter: float) -> float:
 
 
 def spin_ratios(state: State, radius: float) -> tuple[float, float]:
-    """Return J_y and J_z of a ball that moves along its way as it was struck.
+    """Return J_y and J_z of a ball that moves in a straight line.
 
     >>> ball = State(0.0, np.zeros(2), np.array([2.0, 0.0]), np.array([0.0, 40.0, -8.0]))
     >>> spin_ratios(ball, 0.025)
@@ -284,15 +286,11 @@ def spin_ratios(state: State, radius: float) -> tuple[float, float]:
     return float(radius * around / state.speed), float(radius * state.spin[2] / state.speed)
 
 
-def _collision(approach: Leg, cut: float, mu: float, friction: str) -> Collision:
-    """Return the hit; a cut to the left as its mirror image, in which sidespin turns round."""
+def _collision(approach: Leg, cut: float, mu: float | SlipFriction, friction: str) -> Collision:
     state = approach.state(approach.end)
     ball = approach.slide.ball
     topspin, side = spin_ratios(state, ball.radius)
-    turn = math.copysign(1.0, cut)
-    return collide(
-        abs(cut), topspin, turn * side, speed=state.speed, mu=mu, friction=friction, ball=ball
-    )
+    return collide(cut, topspin, side, speed=state.speed, mu=mu, friction=friction, ball=ball)
 
 
 def _set_off(
@@ -301,18 +299,15 @@ def _set_off(
     position: Floats,
     velocity: Floats,
     spin: Floats,
-    mirror: float,
     direction: float,
 ) -> Slide:
-    """Return a ball that leaves the hit, from the frame of the shot and its mirror image."""
-    velocity = velocity[:2] * [1.0, mirror]
-    # Spin is an axial vector: what the mirror keeps of it is what it turns of a velocity.
-    spin = spin * [mirror, 1.0, mirror]
-    return Slide(ball, cloth, position, _turned(velocity, direction), _turned(spin, direction))
+    """Return a ball that leaves the hit; its state is given in the frame of the shot."""
+    velocity = _turned(velocity[:2], direction)
+    return Slide(ball, cloth, position, velocity, _turned(spin, direction))
 
 
 def _turned(vector: Floats, angle: float) -> Floats:
-    """Return a vector whose level part is turned counterclockwise."""
+    """Return a vector with its horizontal part turned counterclockwise by an angle in radians."""
     sin, cos = math.sin(angle), math.cos(angle)
     found = np.array(vector, dtype=float)
     found[0], found[1] = vector[0] * cos - vector[1] * sin, vector[0] * sin + vector[1] * cos
@@ -321,11 +316,3 @@ def _turned(vector: Floats, angle: float) -> Floats:
 
 def _unit(angle: float) -> Floats:
     return np.array([math.cos(angle), math.sin(angle)])
-
-
-def one_number(value: float, name: str, *, low: float = -math.inf) -> float:
-    """Return a finite number, or refuse it, and arrays too."""
-    number = numbers(value, name, low=low)
-    if number.ndim:
-        raise InputError(f"{name} has shape {number.shape}; give one number")
-    return float(number)

@@ -1,13 +1,13 @@
 """From slide to natural roll (section 2, P2.1 to P2.3).
 
-A ball slides while the point that touches the cloth moves. With the velocity V and the spin
-omega about a level axis, that point slips over the cloth at
+A ball slides as long as the point that touches the cloth moves. With velocity V and spin omega
+about a horizontal axis, that point slips over the cloth at
 
     u = V + omega x (-R k) = (V_x - R omega_y, V_y + R omega_x)
 
-and the cloth pulls with mu g against u. u keeps its direction and shrinks at 7/2 mu g, so the
-force is constant, the path is a parabola, and natural roll comes after 2/7 of the length of u
-over mu g, at
+and the cloth decelerates it by mu g against u. The slip u keeps its direction and shrinks at
+7/2 mu g. So the force is constant, the path is a parabola, and natural roll begins after the
+time 2/7 abs(u) / (mu g), at
 
     V_NR = 5/7 V + 2/7 R (omega_y, -omega_x)
 
@@ -18,24 +18,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
+from evenbreak.checks import kind_of, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain, together
+from evenbreak.physics.arrays import numbers
 from evenbreak.physics.objects import Ball, Cloth
 
 
 def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
-    """Return the speed of a sliding ball, from the speed of its rim now (P2.1).
+    """Return the speed of a sliding ball when its rim has a given speed (P2.1).
 
     Parameters
     ----------
     speed, rim_speed
-        V_0 and R omega_0 at the start, below 0 for backspin.
+        V_0 and R omega_0 at the start, in m/s; R omega is below 0 for backspin.
     rim_speed_now
-        R omega now.
+        R omega now, in m/s.
 
     >>> sliding_ball_speed(60.0, -45.0, 30.0)
     30.0
@@ -46,13 +49,19 @@ def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
     return plain(speed - 0.4 * (now - before))
 
 
+@overload
+def roll_speed(speed: float, rim_speed: float) -> float: ...
+
+
+@overload
+def roll_speed(speed: ArrayLike, rim_speed: ArrayLike) -> Floats: ...
 def roll_speed(speed: Any, rim_speed: Any) -> Any:
-    """Return the speed of natural roll that a ball of straight topspin or draw comes to (P2.2).
+    """Return the speed of natural roll that a ball with topspin or draw reaches (P2.2).
 
     Parameters
     ----------
     speed, rim_speed
-        V_0 and R omega_0, below 0 for backspin.
+        V_0 and R omega_0, in m/s; R omega_0 is below 0 for backspin.
 
     >>> round(roll_speed(1.0, 0.0), 4), round(roll_speed(1.0, -1.0), 4)
     (0.7143, 0.4286)
@@ -63,14 +72,15 @@ def roll_speed(speed: Any, rim_speed: Any) -> Any:
 
 
 def roll_velocity(velocity: Any, rim_velocity: Any) -> Floats:
-    """Return the velocity of natural roll, the two level components last.
+    """Return the velocity of natural roll, in m/s; shape (..., 2).
 
     Parameters
     ----------
     velocity
-        V, shape (..., 2).
+        V in m/s, shape (..., 2).
     rim_velocity
-        R omega, shape (..., 3) or (..., 2); what turns about the upright axis does not matter.
+        R omega in m/s, shape (..., 3) or (..., 2); the component about the vertical axis does
+        not matter.
 
     >>> roll_velocity([0.0, 1.0], [0.0, 1.75, 9.0])
     array([0.5       , 0.71428571])
@@ -82,16 +92,16 @@ def roll_velocity(velocity: Any, rim_velocity: Any) -> Floats:
 
 
 def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
-    """Return how far along the force a sliding ball is, when it is so far across it (P2.3).
+    """Return where a sliding ball is on its parabola, in metres along the force (P2.3).
 
     Parameters
     ----------
     ahead
-        x in metres, across the force of the cloth.
+        x: metres across the force of the cloth.
     velocity
-        (V_0x, V_0y): across the force, not 0, and along it.
+        (V_0x, V_0y) in m/s: across the force, not 0, and along it.
     cloth
-        that the ball slides on.
+        on which the ball slides.
 
     Notes
     -----
@@ -105,24 +115,30 @@ def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
     together(**{"ahead": x, "velocity[..., 0]": across})
     if not np.all(across):
         raise InputError("velocity is 0 across the force; the path is a straight line then")
-    return plain(along / across * x + 0.5 * cloth.mu_slide * cloth.gravity * (x / across) ** 2)
+    return plain(along / across * x + 0.5 * _pull_of(cloth) * (x / across) ** 2)
 
 
+@overload
+def stun_distance(speed: float, spin: float, cloth: Cloth) -> float: ...
+
+
+@overload
+def stun_distance(speed: ArrayLike, spin: ArrayLike, cloth: Cloth) -> Floats: ...
 def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
-    """Return how far a ball with backspin slides until it has none: there it is a stun shot.
+    """Return how far a ball slides until its backspin is gone, in metres: a stun shot from there.
 
     Parameters
     ----------
     speed
         V_0 in m/s.
     spin
-        J = R omega_0 / V_0, from -5/2, where it comes to a stop just there, to 0.
+        J = R omega_0 / V_0, from -5/2, where the ball stops at the same moment, to 0.
     cloth
-        that the ball slides on.
+        on which the ball slides.
 
     Notes
     -----
-    Source: section 2 (draw, stun and drag shots), R omega = R omega_0 + 5/2 mu g t.
+    Source: section 2 (draw, stun and drag shots), R omega = R omega_0 + 5/2 mu g t; exercise 2.2.
 
     >>> round(stun_distance(2.0, -0.5, Cloth(mu_slide=0.2, gravity=10.0)), 9)
     0.36
@@ -130,21 +146,31 @@ def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     speed = numbers(speed, "speed", low=0.0)
     spin = numbers(spin, "spin", low=-2.5, high=0.0)
     together(speed=speed, spin=spin)
-    time = -0.4 * spin * speed / (cloth.mu_slide * cloth.gravity)
+    time = -0.4 * spin * speed / _pull_of(cloth)
     return plain(speed * time * (1.0 + 0.2 * spin))
 
 
+@overload
+def drag_distance(speed: float, spin: float, cloth: Cloth) -> float: ...
+
+
+@overload
+def drag_distance(speed: ArrayLike, spin: ArrayLike, cloth: Cloth) -> Floats: ...
 def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
-    """Return how far a ball has slid when natural roll begins.
+    """Return how far a ball slides until natural roll begins, in metres.
 
     Parameters
     ----------
     speed
         V_0 in m/s.
     spin
-        J = R omega_0 / V_0, -5/2 or more, so that it never goes backwards.
+        J = R omega_0 / V_0, -5/2 or more, so that the ball never goes backwards.
     cloth
-        that the ball slides on.
+        on which the ball slides.
+
+    Notes
+    -----
+    Source: section 2, and exercise 2.1 for a drag shot.
 
     >>> round(drag_distance(2.0, -1.0, Cloth(mu_slide=0.2, gravity=10.0)), 9)
     0.816326531
@@ -153,32 +179,32 @@ def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     spin = numbers(spin, "spin", low=-2.5)
     together(speed=speed, spin=spin)
     slip = 1.0 - spin
-    time = 2.0 * np.abs(slip) * speed / (7.0 * cloth.mu_slide * cloth.gravity)
+    time = 2.0 * np.abs(slip) * speed / (7.0 * _pull_of(cloth))
     return plain(speed * time * (1.0 - slip / 7.0))
 
 
 @dataclass(frozen=True, eq=False)
 class Slide:
-    """A ball from when it begins to slide until it rests, as arrays over balls.
+    """A ball from the start of its slide until it stops; arrays stand for several balls.
 
     Parameters
     ----------
     ball, cloth
-        which ball, on what.
+        the ball, and what it slides on.
     position, velocity
-        where it is and how it moves at time 0: metres and m/s, shape (..., 2).
+        at time 0, in metres and m/s; shape (..., 2).
     spin
-        the angular velocity at time 0, rad/s, shape (..., 3).
+        angular velocity at time 0, in rad/s; shape (..., 3).
 
     Raises
     ------
     InputError
-        if they are not finite numbers of these shapes, or shapes that broadcast.
+        if they are not finite numbers of these shapes, or the shapes do not broadcast.
 
     Notes
     -----
-    Source: P2.3. Sidespin, about the upright axis, neither turns the ball off its path nor
-    wears off here.
+    Source: P2.3. In this model sidespin, about the vertical axis, neither bends the path nor
+    wears off.
 
     >>> shot = Slide(Ball(), Cloth(), [0.0, 0.0], [0.0, 1.0], [0.0, 35.0, 0.0])
     >>> shot.roll_velocity.round(4)
@@ -192,38 +218,40 @@ class Slide:
     spin: Floats
 
     def __post_init__(self) -> None:
+        kind_of(self.ball, "ball", Ball)
+        kind_of(self.cloth, "cloth", Cloth)
         names = {"position": 2, "velocity": 2, "spin": 3}
         for name, size in names.items():
             array = _vectors(getattr(self, name), name, size).copy()
-            array.flags.writeable = False  # what is reckoned from it once has to stay so
+            array.flags.writeable = False  # values computed from it are cached
             object.__setattr__(self, name, array)
         together(**{f"{name}[..., 0]": getattr(self, name)[..., 0] for name in names})
 
     @cached_property
     def slip(self) -> Floats:
-        """The velocity of the point that touches the cloth, at time 0; shape (..., 2)."""
+        """The velocity of the point that touches the cloth, at time 0, in m/s; shape (..., 2)."""
         return self.velocity - self.ball.radius * _forward(self.spin)
 
     @cached_property
     def slide_time(self) -> Any:
         """Seconds until natural roll begins."""
-        pull = self.cloth.mu_slide * self.cloth.gravity
-        return plain(2.0 * np.hypot(self.slip[..., 0], self.slip[..., 1]) / (7.0 * pull))
+        slip = np.hypot(self.slip[..., 0], self.slip[..., 1])
+        return plain(2.0 * slip / (7.0 * self.cloth.slide_deceleration))
 
     @cached_property
     def roll_velocity(self) -> Floats:
-        """The velocity with which natural roll begins; shape (..., 2)."""
+        """The velocity at which natural roll begins, in m/s; shape (..., 2)."""
         return roll_velocity(self.velocity, self.ball.radius * self.spin)
 
     @cached_property
     def stop_time(self) -> Any:
-        """Seconds until the ball rests."""
+        """Seconds until the ball stops."""
         speed = np.hypot(self.roll_velocity[..., 0], self.roll_velocity[..., 1])
-        return plain(self.slide_time + speed / (self.cloth.mu_roll * self.cloth.gravity))
+        return plain(self.slide_time + speed / self.cloth.roll_deceleration)
 
     @property
     def stop_position(self) -> Floats:
-        """Where the ball rests, had it all the room it needs; shape (..., 2)."""
+        """Where the ball stops on an endless table, in metres; shape (..., 2)."""
         return self.at(self.stop_time)
 
     def at(self, time: Any) -> Floats:
@@ -232,13 +260,10 @@ class Slide:
         Parameters
         ----------
         time
-            seconds, of a shape that broadcasts with the balls'.
+            seconds; its shape must broadcast with that of the balls.
         """
-        time = self._time(time)
-        sliding = np.minimum(time, self.slide_time)[..., None]
-        rolling = np.clip(time - self.slide_time, 0.0, self.stop_time - self.slide_time)[..., None]
-        pull = self.cloth.mu_slide * self.cloth.gravity
-        resistance = self.cloth.mu_roll * self.cloth.gravity
+        sliding, rolling = self._since(time)
+        pull, resistance = self.cloth.slide_deceleration, self.cloth.roll_deceleration
         slid = self.velocity * sliding - 0.5 * pull * _direction(self.slip) * sliding**2
         start = self.roll_velocity
         rolled = start * rolling - 0.5 * resistance * _direction(start) * rolling**2
@@ -247,41 +272,42 @@ class Slide:
 
     def velocity_at(self, time: Any) -> Floats:
         """Return the velocity at a time, in m/s; shape (..., 2)."""
-        time = self._time(time)
-        sliding = np.minimum(time, self.slide_time)[..., None]
-        rolling = np.clip(time - self.slide_time, 0.0, self.stop_time - self.slide_time)[..., None]
-        pull = self.cloth.mu_slide * self.cloth.gravity
-        resistance = self.cloth.mu_roll * self.cloth.gravity
+        sliding, rolling = self._since(time)
         now: Floats = (
             self.velocity
-            - pull * _direction(self.slip) * sliding
-            - resistance * _direction(self.roll_velocity) * rolling
+            - self.cloth.slide_deceleration * _direction(self.slip) * sliding
+            - self.cloth.roll_deceleration * _direction(self.roll_velocity) * rolling
         )
         return now
 
     def spin_at(self, time: Any) -> Floats:
         """Return the angular velocity at a time, in rad/s; shape (..., 3)."""
-        time = self._time(time)
-        slides = np.minimum(time, self.slide_time)[..., None]
-        pull = self.cloth.mu_slide * self.cloth.gravity
-        gain = 2.5 * pull / self.ball.radius * slides * _direction(self.slip)
+        sliding, _ = self._since(time)
+        pull = self.cloth.slide_deceleration
+        gain = 2.5 * pull / self.ball.radius * sliding * _direction(self.slip)
         # The cloth's force -u at -R k turns the ball by R (-k) x (-u) = R k x u.
         level = self.spin[..., :2] + np.stack([-gain[..., 1], gain[..., 0]], axis=-1)
-        rolling = (time > self.slide_time)[..., None]
+        rolling = (np.asarray(time) > self.slide_time)[..., None]
         now = self.velocity_at(time) / self.ball.radius
         level = np.where(rolling, np.stack([-now[..., 1], now[..., 0]], axis=-1), level)
         upright = np.broadcast_to(self.spin[..., 2:], (*level.shape[:-1], 1))
         return np.concatenate([level, upright], axis=-1)
 
-    def _time(self, time: Any) -> Floats:
-        """Return times as an array that broadcasts with the balls, or refuse them."""
+    def _since(self, time: Any) -> tuple[Floats, Floats]:
+        """Return for how long each ball has slid and rolled at a time; shape (..., 1)."""
         times = numbers(time, "time", low=0.0)
         together(time=times, **{"slip[..., 0]": self.slip[..., 0]})
-        return times
+        rolled = np.clip(times - self.slide_time, 0.0, self.stop_time - self.slide_time)
+        return np.minimum(times, self.slide_time)[..., None], rolled[..., None]
+
+
+def _pull_of(cloth: Cloth) -> float:
+    """Return how fast a ball loses speed while it slides on a cloth, in m/s^2."""
+    return kind_of(cloth, "cloth", Cloth).slide_deceleration
 
 
 def _vectors(value: Any, name: str, size: int) -> Floats:
-    """Return vectors of so many components, which come last, or refuse them."""
+    """Return vectors as a float array, if they have `size` components along the last axis."""
     array = numbers(value, name)
     if array.ndim == 0 or array.shape[-1] != size:
         raise InputError(f"{name} has shape {array.shape}; give (..., {size})")
@@ -289,7 +315,7 @@ def _vectors(value: Any, name: str, size: int) -> Floats:
 
 
 def _forward(spin: Any, name: str = "spin") -> Floats:
-    """Return the velocity at which a ball of this spin rolls, per metre of its radius."""
+    """Return the velocity of natural roll for a spin, per metre of the radius."""
     spin = numbers(spin, name)
     if spin.ndim == 0 or spin.shape[-1] not in (2, 3):
         raise InputError(f"{name} has shape {spin.shape}; give (..., 3)")

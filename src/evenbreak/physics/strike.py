@@ -1,7 +1,7 @@
-"""The hit of the tip, off centre, as one result (section 3, P3.4 to P3.10 and P1.7).
+"""What the tip gives the cue ball, on or off centre (section 3, P3.4 to P3.10 and P1.7).
 
-The cue is level, free while the tip touches, and the hit loses nothing. With b the distance
-of the tip from the centre in units of R, up and to the right together, the ball gets
+The cue is level and moves freely while the tip touches the ball, and the hit loses no energy.
+With b the distance of the tip from the centre in units of R, the ball gets
 
     V = 2 V_s / (1 + m/M_s + 5/2 b^2),   J_y = 5/2 up,   J_z = 5/2 right
 
@@ -15,8 +15,10 @@ from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
+from evenbreak.checks import kind_or_usual, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain, together
+from evenbreak.physics.arrays import numbers
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.objects import Ball, Cue
 from evenbreak.physics.offset import ball_speed_ratio, spin_of_offset
@@ -25,16 +27,16 @@ from evenbreak.physics.rolling import Energy, kinetic_energy
 
 @dataclass(frozen=True, eq=False)
 class Strike:
-    """A cue ball just after the tip: arrays over strikes, or floats for one.
+    """A cue ball just after the hit of the tip: floats, or arrays for several strikes.
 
     Parameters
     ----------
     ball, cue
-        what is struck, with what.
+        the ball, and the cue that strikes it.
     stick_speed
-        of the stick just before, m/s.
+        of the cue just before the hit, in m/s.
     offset, side_offset
-        of the tip from the ball's centre over R, up and to the right.
+        of the tip from the ball's centre over R: up and to the right.
     """
 
     ball: Ball
@@ -50,19 +52,19 @@ class Strike:
 
     @property
     def miscue(self) -> Any:
-        """Whether the tip slips off the ball, so that nothing else here comes true (P1.7)."""
+        """Whether the tip slips, so that the other results do not apply (P1.7)."""
         slips = np.asarray(self.off_centre) > miscue_offset(self.cue.tip_friction)
         return bool(slips) if slips.ndim == 0 else slips
 
     @property
     def speed(self) -> Any:
-        """The ball's speed, m/s (P3.10)."""
+        """The speed of the ball, in m/s (P3.10)."""
         ratio = self.ball.mass / self.cue.mass
         return plain(self.stick_speed * ball_speed_ratio(self.off_centre, ratio))
 
     @property
     def stick_speed_after(self) -> Any:
-        """The stick's speed once the ball has left it, below 0 where it bounces back, m/s."""
+        """The speed of the cue after the hit, in m/s; below 0 if it bounces back."""
         return plain(self.stick_speed - self.ball.mass / self.cue.mass * self.speed)
 
     @property
@@ -77,12 +79,12 @@ class Strike:
 
     @property
     def velocity(self) -> Floats:
-        """The ball's velocity ahead and to the left, m/s; shape (..., 2)."""
+        """The ball's velocity ahead and to the left, in m/s; shape (..., 2)."""
         return np.stack(np.broadcast_arrays(self.speed, 0.0), axis=-1)
 
     @property
     def spin(self) -> Floats:
-        """The ball's angular velocity, rad/s; shape (..., 3)."""
+        """The ball's angular velocity, in rad/s; shape (..., 3)."""
         around = np.asarray(self.speed) / self.ball.radius
         parts = np.broadcast_arrays(0.0, around * self.topspin, around * self.side)
         return np.stack(parts, axis=-1)
@@ -101,26 +103,26 @@ def strike(
     ball: Ball | None = None,
     cue: Cue | None = None,
 ) -> Strike:
-    """Return what a stick of a speed makes of a ball that it strikes off centre.
+    """Strike a ball with a cue that moves at a given speed.
 
     Parameters
     ----------
     stick_speed
-        of the stick just before, m/s.
+        of the cue just before the hit, in m/s.
     offset, side_offset
-        of the tip from the ball's centre over R: above 0 up and to the right. Together they
-        are 1 at most.
+        of the tip from the ball's centre over R: above 0 up and to the right. Their squares
+        sum to 1 at most.
     ball, cue
-        a pool ball of 6 ounces and a cue of 18 where they are not given.
+        by default a pool ball of 6 ounces and a cue of 18 ounces.
 
     Raises
     ------
     InputError
-        if a number is not finite or the tip is beside the ball.
+        if a number is not finite or the tip misses the ball.
 
     Notes
     -----
-    Source: P3.4, P3.6 and P3.10. Where the tip would slip the result says so, as `miscue`.
+    Source: P3.4, P3.6 and P3.10. If the tip slips, `miscue` is true.
 
     >>> hit = strike(2.0, -0.3)
     >>> round(hit.speed, 4), hit.topspin, round(hit.stick_speed_after, 4), hit.miscue
@@ -128,7 +130,8 @@ def strike(
     """
     speed = numbers(stick_speed, "stick_speed", low=0.0)
     up, right = _on_the_ball(offset, side_offset, stick_speed=speed)
-    return Strike(ball or Ball(), cue or Cue(), plain(speed), plain(up), plain(right))
+    ball, cue = kind_or_usual(ball, "ball", Ball), kind_or_usual(cue, "cue", Cue)
+    return Strike(ball, cue, plain(speed), plain(up), plain(right))
 
 
 def strike_for_speed(
@@ -139,14 +142,14 @@ def strike_for_speed(
     ball: Ball | None = None,
     cue: Cue | None = None,
 ) -> Strike:
-    """Return the strike that gives the ball a speed.
+    """Strike a ball so that it leaves at a given speed.
 
     Parameters
     ----------
     ball_speed
-        of the ball just after the tip, m/s.
+        of the ball just after the hit, in m/s.
     offset, side_offset, ball, cue
-        as `strike` takes them.
+        as for `strike`.
 
     Raises
     ------
@@ -157,7 +160,7 @@ def strike_for_speed(
     >>> round(hit.stick_speed, 9), round(hit.speed, 9)
     (2.0, 3.0)
     """
-    ball, cue = ball or Ball(), cue or Cue()
+    ball, cue = kind_or_usual(ball, "ball", Ball), kind_or_usual(cue, "cue", Cue)
     wanted = numbers(ball_speed, "ball_speed", low=0.0)
     up, right = _on_the_ball(offset, side_offset, ball_speed=wanted)
     ratio = ball_speed_ratio(np.hypot(up, right), ball.mass / cue.mass)
@@ -165,7 +168,7 @@ def strike_for_speed(
 
 
 def _on_the_ball(offset: Any, side_offset: Any, **speed: Floats) -> tuple[Floats, Floats]:
-    """Return the two offsets, or refuse those of a tip beside the ball; the speed for its shape."""
+    """Return both offsets as arrays, if the tip meets the ball and all of them broadcast."""
     up = numbers(offset, "offset", low=-1.0, high=1.0)
     right = numbers(side_offset, "side_offset", low=-1.0, high=1.0)
     together(offset=up, side_offset=right, **speed)

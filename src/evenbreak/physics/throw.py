@@ -1,70 +1,107 @@
-"""Throw: what friction between the balls does to the object ball's path (section 4, P4.2 to P4.6).
+"""Throw: how friction between the balls turns the object ball (section 4, P4.2 to P4.6).
 
 The point of the cue ball that touches the object ball slips across it at
 
     V_cp = V_0 (sin(cut) + J_z, -J_y cos(cut))
 
-to the left and up. Friction pulls the object ball that way, by a share mu of what the hit
-gives it along the line of centres: tan(throw) = mu cos(gamma), where gamma is the angle of the
-slip above the level. That holds only while the balls slip: the hit takes level slip away at
-seven times the speed that it gives, upright slip at six times, as the table holds one of the
-balls. So, in size,
+to the left and up. Friction pushes the object ball in that direction, with mu times the impulse
+along the line of centres: tan(throw) = mu cos(gamma), where gamma is the angle of the slip above
+the horizontal. That holds only as long as the balls slip. The hit uses up horizontal slip at seven
+times the speed that it gives, and vertical slip at six times, since the table holds one of the
+balls down. So, in size,
 
     V_b,sideways <= V_cp,sideways / 7,   V_b,upward <= V_cp,upward / 6
 
-and a stun shot has its full throw only where tan(cut) >= 7 mu. `friction="limited"` keeps to
-that, `friction="shepard"` is the law of the text, which knows no limit and there adds energy.
+and a stun shot has its full throw only where tan(cut) >= 7 mu. `friction="limited"` includes this
+limit; `friction="shepard"` is the law of the source text without it, which can create energy.
+
+A cut to the left, an angle below 0, is the mirror image of one to the right: it slips and throws
+with the other sidespin. Throw above 0 is forward for both.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from evenbreak.checks import one_of
+from evenbreak.arrays import Floats
+from evenbreak.checks import one_of, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import Floats, numbers, plain, together
-
-BALL_FRICTION = 4.0 / 72.0
-"""The coefficient of friction between two balls that P1.6 measures."""
+from evenbreak.physics.arrays import numbers
+from evenbreak.physics.ball_friction import (
+    BALL_FRICTION,
+    BallFriction,
+    SlipFriction,
+    checked_friction,
+    friction_of_slip,
+)
 
 _ROUNDING = 4.0 * np.finfo(float).eps
 
 FRICTION_LAWS = ("limited", "shepard")
-"""The laws of friction: limited by the slip, and that of the source text."""
+"""The laws of friction: limited by the slip, or the law of the source text."""
 
 
+@overload
+def throw_factor(cut: float, topspin: float = ..., side: float = ...) -> float: ...
+
+
+@overload
+def throw_factor(cut: ArrayLike, topspin: ArrayLike = ..., side: ArrayLike = ...) -> Floats: ...
 def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
-    """Return cos(gamma), the share of the friction that throws the object ball sideways (P4.2).
+    """Return cos(gamma), the share of the friction that acts sideways (P4.2).
 
     Parameters
     ----------
     cut
-        cut angle in radians, 0 to pi/2.
+        cut angle in radians, to the left below 0, at most pi/2.
     topspin
         J_y, 1 in natural roll, 0 for stun, below 0 for draw.
     side
-        J_z, below 0 for outside english where the cut is to the right.
+        J_z, below 0 for outside english on a cut to the right.
 
     Returns
     -------
-    from -1, where english throws the ball the other way, to 1; 0 where nothing slips
+    from -1, where english throws the ball backward, to 1; 0 if nothing slips
 
     Notes
     -----
-    Source: P4.2; for stun it is 1 or -1 at every cut (P4.3), in natural and in reverse natural
-    roll without english the sine of the cut (P4.4, P4.6).
+    Source: P4.2. For stun it is 1 or -1 at every cut (P4.3); without english, in natural roll or
+    reverse natural roll, it is the sine of the cut (P4.4, P4.6).
 
     >>> throw_factor(math.pi / 6.0), throw_factor(0.4, 0.0), throw_factor(0.4, 0.0, -0.8)
     (0.49999999999999994, 1.0, -1.0)
     """
     cut, topspin, side = shot_of(cut, topspin, side)
     left, up = slip_of(np.sin(cut), np.cos(cut), topspin, side)
-    return plain(left / _length(left, up))
+    return plain(hand_of(cut) * left / _length(left, up))
 
 
+@overload
+def throw_angle(
+    cut: float,
+    topspin: float = ...,
+    side: float = ...,
+    *,
+    mu: float | SlipFriction = ...,
+    friction: str = ...,
+    speed: float | None = ...,
+) -> float: ...
+
+
+@overload
+def throw_angle(
+    cut: ArrayLike,
+    topspin: ArrayLike = ...,
+    side: ArrayLike = ...,
+    *,
+    mu: BallFriction = ...,
+    friction: str = ...,
+    speed: ArrayLike | None = ...,
+) -> Floats: ...
 def throw_angle(
     cut: Any,
     topspin: Any = 1.0,
@@ -72,25 +109,35 @@ def throw_angle(
     *,
     mu: Any = BALL_FRICTION,
     friction: str = "limited",
+    speed: Any = None,
 ) -> Any:
-    """Return by what angle the object ball leaves the line of centres, in radians (P4.2).
+    """Return the angle between the object ball's path and the line of centres, in radians (P4.2).
 
     Parameters
     ----------
     cut, topspin, side
-        as `throw_factor` takes them.
+        as for `throw_factor`.
     mu
-        coefficient of friction between the balls.
+        coefficient of friction between the balls; `SlipFriction()` for one that falls with the
+        speed of the slip.
     friction
         'limited' or 'shepard'.
+    speed
+        of the cue ball at the hit, in m/s; needed for `SlipFriction`, else it does not matter.
 
     Returns
     -------
-    above 0 where the ball is thrown forward, as in a cut without english: it misses thick
+    above 0 if the ball is thrown forward, as in a cut without english: it misses thick
+
+    Raises
+    ------
+    InputError
+        if a number is not finite or out of range, `friction` is neither of the two, or the
+        speed is missing.
 
     Notes
     -----
-    Source: P4.2, for stun P4.3, in natural roll P4.4; the speed does not matter.
+    Source: P4.2; for stun P4.3, for natural roll P4.4.
 
     >>> round(math.degrees(throw_angle(math.radians(30.0))), 3)
     1.591
@@ -98,20 +145,30 @@ def throw_angle(
     1.443
     >>> round(math.degrees(throw_angle(math.radians(10.0), 0.0, friction="shepard")), 3)
     3.18
+    >>> speeds = [0.5, 2.0, 4.0]
+    >>> np.degrees(throw_angle(math.pi / 6.0, 0.0, mu=SlipFriction(), speed=speeds)).round(1)
+    array([4.7, 2.7, 1.3])
     """
-    mu = numbers(mu, "mu", low=0.0)
-    cut, topspin, side = shot_of(cut, topspin, side, mu=mu)
-    # cos(pi/2) rounds to 6e-17, so that the throw at a right angle is the limit of thin cuts.
+    mu, speed = checked_friction(mu, speed)
+    cut, topspin, side = shot_of(cut, topspin, side, mu=mu, speed=speed)
+    # cos(pi/2) rounds to 6e-17, so the throw at a right angle is the limit of thin cuts.
     sin, cos = np.sin(cut), np.cos(cut)
-    sideways, _ = thrown(cos, *slip_of(sin, cos, topspin, side), mu, friction)
-    return plain(np.arctan2(sideways, cos))
+    slip = slip_of(sin, cos, topspin, side)
+    sideways, _ = thrown(cos, *slip, friction_of_slip(mu, speed, *slip), friction)
+    return plain(np.arctan2(hand_of(cut) * sideways, cos))
 
 
+@overload
+def full_throw_cut(mu: float = ...) -> float: ...
+
+
+@overload
+def full_throw_cut(mu: ArrayLike = ...) -> Floats: ...
 def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
-    """Return the cut angle from which a stun shot has its full throw, in radians.
+    """Return the smallest cut angle at which a stun shot has its full throw, in radians.
 
-    Below it the slip ends before the hit does, and tan(throw) = tan(cut) / 7. The answer of P4.3,
-    full throw at every cut, holds from here on.
+    In fuller hits the slip ends before the hit does, and tan(throw) = tan(cut) / 7. From here on
+    the answer of P4.3, full throw at every cut, holds.
 
     >>> round(math.degrees(full_throw_cut()), 2)
     21.25
@@ -119,8 +176,16 @@ def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
     return plain(np.arctan(7.0 * numbers(mu, "mu", low=0.0)))
 
 
+@overload
+def gearing_side(cut: float) -> float: ...
+
+
+@overload
+def gearing_side(cut: ArrayLike) -> Floats: ...
 def gearing_side(cut: Any) -> Any:
-    """Return the sidespin J_z that leaves no slip to the side, and no throw (P4.26).
+    """Return the sidespin J_z that leaves no sideways slip, and so no throw (P4.26).
+
+    The cut angle is in radians, to the left below 0.
 
     >>> round(gearing_side(math.radians(20.0)), 4)
     -0.342
@@ -128,17 +193,23 @@ def gearing_side(cut: Any) -> Any:
     return plain(-np.sin(cut_of(cut)))
 
 
+@overload
+def throw_sensitivity(cut: float, topspin: float, side: float) -> float: ...
+
+
+@overload
+def throw_sensitivity(cut: ArrayLike, topspin: ArrayLike, side: ArrayLike) -> Floats: ...
 def throw_sensitivity(cut: Any, topspin: Any, side: Any) -> Any:
     """Return how fast cos(gamma) changes with the spin: the length of its gradient (P4.5).
 
     Parameters
     ----------
     cut, topspin, side
-        as `throw_factor` takes them; the gradient is by J_y and J_z.
+        as for `throw_factor`; the gradient is with respect to J_y and J_z.
 
     Returns
     -------
-    0 or more; infinite where nothing slips
+    0 or more; infinite if nothing slips
 
     >>> round(throw_sensitivity(math.pi / 6.0, 0.5, 0.1), 4)
     0.723
@@ -154,18 +225,20 @@ def throw_sensitivity(cut: Any, topspin: Any, side: Any) -> Any:
 
 
 class Aim(NamedTuple):
-    """How to allow for throw: angles in radians, the offset in the unit of the distance.
+    """How to allow for throw.
 
     Parameters
     ----------
     cut
-        the cut angle to aim for.
+        the cut angle to aim for, in radians, to the left below 0.
     throw
-        the throw that it has; the object ball then leaves at the cut angle that was wanted.
+        the throw at that cut, in radians, above 0 towards a fuller hit; the object ball then
+        leaves at the angle wanted.
     offset
-        how far beside the target the line of centres points, on the side of the thinner cut.
+        how far beside the target the line of centres points, towards the thinner cut, in the
+        unit of the distance.
     offset_of_text
-        what the rule of P4.6 says instead, mu D cos(gamma) at the cut angle that was wanted.
+        the offset by the rule of P4.6, mu D cos(gamma) at the angle wanted.
     """
 
     cut: Any
@@ -182,74 +255,84 @@ def aim(
     *,
     mu: Any = BALL_FRICTION,
     friction: str = "limited",
+    speed: Any = None,
 ) -> Aim:
-    """Return where to aim so that the object ball, thrown, goes where it should (P4.6).
+    """Return where to aim so that the thrown object ball goes where it should (P4.6).
 
     Parameters
     ----------
     cut
-        the cut angle at which the object ball shall leave, in radians.
+        the angle at which the object ball should leave, in radians, to the left below 0.
     distance
         from the object ball to its target, in any unit of length.
-    topspin, side, mu, friction
-        as `throw_angle` takes them.
+    topspin, side, mu, friction, speed
+        as for `throw_angle`.
 
     Raises
     ------
     InputError
-        if no cut sends the ball there: it would have to be cut thinner than a right angle.
+        if no cut sends the ball there: it would take a cut of more than a right angle.
 
     >>> found = aim(math.asin(0.25), 36.0)
     >>> round(found.offset_of_text, 3), round(found.offset, 3)
     (0.5, 0.528)
     """
-    distance, mu = numbers(distance, "distance", low=0.0), numbers(mu, "mu", low=0.0)
-    wanted, topspin, side = shot_of(cut, topspin, side, distance=distance, mu=mu)
+    distance = numbers(distance, "distance", low=0.0)
+    mu, speed = checked_friction(mu, speed)
+    wanted, topspin, side = shot_of(cut, topspin, side, distance=distance, mu=mu, speed=speed)
 
     def throw(angle: Floats) -> Any:
-        # Beyond a full hit the ball is cut the other way, and english changes its side.
-        turned = np.where(angle < 0.0, -side, side)
-        found = throw_angle(np.abs(angle), topspin, turned, mu=mu, friction=friction)
-        return np.where(angle < 0.0, -found, found)
+        """Return the throw to the left, as the angles are to the right."""
+        forward = throw_angle(angle, topspin, side, mu=mu, friction=friction, speed=speed)
+        return hand_of(angle) * forward
 
-    largest = np.arctan(mu)
-    low, high = np.broadcast_arrays(wanted - largest, np.minimum(wanted + largest, math.pi / 2.0))
-    if np.any(high - throw(high) < wanted - 1e-12):
+    largest = np.arctan(mu.slow if isinstance(mu, SlipFriction) else mu)
+    low, high = np.broadcast_arrays(
+        np.maximum(wanted - largest, -math.pi / 2.0), np.minimum(wanted + largest, math.pi / 2.0)
+    )
+    if np.any((low - throw(low) > wanted + 1e-12) | (high - throw(high) < wanted - 1e-12)):
         raise InputError(
-            "cut is so thin that throw takes away more than is left up to a right angle; "
-            "give a smaller cut angle, or other spin"
+            "cut is too thin: allowing for throw, it would be more than a right angle; give a "
+            "smaller cut angle, or other spin"
         )
     for _ in range(60):
         middle = 0.5 * (low + high)
         short = middle - throw(middle) < wanted
         low, high = np.where(short, middle, low), np.where(short, high, middle)
-    # The law of the text leaps for stun where nothing slips; an answer without throw is one.
+    # For stun the law of the text jumps where nothing slips; a cut without throw is a solution.
     found = np.where(throw(wanted) == 0.0, wanted, 0.5 * (low + high))
-    rule = mu * distance * throw_factor(wanted, topspin, side)
+    slip = slip_of(np.sin(wanted), np.cos(wanted), topspin, side)
+    rule = friction_of_slip(mu, speed, *slip) * distance * throw_factor(wanted, topspin, side)
+    hand = hand_of(wanted)
     return Aim(
         plain(found),
-        plain(throw(found)),
-        plain(distance * np.tan(found - wanted)),
+        plain(hand * throw(found)),
+        plain(hand * distance * np.tan(found - wanted)),
         plain(rule),
     )
 
 
 def cut_of(cut: Any) -> Floats:
-    """Return a cut angle as an array, or refuse it."""
-    return numbers(cut, "cut", low=0.0, high=math.pi / 2.0)
+    """Return a cut angle as an array, if it is from -pi/2 to pi/2."""
+    return numbers(cut, "cut", low=-math.pi / 2.0, high=math.pi / 2.0)
 
 
-def shot_of(cut: Any, topspin: Any, side: Any, **others: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return cut angle, J_y and J_z as arrays, or refuse them, also beside the others."""
+def hand_of(cut: Floats) -> Any:
+    """Return 1 for a cut to the right and for a full hit, -1 for a cut to the left."""
+    return np.where(cut < 0.0, -1.0, 1.0)
+
+
+def shot_of(cut: Any, topspin: Any, side: Any, **others: Any) -> tuple[Floats, Floats, Floats]:
+    """Return cut angle, J_y and J_z as arrays, if they and the others broadcast together."""
     cut, topspin, side = cut_of(cut), numbers(topspin, "topspin"), numbers(side, "side")
     together(cut=cut, topspin=topspin, side=side, **others)
     return cut, topspin, side
 
 
 def slip_of(sin: Any, cos: Any, topspin: Any, side: Any) -> tuple[Any, Any]:
-    """Return the slip over the cue ball's speed, to the left and up, from a cut's sin and cos."""
+    """Return the slip to the left and up over the cue ball's speed, from sin and cos of the cut."""
     left = sin + side
-    # What rounding leaves is none: the law of the text would give it the full throw.
+    # A slip that is only rounding counts as 0: the law of the text would give it full throw.
     return np.where(np.abs(left) <= _ROUNDING * np.abs(side), 0.0, left), -topspin * cos
 
 
@@ -266,10 +349,10 @@ def thrown(cos: Any, left: Any, up: Any, mu: Any, friction: str) -> tuple[Any, A
 
 
 def _length(left: Any, up: Any) -> Any:
-    """Return the length of the slip, and 1 where there is none: its parts over it are then 0."""
+    """Return the length of the slip; 1 where there is none, so that it can be divided by."""
     length = np.sqrt(left * left + up * up)
     if length.size and length.min() < 1e-140:
-        # The squares of slips so small lose their digits, or are 0; `hypot` is slower.
+        # Squares of such small slips lose their digits, or are 0; `hypot` is slower.
         length = np.hypot(left, up)
         length = np.where(length > 0.0, length, 1.0)
     return length

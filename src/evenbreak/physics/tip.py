@@ -1,25 +1,28 @@
-"""Cue tip and cue ball, struck in the centre (section 3, P3.1 to P3.3).
+"""A cue ball struck in the centre (section 3, P3.1 to P3.3).
 
-The cue is free while the tip touches, the cue level and the hit elastic: what speed the stick
-gives to the ball, what energy, and which stick a break wants.
+The speed and energy that the cue gives to the ball, and the best cue to break with. The cue is
+level and moves freely while the tip touches the ball, and the hit is elastic.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from evenbreak.physics.arrays import numbers, plain, positive, together
+from evenbreak.arrays import Floats
+from evenbreak.checks import plain, together
+from evenbreak.physics.arrays import numbers, positive
 
 
 class CentreHit(NamedTuple):
-    """What a hit in the centre gives, each over the speed of the stick before it.
+    """The speeds after a hit in the centre, over the speed of the stick before it.
 
     Parameters
     ----------
     ball, stick
-        the speeds after the hit; the stick's is below 0 where it bounces back.
+        of the ball and the stick; the stick's is below 0 if it bounces back.
     """
 
     ball: Any
@@ -27,12 +30,12 @@ class CentreHit(NamedTuple):
 
 
 def stroke_speed(force: Any, length: Any, mass: Any) -> Any:
-    """Return the speed of a stick that a constant force has pushed along a stroke (P3.1).
+    """Return the speed of a stick pushed by a constant force along a stroke, in m/s (P3.1).
 
     Parameters
     ----------
     force, length, mass
-        newtons, metres, kilograms (or any units that go together).
+        newtons, metres and kilograms, or any consistent units.
 
     >>> round(stroke_speed(10.0, 12.0, 18.0), 4)
     3.6515
@@ -49,7 +52,7 @@ def centre_hit(stick_ratio: Any) -> CentreHit:
     Parameters
     ----------
     stick_ratio
-        mass of the stick over mass of the ball, 3 for 18 and 6 ounces.
+        mass of the stick over mass of the ball, such as 3 for 18 and 6 ounces.
 
     >>> centre_hit(3.0)
     CentreHit(ball=1.5, stick=0.5)
@@ -58,6 +61,12 @@ def centre_hit(stick_ratio: Any) -> CentreHit:
     return CentreHit(plain(2.0 * ratio / (1.0 + ratio)), plain((ratio - 1.0) / (ratio + 1.0)))
 
 
+@overload
+def energy_share(stick_ratio: float) -> float: ...
+
+
+@overload
+def energy_share(stick_ratio: ArrayLike) -> Floats: ...
 def energy_share(stick_ratio: Any) -> Any:
     """Return the share of the stick's energy that a hit in the centre gives the ball (P3.3).
 
@@ -71,14 +80,14 @@ def energy_share(stick_ratio: Any) -> Any:
 def stroke_energy(stick_energy: Any, stick_ratio: Any, forearm_ratio: Any) -> Any:
     """Return the energy of stick and forearm together, from that of the stick (P3.3).
 
-    The forearm is a thin uniform rod that turns about the elbow, the stick moves as its end.
+    The forearm is a thin uniform rod turning about the elbow; the stick moves with its end.
 
     Parameters
     ----------
     stick_energy
         in any unit.
     stick_ratio, forearm_ratio
-        masses of stick and forearm over that of the ball.
+        the masses of stick and forearm over that of the ball.
 
     Notes
     -----
@@ -94,8 +103,14 @@ def stroke_energy(stick_energy: Any, stick_ratio: Any, forearm_ratio: Any) -> An
     return plain(energy * (1.0 + forearm / (3.0 * stick)))
 
 
+@overload
+def break_energy_share(stick_ratio: float, forearm_ratio: float) -> float: ...
+
+
+@overload
+def break_energy_share(stick_ratio: ArrayLike, forearm_ratio: ArrayLike) -> Floats: ...
 def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
-    """Return the share of a stroke's energy, stick and forearm, that the ball gets (P3.3).
+    """Return the share of the energy of stick and forearm that goes into the ball (P3.3).
 
     >>> break_energy_share(3.0, 6.0)
     0.45
@@ -106,14 +121,20 @@ def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
     return plain(4.0 * stick**2 / ((1.0 + stick) ** 2 * (stick + forearm / 3.0)))
 
 
+@overload
+def best_stick_ratio(forearm_ratio: float) -> float: ...
+
+
+@overload
+def best_stick_ratio(forearm_ratio: ArrayLike) -> Floats: ...
 def best_stick_ratio(forearm_ratio: Any) -> Any:
-    """Return the mass of the stick that breaks best, over that of the ball (P3.3).
+    """Return the mass of the best stick to break with, over that of the ball (P3.3).
 
     Parameters
     ----------
     forearm_ratio
-        mass of the forearm over that of the ball, 6 for 36 ounces; of the whole arm where the
-        stroke turns about the shoulder.
+        mass of the forearm over that of the ball, such as 6 for 36 ounces; of the whole arm
+        for a stroke from the shoulder.
 
     >>> round(6.0 * best_stick_ratio(36.0 / 6.0), 1), round(6.0 * best_stick_ratio(25.0), 1)
     (15.4, 27.7)

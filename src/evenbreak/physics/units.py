@@ -1,6 +1,7 @@
-"""The units that players speak in, in the SI units that everything here is computed in.
+"""The units that players use, in SI units.
 
-Multiply to come in, divide to go out: `9 * INCH` is metres, `length / INCH` is inches.
+Multiply to convert to SI, divide to convert back: `9 * INCH` is in metres, `length / INCH` in
+inches.
 """
 
 import math
@@ -24,4 +25,4 @@ DEGREE = math.pi / 180.0
 """Radians in a degree."""
 
 GRAVITY = 386.0 * INCH
-"""The acceleration of gravity in m/s^2, as the source text has it: 386 in/s^2, 9.8044 m/s^2."""
+"""The acceleration of gravity in m/s^2: 386 in/s^2 = 9.8044 m/s^2, the value of the source text."""

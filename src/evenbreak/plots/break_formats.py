@@ -1,29 +1,26 @@
 """Contour plots of what a break format is worth, with two players as a dot."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from evenbreak.games.breaks import BREAK_FORMATS
 from evenbreak.games.rack import Rack
 from evenbreak.plots.contours import contour_axes
+from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.point_labels import mark_points
+from evenbreak.plots.style import write_title
 from evenbreak.practice.breaks import long_run_share
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _X = "$p_1$ = P(A wins | A breaks)"
 _Y = "$p_2$ = P(B wins | B breaks)"
 _DIFFERENCES = (-0.3, -0.2, -0.1, -0.05, 0, 0.05, 0.1, 0.2, 0.3)
 
 
-def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Figure, list[Axes]]:
+def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Picture, list[Axes]]:
     """Draw player 1's long-run share of racks over (p1, p2) in four panels without titles.
 
     The panels are winner, loser and alternate breaks, and winner minus loser breaks.
@@ -48,9 +45,7 @@ def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Figure, lis
     >>> len(panels)
     4
     """
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(8.8, 9.2), layout="constrained")
+    figure = Picture(figsize=(8.8, 9.2), layout="constrained")
     panels = list(np.ravel(figure.subplots(2, 2)))
     for axes, share in zip(panels, _shares(first_breaker), strict=True):
         if axes is panels[3]:
@@ -69,7 +64,8 @@ def _shares(first_breaker: int) -> list[Callable[[Any, Any], Any]]:
     return [winner, loser, alternate, lambda p1, p2: winner(p1, p2) - loser(p1, p2)]
 
 
-def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Figure:
+@in_our_look
+def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Picture:
     """Draw player 1's long-run share of racks over (p1, p2), with the two players as a dot.
 
     Four panels: winner, loser and alternate breaks, and winner minus loser breaks. Player 1 is
@@ -106,5 +102,9 @@ def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Figure:
     for axes, title in zip(panels, [*titles, f"winner minus loser breaks: {text}"], strict=True):
         axes.set_title(title)
         mark_points(axes, [(p1, p2, "")])
-    figure.suptitle(f"the dot: A wins {p1:g} of the racks A breaks, B {p2:g} of the racks B breaks")
+    write_title(
+        figure,
+        "A's share of the racks in the long run, by break format\n"
+        f"The dot: A wins {p1:g} of the racks A breaks, B wins {p2:g} of the racks B breaks",
+    )
     return figure

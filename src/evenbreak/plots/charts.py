@@ -1,38 +1,42 @@
-"""The picture of an audit: how the stronger player's chance falls and rises over a chart."""
+"""The plot of an audit: the stronger player's chance over the rating difference."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from typing import overload
 
 import numpy as np
+from matplotlib.axes import Axes
 
+from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit
 from evenbreak.matches.win import race_win_probability
+from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit
 
 _STEPS = 25  # of the curve over one band
 _NARROW = 0.05
-"""A band that takes a smaller share of the picture has its race written upright."""
+"""A race is written upright if its band takes up a smaller share of the width."""
 
 
-def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Figure:
+@overload
+def chart_figure(report: ChartAudit, beside: ChartAudit | None = None, *, ax: Axes) -> Axes: ...
+@overload
+def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Picture: ...
+@in_our_look
+def chart_figure(
+    report: ChartAudit, beside: ChartAudit | None = None, *, ax: Axes | None = None
+) -> Picture | Axes:
     """Draw the stronger player's chance over the rating difference, race by race.
 
-    The curve rises within each band and drops where the next race begins; where no row has a
-    race it is broken. The last race is drawn for as many points as the broadest band before it.
+    The curve rises within each band and drops where the next race begins; it is broken where no
+    row gives a race. The last race is drawn for as many points as the widest band before it.
 
     Parameters
     ----------
     report
         the audit of a chart.
     beside
-        that of another; where its scale is not the same, its points are turned into those of
+        the audit of another chart; if its scale differs, its points are converted to those of
         the first.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.handicaps import audit, chart
     >>> figure = chart_figure(audit(chart("npl_10")), audit(chart("npl_12")))
@@ -41,9 +45,10 @@ def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Figure
     """
     points = report.scale.points_per_doubling
     figure, axes = new_axes(
-        f"rating difference (points of which {points:.4g} double the odds)",
-        "P(stronger player wins the match)",
+        f"rating difference ({points:.4g} points double the odds)",
+        "chance of the stronger player",
         size=(7.6, 4.4),
+        ax=ax,
     )
     axes.axhline(0.5, color="0.5", lw=0.8)
     if beside is not None:
@@ -52,16 +57,16 @@ def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Figure
     axes.set_xlim(left=0.0)
     axes.margins(x=0.0, y=0.08)
     upright = _name_races(axes, report)
-    title = report.name if beside is None else f"{report.name} (its races above) and {beside.name}"
+    title = report.name if beside is None else f"{report.name} (races above) and {beside.name}"
     axes.set_title(title, pad=36 if upright else 18, parse_math=False)
     if beside is not None:
         handles, names = axes.get_legend_handles_labels()
         axes.legend(handles[::-1], names[::-1], loc="lower right")
-    return figure
+    return figure if ax is None else ax
 
 
 def _draw(axes: Axes, report: ChartAudit, factor: float, line: int) -> None:
-    """Draw the teeth of one chart, its points times `factor`."""
+    """Draw the saw-tooth of one chart, its points times `factor`."""
     differences, wins = [], []
     before = None
     for row in report.rows:
@@ -79,16 +84,16 @@ def _draw(axes: Axes, report: ChartAudit, factor: float, line: int) -> None:
 
 
 def _label(name: str) -> str:
-    """Return a name that matplotlib takes for no formula, nor for one to be left out."""
+    """Return a name that matplotlib does not take for a formula, nor for a hidden label."""
     return "chart " + name.replace("$", r"\$")
 
 
 def _ends(report: ChartAudit, row: AuditRow) -> tuple[float, float]:
-    """Return where a row's tooth begins and ends: half-way to the whole points outside it."""
+    """Return where a row's tooth begins and ends: halfway to the whole points outside it."""
     first = row.difference_from - 0.5 if row.difference_from else 0.0
     if row.difference_to is not None:
         return first, row.difference_to + 0.5
-    broadest = max(
+    widest = max(
         (
             other.difference_to - other.difference_from + 1
             for other in report.rows
@@ -96,11 +101,11 @@ def _ends(report: ChartAudit, row: AuditRow) -> tuple[float, float]:
         ),
         default=report.scale.points_per_doubling,
     )
-    return first, first + broadest
+    return first, first + widest
 
 
 def _name_races(axes: Axes, report: ChartAudit) -> bool:
-    """Write each race of a chart above its tooth; return whether upright, for want of room."""
+    """Write each race of a chart above its tooth; return whether upright, to save room."""
     ends = [_ends(report, row) for row in report.rows]
     upright = min(last - first for first, last in ends) < _NARROW * max(last for _, last in ends)
     for (first, last), row in zip(ends, report.rows, strict=True):

@@ -1,16 +1,12 @@
 """Contour lines over the unit square: the value of a pair of probabilities (p1, p2)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.contour import QuadContourSet
-    from numpy.typing import NDArray
+from matplotlib.axes import Axes
+from matplotlib.contour import QuadContourSet
+from numpy.typing import NDArray
 
 Surface: TypeAlias = Callable[[Any, Any], Any]
 

@@ -3,35 +3,57 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, Literal
+from functools import partial
+from typing import TYPE_CHECKING, Any, overload
 
+from matplotlib.axes import Axes
+
+from evenbreak.checks import floats
 from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.plots.layout import Positions, positions_of
-from evenbreak.plots.strokes import FONT, Pen, is_terminal, is_words, longest_line
-from evenbreak.plots.style import our_look
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.strokes import FONT, INCHES, Pen, is_words, longest_line
 
 if TYPE_CHECKING:
     import networkx as nx
-    from matplotlib.figure import Figure
+
 
 _MOST_STATES = 150
-_INCHES = 1.25
-"""The length of a unit, with labels of up to eight characters."""
 _MARGIN = 0.12
+_KNOWN_FILLS = 3
+"""Of a terminal node: nobody has won, player 1, player 2; a legend names any more."""
 
 
+@overload
+def draw(
+    game: Game | nx.DiGraph[Any],
+    *,
+    layout: Positions | None = None,
+    title: str | None = None,
+    ax: Axes,
+) -> Axes: ...
+@overload
 def draw(
     game: Game | nx.DiGraph[Any], *, layout: Positions | None = None, title: str | None = None
-) -> Figure:
+) -> Picture: ...
+@in_our_look
+def draw(
+    game: Game | nx.DiGraph[Any],
+    *,
+    layout: Positions | None = None,
+    title: str | None = None,
+    ax: Axes | None = None,
+) -> Picture | Axes:
     """Draw a game's diagram: states as circles, each arc with its probability.
 
     An arrow from outside marks the start. A terminal node is a double circle, light if player 1
-    has won and dark if player 2 has. The text of an arc is its `label` if it has one (`"$p_1$"`
-    is set as mathematics), else its `probability` to three significant digits; the text of a
-    node is its `label`, else its name, with scores as a:b. In your own graph the start is the
-    node whose `kind` is "start", or the first node if no node has a `kind`; a node of the kind
-    "words" is text without a circle, such as dots or a heading.
+    has won and dark if player 2 has; further players have colours, which a legend names. The
+    text of an arc is its `label` if it has one (`"$p_1$"` is set as mathematics), else its
+    `probability` to three significant digits. The text of a state is what the game's method
+    `label(state)` returns if it has one, or the `label` of the node, else the state itself. In
+    your own graph the start is the node whose `kind` is "start", or the first node if no node
+    has a `kind`; a node of the kind "words" is text without a circle, such as dots or a heading.
 
     Parameters
     ----------
@@ -42,16 +64,20 @@ def draw(
         a place (x, y) for every state, neighbours about 1 apart; None: find one.
     title
         text above the diagram.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     Returns
     -------
-    matplotlib.figure.Figure
-        about 1.25 inches for each unit of the layout; `image_bytes` turns it into a file.
+    Picture or matplotlib.axes.Axes
+        a matplotlib figure, about 1.25 inches for each unit of the layout, which a notebook
+        shows and `image_bytes` turns into a file; or the axes given.
 
     Raises
     ------
     InputError
-        if there are no states or more than 150, or `layout` leaves out a state.
+        if there are no states or more than 150, `layout` leaves out a state or has a place that
+        is not two numbers, or `ax` is not axes.
 
     Notes
     -----
@@ -63,7 +89,6 @@ def draw(
     'One-ball'
     """
     import networkx as nx
-    from matplotlib.figure import Figure
 
     graph = game if isinstance(game, nx.DiGraph) else graph_of(game)
     if not 0 < len(graph) <= _MOST_STATES:
@@ -80,45 +105,47 @@ def draw(
     missing = [state for state in graph if state not in places]
     if missing:
         raise InputError(f"layout has no place for state {missing[0]!r}; give it (x, y)")
+    if layout is not None:
+        for state in graph:
+            if floats(places[state], f"layout of state {state!r}").shape != (2,):
+                raise InputError(f"layout of state {state!r} is {places[state]!r}; give (x, y)")
 
-    labels = {state: _state_label(graph, state) for state in graph}
+    hook = getattr(game, "label", None)
+    written = hook if callable(hook) else partial(_state_label, graph)
+    labels = {state: str(written(state)) for state in graph}
     inside = [longest_line(text) for state, text in labels.items() if not is_words(graph, state)]
-    inches = _INCHES * max(1.0, max(inside, default=0) / 8)
-    figure = Figure()
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    inches = INCHES * max(1.0, max(inside, default=0) / 8)
+    if ax is not None:
+        inches = min(inches, _inches_in(ax, places))
+    figure = Picture()
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0)) if ax is None else ax
     pen = Pen(axes, graph, places, inches)
     pen.draw(start, labels)
     (left, right), (bottom, top) = (
         (min(ends) - _MARGIN, max(ends) + _MARGIN) for ends in zip(*pen.reach, strict=True)
     )
     above = 0.4 if title else 0.0
+    below = 0.3 if len(pen.fills) > _KNOWN_FILLS else 0.0
     width, height = (right - left) * inches, (top - bottom) * inches
-    figure.set_size_inches(width, height + above)
-    axes.set_position((0.0, 0.0, 1.0, height / (height + above)))
+    whole = below + height + above
+    if ax is None:
+        figure.set_size_inches(width, whole)
+        axes.set_position((0.0, below / whole, 1.0, height / whole))
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
     axes.set_axis_off()
+    if below:
+        pen.legend(width)
     if title:
         axes.set_title(title, fontsize=FONT + 2, pad=4)
-    return figure
+    return figure if ax is None else ax
 
 
-def image_bytes(figure: Figure, kind: Literal["png", "svg"] = "svg") -> bytes:
-    """Return a figure as the bytes of a PNG or SVG file, always the same bytes.
-
-    >>> from evenbreak.games import OneBall
-    >>> image_bytes(draw(OneBall(0.4, 0.8)), "png")[1:4]
-    b'PNG'
-    """
-    import io
-
-    import matplotlib as mpl
-
-    out = io.BytesIO()
-    # A salt instead of random ids, and no date or program version.
-    metadata: dict[str, Any] = {"Date": None, "Creator": None} if kind == "svg" else {}
-    with our_look(), mpl.rc_context({"svg.hashsalt": "evenbreak"}):
-        figure.savefig(out, format=kind, dpi=150, metadata=metadata or {"Software": None})
-    return out.getvalue()
+def _inches_in(ax: Axes, places: Positions) -> float:
+    """Return about how long a unit can be for all places to fit into the axes given."""
+    box = ax.get_window_extent()
+    spans = (max(ends) - min(ends) + 1.5 for ends in zip(*places.values(), strict=True))
+    sides = zip((box.width, box.height), spans, strict=True)
+    return float(min(side / ax.figure.dpi / span for side, span in sides))
 
 
 def _start_of(graph: nx.DiGraph[Any]) -> Any:
@@ -133,18 +160,5 @@ def _state_label(graph: nx.DiGraph[Any], state: Any) -> str:
     given = graph.nodes[state].get("label")
     if given is not None:
         return str(given)
-    if isinstance(state, tuple):
-        # Who would break after the last rack is not part of a result.
-        return _score_label(state[:2] if is_terminal(graph, state) else state)
     subscripted = re.fullmatch(r"([A-Za-z])(\d+)", str(state))
     return f"${subscripted[1]}_{{{subscripted[2]}}}$" if subscripted else str(state)
-
-
-def _score_label(state: tuple[Any, ...]) -> str:
-    """Return `a:b`, and below it the breaker or the score of the set."""
-    if len(state) < 2:
-        return str(state)
-    parts = [_score_label(part) if isinstance(part, tuple) else str(part) for part in state[2:]]
-    if len(parts) == 1 and isinstance(state[2], int):
-        parts = [f"{parts[0]} breaks"]
-    return "\n".join([f"{state[0]}:{state[1]}", *parts])

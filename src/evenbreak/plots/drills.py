@@ -1,30 +1,32 @@
-"""Pictures of a drill: the attempts at each level, in the long run and in a log."""
-
-from __future__ import annotations
+"""Plots of a drill: the attempts at each level, in the long run and in a log."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import overload
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
+from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.style import new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from evenbreak.practice.drills import DrillStatistics
-    from evenbreak.practice.log_analysis import LogAnalysis
+from evenbreak.practice.drills import DrillStatistics
+from evenbreak.practice.log_analysis import LogAnalysis
 
 _LEVEL = "level"
 _FRACTION = "fraction of the attempts"
 _TICKS = 20
-"""Up to so many levels each has its own tick."""
+"""Up to this many levels, each one has its own tick."""
 
 
-def drill_figure(statistics: DrillStatistics) -> Figure:
+@overload
+def drill_figure(statistics: DrillStatistics, *, ax: Axes) -> Axes: ...
+@overload
+def drill_figure(statistics: DrillStatistics) -> Picture: ...
+@in_our_look
+def drill_figure(statistics: DrillStatistics, *, ax: Axes | None = None) -> Picture | Axes:
     """Draw the fraction of attempts at each level of a drill in the long run.
+
+    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
 
     Notes
     -----
@@ -37,22 +39,29 @@ def drill_figure(statistics: DrillStatistics) -> Figure:
     9
     """
     law = statistics.distribution
-    figure, axes = new_axes(_LEVEL, _FRACTION, title="Where the drill settles")
+    figure, axes = new_axes(_LEVEL, _FRACTION, title="Where the drill settles", ax=ax)
     levels = np.arange(1, len(law.values) + 1)
     axes.bar(levels, [float(p) for p in law.probability], 0.8, color="0.75", edgecolor="black")
     _mark_mean(axes, law.mean, f"mean {law.mean:.2f}", "0.75")
     _finish(axes, levels.tolist())
-    return figure
+    return figure if ax is None else ax
 
 
-def log_figure(analysis: LogAnalysis) -> Figure:
-    """Draw the levels of a log beside those that its chances lead to in the long run.
+@overload
+def log_figure(analysis: LogAnalysis, *, ax: Axes) -> Axes: ...
+@overload
+def log_figure(analysis: LogAnalysis) -> Picture: ...
+@in_our_look
+def log_figure(analysis: LogAnalysis, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw the levels of a log beside those of the long run with its success rates.
+
+    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
 
     Notes
     -----
     Source: exercise 5.1.
     """
-    figure, axes = new_axes(_LEVEL, _FRACTION, title="Your drill: so far, and in the long run")
+    figure, axes = new_axes(_LEVEL, _FRACTION, title="Your drill so far and in the long run", ax=ax)
     levels = np.array([report.level for report in analysis.levels])
     visited, implied = (
         [getattr(report, name) for report in analysis.levels] for name in ("visited", "implied")
@@ -77,14 +86,14 @@ def log_figure(analysis: LogAnalysis) -> Figure:
         color="black",
         ms=9,
         zorder=1,
-        label="its 95 % interval",
+        label="its 95% interval",
     )
     _finish(axes, levels.tolist())
-    return figure
+    return figure if ax is None else ax
 
 
 def _mark_mean(axes: Axes, mean: float, label: str, color: str, *, above: float = 0.06) -> float:
-    """Put a triangle above the highest bar, in the colour of the bars that it goes with."""
+    """Draw a triangle above the highest bar, in the colour of the bars it belongs to."""
     height = (1.0 + above) * max(
         bar.get_height() for bar in axes.patches if isinstance(bar, Rectangle)
     )
@@ -98,6 +107,6 @@ def _finish(axes: Axes, levels: Sequence[int]) -> None:
     if len(levels) <= _TICKS:
         axes.set_xticks(levels)
     axes.set_xlim(0.4, len(levels) + 0.6)
-    # Room above the bars, so that the legend hides none.
+    # Leave room above the bars for the legend.
     axes.set_ylim(0.0, 1.24 * axes.get_ylim()[1])
     axes.legend(loc="upper right", frameon=False, ncols=2)

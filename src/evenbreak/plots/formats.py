@@ -1,34 +1,60 @@
 """Match formats in one picture: the chance of winning against p, and where the curves cross."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, overload
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from evenbreak.games.rack import Rack
-from evenbreak.matches.crossings import rack_along
+from evenbreak.matches.crossings import Crossings, rack_along
+from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.win import win_probability
-from evenbreak.plots.style import LINES, new_axes, unit_axis
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.matches.crossings import Crossings
-    from evenbreak.matches.formats import MatchFormat
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import (
+    LINES,
+    new_axes,
+    take_names_as_they_are,
+    unit_axis,
+    write_title,
+)
 
 _POINTS = 401
 
 
+@overload
 def plot_formats(
     formats: Sequence[MatchFormat],
     line: Mapping[str, Any],
     pairs: Iterable[Crossings],
     *,
     p1: float,
-) -> Figure:
-    """Return a figure of P(A wins the match) against A's chance in a game, a curve per format.
+    title: str = "",
+    names: tuple[str, str] = ("A", "B"),
+    ax: Axes,
+) -> Axes: ...
+@overload
+def plot_formats(
+    formats: Sequence[MatchFormat],
+    line: Mapping[str, Any],
+    pairs: Iterable[Crossings],
+    *,
+    p1: float,
+    title: str = "",
+    names: tuple[str, str] = ("A", "B"),
+) -> Picture: ...
+@in_our_look
+def plot_formats(
+    formats: Sequence[MatchFormat],
+    line: Mapping[str, Any],
+    pairs: Iterable[Crossings],
+    *,
+    p1: float,
+    title: str = "",
+    names: tuple[str, str] = ("A", "B"),
+    ax: Axes | None = None,
+) -> Picture | Axes:
+    """Return a figure of player 1's chance in a match against that in a game, a curve per format.
 
     Parameters
     ----------
@@ -39,22 +65,28 @@ def plot_formats(
     pairs
         the crossings, each marked by a dot.
     p1
-        A's chance for the two players in question, a vertical line.
+        that chance for the two players in question, a vertical line.
+    title
+        who plays, above the picture.
+    names
+        of player 1 and player 2.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.matches import crossings, match_format
     >>> two = [match_format("2:1"), match_format("4:2")]
     >>> figure = plot_formats(two, {}, [crossings(*two)], p1=0.6)
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
-    ['2:1', '4:2', 'worth the same']
+    ['2:1', '4:2', 'worth the same', 'A against B']
     """
     fixed = {name: line.get(name) for name in ("p2", "break_odds")}
     matters = any(value is not None for value in fixed.values())
-    x = "p1 = P(A wins a game | A breaks)" if matters else "p = P(A wins a game)"
-    figure, axes = new_axes(x, "P(A wins the match)", size=(6.4, 5.2))
+    a, b = names
+    x = f"p1 = P({a} wins a game | {a} breaks)" if matters else f"p = P({a} wins a game)"
+    figure, axes = new_axes(x, f"P({a} wins the match)", size=(6.4, 5.6), ax=ax)
     chances = np.linspace(0.0, 1.0, _POINTS)[1:-1]
     rack: Rack = rack_along(chances, **fixed)
     axes.axhline(0.5, color="0.7", linewidth=0.8)
-    axes.axvline(p1, color="0.7", linewidth=0.8)
     for played, style in zip(formats, LINES, strict=False):
         match = played.match(
             rack, breaks=line.get("breaks"), first_breaker=line.get("first_breaker", 1)
@@ -62,9 +94,8 @@ def plot_formats(
         axes.plot(
             chances,
             win_probability(match),
-            color=style.color,
-            linestyle=style.linestyle,
             label=str(played),
+            **style._asdict(),
         )
     points = [point for found in pairs for point in found.points]
     if points:
@@ -79,6 +110,12 @@ def plot_formats(
             clip_on=False,
             label="worth the same",
         )
+    axes.axvline(p1, color="0.5", linewidth=1.0, zorder=0, label=f"{a} against {b}")
     unit_axis(axes, "x", "y")
+    if title and ax is None:
+        write_title(figure, title)
+    elif title:
+        axes.set_title(title)
     axes.legend(frameon=False, loc="best")
-    return figure
+    take_names_as_they_are(axes)
+    return figure if ax is None else ax

@@ -1,66 +1,45 @@
-"""Pictures of a ladder: how wrong ratings are, how fast they settle, what a step costs."""
-
-from __future__ import annotations
+"""Pictures of a ladder: how far off ratings are, how fast they settle, what a step costs."""
 
 import math
 from collections.abc import Iterable, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, overload
 
 import numpy as np
+from matplotlib.axes import Axes
 
+from evenbreak.handicaps.ladders.settling import Settling
+from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.style import LINES, new_axes, unit_axis
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from evenbreak.stats.summary import Distribution
+from evenbreak.stats.summary import Distribution
 
 _SHOWN = 1e-3
-"""Errors rarer than this part of the commonest are beyond the edge of the picture."""
+"""Errors rarer than this share of the most frequent one are beyond the edge of the picture."""
 
 _LETTER = 8.0
-"""Size of a system's name."""
+"""Font size of a system's name."""
+
 _PANEL = (450.0, 300.0)
-"""About how wide and high the axes of the systems are, in points."""
+"""The approximate width and height of the axes of the systems, in points."""
 
 _Box = tuple[float, float, float, float]
 
 
-class SettlingCurve(NamedTuple):
-    """How many players are settled after so many matches.
-
-    Parameters
-    ----------
-    start
-        the rating error that they begin with, in points.
-    within
-        how near to no error is settled, in points.
-    settled
-        P(settled within n matches | begun at `start`), for n = 0, 1, 2, ...
-    """
-
-    start: int
-    within: int
-    settled: Sequence[float]
-
-
 class SystemPoint(NamedTuple):
-    """A system in the plane of how wrong ratings stay and how long newcomers take.
+    """A system as a point: how far off ratings stay, and how long newcomers take.
 
     Parameters
     ----------
     name
         what is written beside it.
     sd
-        of the rating error in the long run, in percent of the points that double the odds.
+        standard deviation of the rating error in the long run, in per cent of a doubling, the
+        points that double the odds.
     matches
-        the mean number of matches that a rating takes to settle which begins that many points
-        too low.
+        the mean number of matches that a rating takes to settle from a doubling too low.
     unbeaten
-        of a size of the step: whether no other is both more exact and faster. None: another
-        system or chart, drawn for comparison.
+        for a step size: whether no other is both more accurate and faster. None: another system
+        or chart, drawn for comparison.
     """
 
     name: str
@@ -69,40 +48,39 @@ class SystemPoint(NamedTuple):
     unbeaten: bool | None
 
 
+@in_our_look
 def ladder_figure(
     law: Distribution,
     *,
     natural: Distribution | None = None,
     within: int = 5,
-    curve: SettlingCurve | None = None,
+    curve: Settling | None = None,
     title: str | None = None,
-) -> Figure:
-    """Draw the law of the rating error, and beside it how fast newcomers settle.
+) -> Picture:
+    """Draw the distribution of the rating error, and beside it how fast newcomers settle.
 
-    The normal law of the same mean and standard deviation is drawn for comparison.
+    The normal distribution with the same mean and standard deviation is drawn for comparison.
 
     Parameters
     ----------
     law
-        of the rating error in points, in the long run.
+        the distribution of the rating error in the long run, in points.
     natural
-        the law against opponents who are rated rightly; None where that is `law` itself.
+        the same against correctly rated opponents; None if that is `law` itself.
     within
         the band of errors that is shaded, from -within to within points.
     curve
-        how a newcomer settles; None: one picture only.
+        how a newcomer settles; None: no second picture.
     title
-        what the ladder is.
+        what ladder it is.
 
     >>> from evenbreak.stats import Distribution
     >>> figure = ladder_figure(Distribution((-1, 0, 1), (0.25, 0.5, 0.25)))
     >>> figure.axes[0].get_xlabel()
     'rating error: rating less skill (points)'
     """
-    from matplotlib.figure import Figure
-
     width = 6.4 if curve is None else 10.6
-    figure = Figure(figsize=(width, 4.4), layout="constrained")
+    figure = Picture(figsize=(width, 4.4), layout="constrained")
     panels = figure.subplots(1, 1 if curve is None else 2, squeeze=False)[0]
     _draw_law(panels[0], law, natural, within)
     if curve is not None:
@@ -116,7 +94,7 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
     errors, chance = np.array(law.values, dtype=float), np.array(law.probability, dtype=float)
     possible = chance > 0.0
     errors, chance = errors[possible], chance[possible]
-    # Where ratings move by more than a point, some errors never occur.
+    # If ratings move by more than a point, some errors never occur.
     spacing = float(np.diff(errors).min()) if len(errors) > 1 else 1.0
     inside = law.between(-within, within)
     axes.axvspan(
@@ -126,7 +104,7 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
         edgecolor="0.7",
         linewidth=0.5,
         zorder=0,
-        label=f"within {within} point{'s' * (within != 1)}: {100 * inside:.0f} %",
+        label=f"within {within} point{'s' * (within != 1)}: {100 * inside:.0f}%",
     )
     style = LINES[0]
     axes.plot(errors, chance, "o", ms=3.5, color=style.color, label=f"this ladder, sd {law.sd:.2f}")
@@ -138,9 +116,8 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
         axes.plot(
             values[p > 0.0],
             p[p > 0.0],
-            color=style.color,
-            linestyle=style.linestyle,
-            label=f"opponents rated rightly, sd {natural.sd:.2f}",
+            **style._asdict(),
+            label=f"correctly rated opponents, sd {natural.sd:.2f}",
         )
     shown = errors[chance > _SHOWN * chance.max()]
     edge = max(abs(shown[0]), abs(shown[-1]), within) + 1.5
@@ -151,10 +128,9 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
         axes.plot(
             x,
             spacing * bell,
-            color=style.color,
-            linestyle=style.linestyle,
+            **style._asdict(),
             linewidth=1.2,
-            label="normal law of the same sd",
+            label="normal distribution, same sd",
         )
     axes.set(xlabel="rating error: rating less skill (points)", ylabel="probability")
     axes.set_xlim(-edge, edge)
@@ -163,9 +139,9 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.5)
 
 
-def _draw_settling(axes: Axes, curve: SettlingCurve) -> None:
-    settled = np.asarray(curve.settled, dtype=float)
-    # What comes after nearly all have settled says nothing more.
+def _draw_settling(axes: Axes, curve: Settling) -> None:
+    settled = np.cumsum(curve.chances)
+    # Nothing happens after nearly all have settled.
     last = min(int(np.searchsorted(settled, 0.995)) + 1, len(settled))
     matches = np.arange(last)
     style = LINES[0]
@@ -187,21 +163,30 @@ def _draw_settling(axes: Axes, curve: SettlingCurve) -> None:
     axes.set_xlim(0, max(last - 1, 1))
     axes.set(
         xlabel=f"matches played since the error was {curve.start:+d} points",
-        ylabel=f"part who have come within {curve.within} points",
+        ylabel=f"share of players within {curve.within} points",
     )
 
 
-def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
-    """Draw how wrong the ratings of systems stay over how long their newcomers take.
+@overload
+def systems_figure(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes) -> Axes: ...
+@overload
+def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Picture: ...
+@in_our_look
+def systems_figure(
+    points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | None = None
+) -> Picture | Axes:
+    """Draw how far off ratings stay over how long newcomers take, for several systems.
 
-    The sizes of the step that no other beats in both are filled and joined.
+    The step sizes that no other step beats in both are filled and joined.
 
     Parameters
     ----------
     points
         the systems.
     chart
-        the chart of the sizes of the step.
+        the chart of the step sizes.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> figure = systems_figure([SystemPoint("step 1", 15.4, 60.3, True),
     ...     SystemPoint("step 2", 20.8, 30.8, True)])
@@ -210,18 +195,19 @@ def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
     """
     on_chart = f" on {chart}" if chart else ""
     figure, axes = new_axes(
-        "matches until a rating has settled, mean",
+        "matches until a rating has settled (mean)",
         "sd of the rating error (% of the points that double the odds)",
-        title=f"Systems, and sizes of the step{on_chart}",
+        title=f"Systems and step sizes{on_chart}",
         size=(7.2, 5.0),
+        ax=ax,
     )
     listed = sorted(points, key=lambda point: point.matches)
     black, orange = LINES[0].color, LINES[2].color
     front = [point for point in listed if point.unbeaten]
     axes.plot(*_places(front), color="0.6", linewidth=0.8, zorder=1)
     kinds = (
-        (True, "o", black, black, f"steps{on_chart}: none is both more exact and faster"),
-        (False, "o", "white", black, "another step is"),
+        (True, "o", black, black, f"steps{on_chart}: no other is more accurate and faster"),
+        (False, "o", "white", black, "steps that another step beats"),
         (None, "D", orange, orange, "other charts and systems"),
     )
     for unbeaten, mark, inside, edge, label in kinds:
@@ -247,15 +233,15 @@ def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Figure:
             parse_math=False,
         )
     axes.legend(frameon=False, fontsize=9, loc="upper right")
-    return figure
+    return figure if ax is None else ax
 
 
 def _free_offsets(
     listed: Sequence[SystemPoint], right: float, top: float
 ) -> list[tuple[float, float]]:
-    """Return where each name stands from its mark, in points, so that few cover another or a mark.
+    """Return the offset of each name from its mark, in points, so that few cover anything.
 
-    One name after the other takes the first place that is free, or the freest.
+    One name after the other takes the first free place, or the freest one.
     """
     wide, high = _PANEL
     marks = [(point.matches / right * wide, point.sd / top * high) for point in listed]
@@ -269,7 +255,7 @@ def _free_offsets(
             for dy, dx in product((0.0, 9.0, -9.0, 18.0, -18.0, 27.0, -27.0), (0.0, side, -side))
             if dx or dy
         ]
-        # Above and below come first, then beside, then farther off.
+        # Above and below come first, then beside, then further off.
         places.sort(key=lambda place: (abs(place[1]) + 0.6 * abs(place[0]), -place[1]))
         covered = [
             sum(_overlap((x + dx, y + dy, width, height), box) for box in taken)
@@ -283,7 +269,7 @@ def _free_offsets(
 
 
 def _overlap(one: _Box, other: _Box) -> float:
-    """Return the area that two boxes share; a box is its middle, width and height.
+    """Return the area that two boxes share; a box is its centre, width and height.
 
     >>> _overlap((0, 0, 4, 2), (3, 1, 4, 2))
     1.0

@@ -18,10 +18,10 @@ def positions_of(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, f
     """Return a place for every node, in units of the distance between neighbours.
 
     A graph that is a path, ignoring self-loops and directions (one-ball, n-ahead, drills), lies
-    on a line, with player 1's wins to the right. A graph whose states are scores (a, b) lies on
-    a grid: racks played to the right, player 1's lead upwards. Any other graph is layered by
-    the distance from `start`, with terminal nodes on the outer rows: player 1's wins above, the
-    others below.
+    on a line, with player 1's wins to the right. A graph whose states are scores (a, b), each of
+    which an arc changes by 1 at most, lies on a grid: racks played to the right, player 1's
+    lead upwards. Any other graph is layered by the distance from `start`, with terminal nodes
+    on the outer rows: player 1's wins above, the others below.
 
     Parameters
     ----------
@@ -68,7 +68,10 @@ def _on_the_lattice(graph: nx.DiGraph[Any]) -> dict[Any, tuple[float, float]]:
             and all(isinstance(games, int) for games in state)
         )
 
-    if not all(is_score(state) for state in graph):
+    def is_step(source: Any, target: Any) -> bool:
+        return all(abs(i - j) <= 1 for i, j in zip(source, target, strict=True))
+
+    if not all(map(is_score, graph)) or not all(is_step(*arc) for arc in graph.edges):
         return {}
     # 0.75 instead of 0.5: arcs of slope 3/4 leave room for their labels.
     return {(a, b): (float(a + b), 0.75 * (a - b)) for a, b in graph}

@@ -1,18 +1,13 @@
 """A match so far as a picture: how likely each player was to win, rack after rack."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import Any, Literal
 
 import numpy as np
 
-from evenbreak.plots.style import LINES
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.matches.live import LiveOdds
+from evenbreak.matches.live import LiveOdds
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, take_names_as_they_are, write_title
 
 _MOST_SCORES = 24
 """The most scores that fit below the picture; of more, only every second, third, ... is written."""
@@ -21,17 +16,23 @@ _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
 """Shares of the picture: the width and height of a label, and its distance from the line."""
 
 
-def plot_course(odds: LiveOdds) -> Figure:
-    """Return a figure of a match so far; player 1 is A and player 2 is B.
+@in_our_look
+def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A", "B")) -> Picture:
+    """Return a figure of a match so far.
 
-    The upper panel is P(A wins the match) after each rack: a filled dot is a rack that A won, an
-    open dot a rack that B won, and the rack that changed most is marked. The lower panel is the
-    leverage of each rack: how much depended on it before it was played.
+    The upper panel is player 1's chance of winning the match after each rack: a filled dot is a
+    rack that player 1 won, an open dot a rack that player 2 won, and the rack that changed most is
+    marked. The lower panel is the leverage of each rack: how much depended on it before it was
+    played.
 
     Parameters
     ----------
     odds
         the match, with at least one rack.
+    title
+        who plays what, above the picture.
+    names
+        of player 1 and player 2.
 
     >>> from evenbreak.games import Race, Rack
     >>> from evenbreak.matches import live_odds
@@ -39,20 +40,19 @@ def plot_course(odds: LiveOdds) -> Figure:
     >>> [label.get_text() for label in figure.axes[1].get_xticklabels()]
     ['0:0', '1:0', '1:1', '2:1']
     """
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(7.2, 5.4), layout="constrained")
+    figure = Picture(figsize=(7.2, 5.4), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     wins = [moment.p_win_1 for moment in odds.course]
     racks = range(len(wins))
     line = LINES[1]
     above.axhline(0.5, color="0.7", linewidth=0.8)
     above.plot(racks, wins, color=line.color, linewidth=1.4, zorder=2)
-    for winner, face, name in ((1, line.color, "A won the rack"), (2, "white", "B won the rack")):
+    dot: Any = {"color": line.color, "ms": 7, "zorder": 3}
+    for winner, face, name in ((1, line.color, names[0]), (2, "white", names[1])):
         at = [i for i, won in enumerate(odds.winners, 1) if won == winner]
         if at:
             chances = [wins[i] for i in at]
-            above.plot(at, chances, "o", color=line.color, mfc=face, ms=7, label=name, zorder=3)
+            above.plot(at, chances, "o", mfc=face, label=f"{name} won the rack", **dot)
     most = max(range(len(odds.swings)), key=lambda i: abs(odds.swings[i]))
     swing = odds.swings[most]
     change = f"{swing:+.2f}".replace("-", "\N{MINUS SIGN}")
@@ -60,8 +60,9 @@ def plot_course(odds: LiveOdds) -> Figure:
     place, va = _clear_of(wins, most + 0.5)
     label = above.text(most + 0.5, place, change, fontsize=9, ha="center", va=va)
     label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.0})  # over the line of 1/2
-    above.set(ylim=(-0.03, 1.03), ylabel="P(A wins the match)")
+    above.set(ylim=(-0.03, 1.03), ylabel=f"P({names[0]} wins the match)")
     above.legend(frameon=False, loc="best")
+    take_names_as_they_are(above)
     leverages = [moment.leverage or 0.0 for moment in odds.course[:-1]]
     below.bar([i + 0.5 for i in range(len(leverages))], leverages, width=0.7, color="0.6")
     below.set(ylabel="leverage", xlabel="score", ylim=(0.0, None))
@@ -72,6 +73,8 @@ def plot_course(odds: LiveOdds) -> Figure:
         below.set_xlabel("score, and below it the score of the set")
     for axes in (above, below):
         axes.tick_params(direction="in", top=True, right=True)
+    if title:
+        write_title(figure, title)
     return figure
 
 

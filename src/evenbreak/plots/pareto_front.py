@@ -1,30 +1,36 @@
-"""The picture of what fairness costs in length."""
-
-from __future__ import annotations
+"""The plot of what fairness costs in length."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import overload
 
+from matplotlib.axes import Axes
+
+from evenbreak.handicaps.charts.pareto import ParetoChart
+from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.style import LINES, new_axes
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-    from evenbreak.handicaps.charts.pareto import ParetoChart
-
-
-def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> Figure:
+@overload
+def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean", ax: Axes) -> Axes: ...
+@overload
+def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> Picture: ...
+@in_our_look
+def pareto_figure(
+    charts: Sequence[ParetoChart], *, criterion: str = "mean", ax: Axes | None = None
+) -> Picture | Axes:
     """Draw the unfairness of charts over their mean length.
 
-    Dots are charts that nothing beats, filled and with their 90 % length where that was the
-    limit; diamonds with their names those that another chart beats.
+    Dots are charts that no other beats; those with a limit on the 90% length are filled and
+    labelled with that length. Diamonds are charts that another one beats, with their names.
 
     Parameters
     ----------
     charts
         what `pareto` returned.
     criterion
-        'mean' or 'worst': the unfairness that is drawn.
+        'mean' or 'worst': the unfairness to draw.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.handicaps import RaceLimits, chart, pareto
     >>> npl_8 = chart("npl_8")
@@ -33,13 +39,14 @@ def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> 
     ['6', '5', 'npl_8']
     """
     figure, axes = new_axes(
-        "mean length of a match (games)",
-        f"unfairness, {'mean' if criterion == 'mean' else 'largest'} |W \N{MINUS SIGN} target|",
+        "games in a match, on average",
+        f"unfairness {'on average' if criterion == 'mean' else 'at worst'}",
+        ax=ax,
     )
     black, orange = LINES[0].color, LINES[2].color
     kinds = (
-        (_by_mean, "o", "white", black, "fairest of such a mean length"),
-        (_by_p90, "o", black, black, "fairest, 9 of 10 matches within so many games"),
+        (_by_mean, "o", "white", black, "fairest chart of this mean length"),
+        (_by_p90, "o", black, black, "fairest with 9 of 10 matches within this many games"),
         (_beaten, "D", orange, orange, "another chart is fairer and no longer"),
     )
     middle = sum(_place(one, criterion)[0] for one in (charts[0], charts[-1])) / 2.0
@@ -65,7 +72,7 @@ def pareto_figure(charts: Sequence[ParetoChart], *, criterion: str = "mean") -> 
     axes.margins(0.06)
     axes.set_ylim(bottom=0.0)
     axes.legend(loc="upper right", fontsize=9)
-    return figure
+    return figure if ax is None else ax
 
 
 def _place(one: ParetoChart, criterion: str) -> tuple[float, float]:
@@ -85,7 +92,7 @@ def _by_mean(one: ParetoChart) -> bool:
 
 
 def _name(one: ParetoChart) -> str:
-    """Return what is written beside a chart: its name, its 90 % length, or nothing."""
+    """Return the label of a chart: its name, its 90% length, or nothing."""
     if _by_p90(one):
         return str(one.measure.games_p90)
     return one.chart.name if _beaten(one) else ""

@@ -1,14 +1,10 @@
 """Dots with names beside them, on a plot of pairs of probabilities."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
 
 from evenbreak.plots.style import LINES
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 def mark_points(axes: Axes, points: Iterable[tuple[float, float, str]]) -> None:

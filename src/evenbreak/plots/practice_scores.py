@@ -1,44 +1,54 @@
-"""Pictures of practice scores: one list over time, or two side by side."""
-
-from __future__ import annotations
+"""Plots of practice scores: one list over time, or two side by side."""
 
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import overload
 
 import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
-from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from numpy.typing import NDArray
-
-    from evenbreak.files.scores import ScoresFile
-    from evenbreak.stats.confidence import MeanInterval
+from evenbreak.files.scores import ScoresFile
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, legend_below, new_axes
+from evenbreak.stats.confidence import MeanInterval
 
 BAND = "0.85"
 STEP = 0.08
-"""How far apart equal scores are drawn, where the lists are 1 apart."""
+"""The distance between equal scores, where the lists are 1 apart."""
 
 WIDEST = 0.3
-"""How far from the middle of its list a score is drawn at most."""
+"""The largest distance of a score from the middle of its list."""
 
 
+@overload
+def plot_scores(
+    file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None, ax: Axes
+) -> Axes: ...
+@overload
 def plot_scores(
     file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None
-) -> Figure:
-    """Return a figure of the scores of a file, their mean and the interval of the true one.
+) -> Picture: ...
+@in_our_look
+def plot_scores(
+    file: ScoresFile,
+    interval: MeanInterval | None,
+    *,
+    new: float | None = None,
+    ax: Axes | None = None,
+) -> Picture | Axes:
+    """Return a figure of the scores of a file, their mean and the interval of the true mean.
 
     Parameters
     ----------
     file
-        the scores; drawn over their dates, or in the order of the file without them.
+        the scores, drawn over their dates, or in the order of the file if it has no dates.
     interval
         of the true mean; None draws no band.
     new
         one more score, drawn after the others.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> import numpy as np
     >>> from evenbreak.files.scores import ScoresFile
@@ -50,6 +60,7 @@ def plot_scores(
         "number of the score" if file.dates is None else "date",
         "score",
         title=f"Practice scores of {Path(file.source).name}",
+        ax=ax,
     )
     if file.dates is None:
         when: NDArray[np.float64] | NDArray[np.datetime64] = np.arange(1.0, len(file.scores) + 1)
@@ -57,38 +68,52 @@ def plot_scores(
         axes.locator_params(axis="x", integer=True)
     else:
         when = file.dates
-        # As long after the last score as scores are apart, or a day.
+        # After the last score by the usual distance between scores, or a day.
         apart = (when.max() - when.min()) // max(1, len(when) - 1)
         later = when.max() + max(apart, np.timedelta64(1, "D"))
-        figure.autofmt_xdate()
+        if ax is None:
+            figure.autofmt_xdate()
     mean = float(file.scores.mean())
     if interval is not None:
-        share = f"{100 * interval.confidence:g} % interval of the true mean"
+        share = f"{100 * interval.confidence:g}% interval of the true mean"
         axes.axhspan(interval.low, interval.high, color=BAND, linewidth=0, label=share, zorder=0)
     axes.plot(when, file.scores, "o", color=LINES[0].color, label="scores")
-    axes.axhline(
-        mean, color=LINES[1].color, linestyle=LINES[1].linestyle, label=f"mean {mean:.2f}", zorder=1
-    )
+    axes.axhline(mean, **LINES[1]._asdict(), label=f"mean {mean:.2f}", zorder=1)
     if new is not None:
-        axes.plot(
-            np.array([later]),
-            [new],
-            "D",
-            color=LINES[2].color,
-            markersize=8,
-            label=f"new score {new:g}",
-        )
-    figure.legend(frameon=False, loc="outside lower center", ncols=2)
-    return figure
+        label = f"new score {new:g}"
+        axes.plot(np.array([later]), [new], "D", color=LINES[2].color, markersize=8, label=label)
+    legend_below(figure, ax)
+    return figure if ax is None else ax
 
 
+@overload
 def plot_two_lists(
     before: NDArray[np.float64],
     after: NDArray[np.float64],
     names: tuple[str, str],
     intervals: tuple[MeanInterval | None, MeanInterval | None],
-) -> Figure:
-    r"""Return a figure of two lists of scores side by side, each with the interval of its mean.
+    *,
+    ax: Axes,
+) -> Axes: ...
+@overload
+def plot_two_lists(
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    names: tuple[str, str],
+    intervals: tuple[MeanInterval | None, MeanInterval | None],
+) -> Picture: ...
+@in_our_look
+def plot_two_lists(
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    names: tuple[str, str],
+    intervals: tuple[MeanInterval | None, MeanInterval | None],
+    *,
+    ax: Axes | None = None,
+) -> Picture | Axes:
+    r"""Return a figure of two lists of scores side by side, each with its mean and interval.
+
+    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
 
     >>> import numpy as np
     >>> figure = plot_two_lists(
@@ -98,8 +123,10 @@ def plot_two_lists(
     ['before\n2 scores', 'after\n1 score']
     """
     shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
-    with_interval = f" with its {shares.pop()} % interval" if shares else ""
-    figure, axes = new_axes("", "score", title=f"Practice scores, and their mean{with_interval}")
+    with_interval = f" with its {shares.pop()}% interval" if shares else ""
+    figure, axes = new_axes(
+        "", "score", title=f"Practice scores, and their mean{with_interval}", ax=ax
+    )
     for place, (scores, interval) in enumerate(zip((before, after), intervals, strict=True)):
         _strip(axes, place, scores, interval)
     labels = [
@@ -108,13 +135,13 @@ def plot_two_lists(
     ]
     axes.set_xticks([0, 1], labels)
     axes.set_xlim(-0.5, 1.75)
-    return figure
+    return figure if ax is None else ax
 
 
 def _strip(
     axes: Axes, place: int, scores: NDArray[np.float64], interval: MeanInterval | None
 ) -> None:
-    """Draw one list: equal scores beside one another, and to the right the mean."""
+    """Draw one list, with equal scores beside one another and the mean to their right."""
     line = LINES[place]
     values = scores.tolist()
     counts, seen = Counter(values), Counter[float]()

@@ -1,30 +1,34 @@
-"""Pictures of sandbagging: what it buys, and what results weigh for it."""
-
-from __future__ import annotations
+"""Pictures of sandbagging: what it pays, and the evidence for it."""
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import overload
 
+from matplotlib.axes import Axes
+
+from evenbreak.league.sandbag_pay import Sandbagging
+from evenbreak.league.sandbag_watch import Watched
+from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.style import LINES, new_axes
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.league.sandbag import Sandbagging
-    from evenbreak.league.watch import Watched
-
 MOST_NAMED = 6
-"""How many players are named in the picture of a league; the others are thin lines."""
+"""How many players of a league are named; the others are thin lines."""
 
 
-def pay_figure(pays: Sandbagging) -> Figure:
-    """Draw the chance to win each match in earnest, after several numbers of dumped matches.
+@overload
+def pay_figure(pays: Sandbagging, *, ax: Axes) -> Axes: ...
+@overload
+def pay_figure(pays: Sandbagging) -> Picture: ...
+@in_our_look
+def pay_figure(pays: Sandbagging, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw the chance to win each match in earnest, for several numbers of dumped matches.
 
     Parameters
     ----------
     pays
         what `sandbagging` returned.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> from evenbreak.handicaps import Ladder
     >>> from evenbreak.league import sandbagging
@@ -32,7 +36,12 @@ def pay_figure(pays: Sandbagging) -> Figure:
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     ['honest', '2 dumped', '4 dumped', '6 dumped', '8 dumped']
     """
-    figure, axes = new_axes("match in earnest", "chance to win it", title="What dumped matches buy")
+    figure, axes = new_axes(
+        "match in earnest",
+        "chance to win it",
+        title="What dumped matches bring",
+        ax=ax,
+    )
     most, many = len(pays.rows) - 1, pays.p_win.shape[1]
     shown = sorted({round(most * part / 4) for part in range(5)})
     matches = range(1, many + 1)
@@ -45,11 +54,18 @@ def pay_figure(pays: Sandbagging) -> Figure:
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.25 * (high - low))
     axes.legend(loc="upper center", fontsize=9, ncols=3)
-    return figure
+    return figure if ax is None else ax
 
 
-def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
-    """Draw the evidence against each player over his matches, on a logarithmic axis.
+@overload
+def watch_figure(watched: Sequence[Watched], *, alpha: float, ax: Axes) -> Axes: ...
+@overload
+def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Picture: ...
+@in_our_look
+def watch_figure(
+    watched: Sequence[Watched], *, alpha: float, ax: Axes | None = None
+) -> Picture | Axes:
+    """Draw the evidence against each player, match by match, on a logarithmic axis.
 
     Parameters
     ----------
@@ -57,6 +73,8 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
         what `watch` returned.
     alpha
         the alarm is at 1 / alpha.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> import numpy as np
     >>> from evenbreak.league import Watched
@@ -67,9 +85,10 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
     """
     figure, axes = new_axes(
         "match of the player",
-        "evidence e",
+        "evidence",
         title="Evidence for sandbagging",
         size=(7.4, 4.2),
+        ax=ax,
     )
     named = sorted(watched, key=lambda one: -float(one.log_e.max()))[:MOST_NAMED]
     axes.axhline(1.0 / alpha, color="#555555", linewidth=0.8, linestyle=":", label="alarm")
@@ -84,7 +103,7 @@ def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Figure:
     legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize=9)
     for text in legend.get_texts():
         text.set_parse_math(False)
-    return figure
+    return figure if ax is None else ax
 
 
 def _curve(one: Watched) -> tuple[range, list[float]]:

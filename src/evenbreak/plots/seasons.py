@@ -1,73 +1,96 @@
-"""Pictures of simulated seasons: ratings week by week, wins by gap, and the spread of the table."""
+"""Pictures of simulated seasons: ratings by week, wins by gap of skill, spread of the standings."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from typing import overload
 
 import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
 
-from evenbreak.answers.season_frames import fairness_frame, standings_frame, weeks_frame
 from evenbreak.files.problems import printable
-from evenbreak.plots.style import LINES, new_axes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from evenbreak.league.season import Season
-    from evenbreak.league.tally import Tally
+from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.style import LINES, legend_below, new_axes
 
 MOST_PLAYERS = 40
-"""How many players of a table are drawn: the first half and the last half of them."""
+"""How many players of the standings are drawn: the first half and the last half of them."""
 
 
-def errors_figure(tally: Tally) -> Figure:
-    """Draw how wrong the ratings are, week by week.
+@overload
+def errors_figure(weeks: pd.DataFrame, *, ax: Axes) -> Axes: ...
+@overload
+def errors_figure(weeks: pd.DataFrame) -> Picture: ...
+@in_our_look
+def errors_figure(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw how far off the ratings are, week by week.
 
+    Parameters
+    ----------
+    weeks
+        as `weeks_frame` returns it.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+
+    >>> from evenbreak.answers.season_tables import weeks_frame
     >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
     >>> season = Season(LeaguePlayers.of([92, 80], skill=[85, 80]), "npl", weeks=3)
-    >>> figure = errors_figure(run_chunk(season, 20, np.random.SeedSequence(1)))
+    >>> figure = errors_figure(weeks_frame(run_chunk(season, 20, np.random.SeedSequence(1))))
     >>> figure.axes[0].get_xlabel()
     'week'
     """
-    rows = weeks_frame(tally)
-    figure, axes = new_axes("week", "rating less true skill, points", title="How wrong ratings are")
-    week = rows["week"].to_numpy()
+    figure, axes = new_axes(
+        "week",
+        "rating less true skill (points)",
+        title="How far off ratings are",
+        ax=ax,
+    )
+    week = weeks["week"].to_numpy()
     for low, high, shade, part in (("05", "95", "0.88", 90), ("25", "75", "0.72", 50)):
         axes.fill_between(
             week,
-            rows[f"error_p{low}"].to_numpy(float, na_value=np.nan),
-            rows[f"error_p{high}"].to_numpy(float, na_value=np.nan),
+            weeks[f"error_p{low}"].to_numpy(float, na_value=np.nan),
+            weeks[f"error_p{high}"].to_numpy(float, na_value=np.nan),
             color=shade,
             linewidth=0,
-            label=f"{part} % of all players",
+            label=f"{part}% of the players",
         )
     axes.axhline(0.0, color="0.5", linewidth=0.8)
-    mean, sd = rows["error_mean"].to_numpy(), rows["error_sd"].to_numpy()
-    axes.plot(week, mean, color=LINES[0].color, linestyle=LINES[0].linestyle, label="mean")
-    axes.plot(week, sd, color=LINES[1].color, linestyle=LINES[1].linestyle, label="one sd")
+    mean, sd = weeks["error_mean"].to_numpy(), weeks["error_sd"].to_numpy()
+    axes.plot(week, mean, **LINES[0]._asdict(), label="mean")
+    axes.plot(week, sd, **LINES[1]._asdict(), label="standard deviation")
     axes.set_xlim(float(week[0]), float(week[-1]))
     axes.locator_params(axis="x", integer=True)
     axes.legend(loc="upper right", frameon=False, ncols=2)
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom, top + 0.25 * (top - bottom))  # room for the legend
-    return figure
+    return figure if ax is None else ax
 
 
-def gaps_figure(season: Season, tally: Tally) -> Figure:
-    """Draw how often the stronger player wins, by how much stronger he is.
+@overload
+def gaps_figure(fairness: pd.DataFrame, *, ax: Axes) -> Axes: ...
+@overload
+def gaps_figure(fairness: pd.DataFrame) -> Picture: ...
+@in_our_look
+def gaps_figure(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw how often the stronger player wins, by the gap between the two skills.
 
     The bars are two standard errors of the simulation, up and down.
+
+    Parameters
+    ----------
+    fairness
+        as `fairness_frame` returns it.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
     """
-    rows = fairness_frame(season, tally)
-    rows = rows[rows["group"] == "gap"]
+    rows = fairness[fairness["group"] == "gap"]
     figure, axes = new_axes(
-        "gap of the true skills on the day, points",
-        "matches that the stronger player wins",
-        title="How fair nights are",
+        "gap between the true skills of the day (points)",
+        "share of matches won by the stronger player",
+        title="How fair matches are",
+        ax=ax,
     )
     start = rows["from"].to_numpy(float)
     end = rows["to"].to_numpy(float, na_value=np.nan)
-    # The last is open; it is drawn as if it were as wide as the first.
+    # The last gap has no upper limit; it is drawn as wide as the first.
     middle = (start + np.where(np.isnan(end), start + np.nanmin(end, initial=np.inf), end)) / 2.0
     axes.axhline(0.5, color="0.5", linewidth=0.8)
     axes.errorbar(
@@ -84,29 +107,38 @@ def gaps_figure(season: Season, tally: Tally) -> Figure:
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, 0.4), max(high, 0.6))
     axes.annotate("even", (0.99, 0.5), xycoords=("axes fraction", "data"), ha="right", va="bottom")
-    return figure
+    return figure if ax is None else ax
 
 
-def standings_figure(season: Season, tally: Tally) -> Figure:
-    """Draw how many matches each player may win: the mean, and 8 seasons in 10.
+@overload
+def standings_figure(standings: pd.DataFrame, *, ax: Axes) -> Axes: ...
+@overload
+def standings_figure(standings: pd.DataFrame) -> Picture: ...
+@in_our_look
+def standings_figure(standings: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw how many matches each player wins: the mean, and the range of 8 seasons in 10.
 
-    Of a league of more than 40 players the first and the last 20 are drawn.
+    Of more than 40 players the first 20 and the last 20 are drawn.
+
+    Parameters
+    ----------
+    standings
+        as `standings_frame` returns it.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
     """
-    rows = standings_frame(season, tally)
-    many = len(rows)
+    rows, many, half = standings, len(standings), MOST_PLAYERS // 2
+    title = "Matches won in a season"
     if many > MOST_PLAYERS:
-        half = MOST_PLAYERS // 2
         rows = rows.iloc[[*range(half), *range(many - half, many)]]
-    title = "What the table may look like"
-    if many > MOST_PLAYERS:
-        title += f": the first and the last {MOST_PLAYERS // 2} of {many:,}"
+        title += f": the first and the last {half} of {many:,}"
     size = (6.4, 1.4 + 0.22 * len(rows))
-    figure, axes = new_axes("matches won in a season", "", title=title, size=size)
+    figure, axes = new_axes("matches won in a season", "", title=title, size=size, ax=ax)
     place = np.arange(len(rows))[::-1]
     mean, sd = rows["points_mean"].to_numpy(), rows["points_sd"].to_numpy()
     low = rows["points_p10"].to_numpy(float, na_value=np.nan)
     high = rows["points_p90"].to_numpy(float, na_value=np.nan)
-    # Where the laws of the players are not kept, as if they were normal.
+    # Where no histograms of the players are kept, as if normally distributed.
     low = np.where(np.isnan(low), mean - 1.2816 * sd, low)
     high = np.where(np.isnan(high), mean + 1.2816 * sd, high)
     if not np.isnan(sd).all():  # one season has no spread
@@ -115,5 +147,5 @@ def standings_figure(season: Season, tally: Tally) -> Figure:
     axes.set_yticks(place, [printable(str(name))[:32] for name in rows["player"]])
     axes.set_ylim(-0.8, len(rows) - 0.2)
     axes.set_xlim(left=0.0)
-    figure.legend(loc="outside lower center", ncols=2, frameon=False)
-    return figure
+    legend_below(figure, ax)
+    return figure if ax is None else ax

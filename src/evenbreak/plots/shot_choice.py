@@ -1,19 +1,17 @@
 """Shots of the one-ball game on a contour plot of the chance of winning."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import overload
+
+from matplotlib.axes import Axes
 
 from evenbreak.checks import one_of
 from evenbreak.plots.contours import contour_axes
+from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.point_labels import mark_points
 from evenbreak.plots.style import new_axes
 from evenbreak.practice.shots import LOOK_AHEADS, ShotChoice, one_ball_win
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _TITLES = {
     "infinite": "P(you win), the two shots repeated",
@@ -21,7 +19,16 @@ _TITLES = {
 }
 
 
-def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -> Figure:
+@overload
+def shots_figure(
+    shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", ax: Axes
+) -> Axes: ...
+@overload
+def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -> Picture: ...
+@in_our_look
+def shots_figure(
+    shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", ax: Axes | None = None
+) -> Picture | Axes:
     """Draw P(player 1 wins the one-ball game) over (p1, p2), with each shot as a dot.
 
     Below the thick line player 1, called "you", is the favourite.
@@ -32,6 +39,8 @@ def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -
         the shots that player 1 may choose from.
     look_ahead
         as in `evenbreak.practice.one_ball_win`.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
 
     Raises
     ------
@@ -47,7 +56,7 @@ def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -
     'P(you win), the two shots repeated'
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
-    figure, axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6))
+    figure, axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6), ax=ax)
     contour_axes(
         axes,
         partial(one_ball_win, look_ahead=look_ahead),
@@ -55,4 +64,4 @@ def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -
         y="$p_2$ = P(the opponent makes what a miss leaves)",
     )
     mark_points(axes, [(shot.p1, shot.p2, shot.name) for shot in shots])
-    return figure
+    return figure if ax is None else ax

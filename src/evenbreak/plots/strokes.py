@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, inf, pi, sin
 from typing import TYPE_CHECKING, Any, TypeAlias
+
+from matplotlib.axes import Axes
+from matplotlib.patches import Circle, FancyArrowPatch
+from matplotlib.path import Path as Curve
 
 from evenbreak.plots.layout import Positions
 
 if TYPE_CHECKING:
     import networkx as nx
-    from matplotlib.axes import Axes
+
 
 Point: TypeAlias = tuple[float, float]
 
@@ -19,13 +23,17 @@ _RADIUS = 0.27
 """Of a circle, in units of the distance between neighbours."""
 _RING = 0.82
 """The inner circle of a terminal node, as a fraction of the outer one."""
+INCHES = 1.25
+"""The length of a unit, with labels of up to eight characters."""
 FONT = 11.0
 _HEAD = "-|>,head_length=5,head_width=2.5"
 _BENDS = (0.0, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6)
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7)
 """Where along an arc its label may go, best place first."""
-_FILL = {1: ("0.85", "black"), 2: ("0.35", "white"), None: ("white", "black")}
+_FILL = {None: ("white", "black"), 1: ("0.85", "black"), 2: ("0.35", "white")}
 """Fill and text colour of a terminal node by winner; they differ in black and white too."""
+_GOLDEN = 0.381966
+"""Steps of this part of the colour circle never come back to a colour that is taken."""
 
 
 def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
@@ -36,6 +44,28 @@ def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
 def is_words(graph: nx.DiGraph[Any], state: Any) -> bool:
     """Return whether a node is not a state but text, such as dots or a heading."""
     return bool(graph.nodes[state].get("kind") == "words")
+
+
+def fills(graph: nx.DiGraph[Any]) -> dict[Any, tuple[Any, str]]:
+    """Return the fill and text colour of a terminal node for each winner, and for none.
+
+    Greys for players 1 and 2, a colour of its own for every further winner.
+
+    >>> import networkx as nx
+    >>> graph = nx.DiGraph()
+    >>> graph.add_nodes_from([("a", {"winner": 3}), ("b", {"winner": 4}), ("c", {"winner": 2})])
+    >>> list(fills(graph)), len(set(fills(graph).values()))
+    ([None, 1, 2, 3, 4], 5)
+    """
+    from colorsys import hls_to_rgb
+
+    winners: dict[Any, None] = dict.fromkeys(node.get("winner") for node in graph.nodes.values())
+    others = [winner for winner in winners if winner not in _FILL]
+    others.sort(key=lambda winner: winner if isinstance(winner, int) else inf)
+    return _FILL | {
+        winner: (hls_to_rgb((0.55 + _GOLDEN * k) % 1.0, 0.72, 0.8), "black")
+        for k, winner in enumerate(others)
+    }
 
 
 def _arc_label(arc: Mapping[str, Any]) -> str:
@@ -73,6 +103,8 @@ class Pen:
         self.graph = graph
         self.places = places
         self.points_per_unit = 72 * inches
+        self.font = FONT * min(1.0, inches / INCHES)
+        self.fills = fills(graph)
         self.used: dict[Any, list[float]] = {state: [] for state in graph}
         self.boxes = [(x, y, 0.8 * _RADIUS, 0.8 * _RADIUS) for x, y in places.values()]
         self.tracks: dict[tuple[Any, Any], list[Point]] = {}
@@ -117,8 +149,6 @@ class Pen:
 
     def arc(self, source: Any, target: Any, bend: float) -> None:
         """Draw the arrow from one circle to another."""
-        from matplotlib.patches import FancyArrowPatch
-
         a, b = self.places[source], self.places[target]
         shrink = _RADIUS * self.points_per_unit
         self.axes.add_patch(
@@ -149,9 +179,6 @@ class Pen:
 
     def loop(self, state: Any, label: str) -> None:
         """Draw the arrow from a circle to itself, where there is most room."""
-        from matplotlib.patches import FancyArrowPatch
-        from matplotlib.path import Path as Curve
-
         x, y = self.places[state]
         angle = self.free_angle(state, (pi / 2, -pi / 2, pi, 0.0), spare=pi)
 
@@ -177,7 +204,7 @@ class Pen:
         self, points: Sequence[Point], side: Point, label: str, own: tuple[Any, Any]
     ) -> None:
         """Write a label next to the first point of its own arc at which it covers nothing else."""
-        font = FONT - 1
+        font = self.font - 1
         wide = 0.3 * font * longest_line(label) / self.points_per_unit
         high = 0.6 * font / self.points_per_unit
         out = 0.02 + abs(side[0]) * wide + abs(side[1]) * high
@@ -237,12 +264,10 @@ class Pen:
 
     def circle(self, state: Any, label: str) -> None:
         """Draw a state; a terminal one is a double circle, filled by winner."""
-        from matplotlib.patches import Circle
-
         centre = self.places[state]
         fill, ink = "white", "black"
         if is_terminal(self.graph, state):
-            fill, ink = _FILL.get(self.graph.nodes[state].get("winner"), _FILL[None])
+            fill, ink = self.fills[self.graph.nodes[state].get("winner")]
             self.axes.add_patch(Circle(centre, _RADIUS, facecolor="white", edgecolor="black"))
             radius = _RING * _RADIUS
         else:
@@ -251,13 +276,40 @@ class Pen:
             Circle(centre, radius, facecolor=fill, edgecolor="black", linewidth=1.2, zorder=3)
         )
         room = 2 * 0.85 * radius * self.points_per_unit
-        font = min(FONT, room / (0.6 * longest_line(label)))
+        font = min(self.font, room / (0.6 * longest_line(label)))
         self.axes.text(*centre, label, fontsize=font, color=ink, ha="center", va="center", zorder=4)
 
     def words(self, state: Any, label: str) -> None:
         """Write a node that is not a state."""
         x, y = self.places[state]
-        font = FONT + 2
+        font = self.font + 2
         wide = 0.3 * font * longest_line(label) / self.points_per_unit
         self.reach += [(x - wide, y), (x + wide, y)]
         self.axes.text(x, y, label, fontsize=font, ha="center", va="center", zorder=4)
+
+    def legend(self, width: float) -> None:
+        """Name the colours of the winners below the diagram, which is `width` inches wide."""
+        from matplotlib.lines import Line2D
+
+        won = {node.get("winner") for node in self.graph.nodes.values()} - {None}
+        self.axes.legend(
+            handles=[
+                Line2D(
+                    [],
+                    [],
+                    marker="o",
+                    ls="",
+                    ms=10,
+                    mec="black",
+                    mfc=fill,
+                    label=f"player {winner} wins" if isinstance(winner, int) else f"{winner} wins",
+                )
+                for winner, (fill, _) in self.fills.items()
+                if winner in won
+            ],
+            loc="upper center",
+            bbox_to_anchor=(0.5, 0.0),
+            borderaxespad=0.0,
+            ncols=max(1, int(width / 1.6)),
+            frameon=False,
+        )

@@ -1,15 +1,13 @@
 """One style for all plots: readable in black and white and for the colour-blind."""
 
-from __future__ import annotations
+from textwrap import fill
+from typing import Any, Literal, NamedTuple
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Text
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from matplotlib.text import Text
+from evenbreak.plots.picture import Picture
 
 
 class LineStyle(NamedTuple):
@@ -33,33 +31,25 @@ LINES = (
 """The lines of a plot, in order; the first seven colours are those of Okabe and Ito (2008)."""
 
 _LABEL = 10
-"""The font size of a curve's name."""
+"""The font size of a curve's name, and of a title of several lines."""
+_LETTERS_AN_INCH = 11.5
+"""How many letters of that size fit into an inch, at least."""
 _BESIDE = {
     "left": ((-6, 0), "right", "center"),
     "right": ((6, -1), "left", "center"),
     "above": ((0, 4), "center", "bottom"),
+    "below": ((4, -5), "center", "top"),
 }
 
 
-@contextmanager
-def our_look() -> Iterator[None]:
-    """Set the reader's own matplotlib settings aside, so that everybody gets the same picture.
-
-    >>> import matplotlib as mpl
-    >>> with mpl.rc_context({"font.size": 30}), our_look():
-    ...     mpl.rcParams["font.size"]
-    10.0
-    """
-    import matplotlib as mpl
-
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        yield
-
-
 def new_axes(
-    x: str, y: str, *, title: str | None = None, size: tuple[float, float] = (6.0, 4.2)
-) -> tuple[Figure, Axes]:
+    x: str,
+    y: str,
+    *,
+    title: str | None = None,
+    size: tuple[float, float] = (6.0, 4.2),
+    ax: Axes | None = None,
+) -> tuple[Picture, Axes]:
     """Return a figure with one pair of axes, labelled.
 
     Parameters
@@ -69,21 +59,49 @@ def new_axes(
     title
         text above the axes.
     size
-        width and height in inches.
+        width and height of a new figure in inches.
+    ax
+        the axes to use; None: those of a new figure.
 
     >>> figure, axes = new_axes("level", "probability")
     >>> axes.get_xlabel()
     'level'
     """
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=size, layout="constrained")
-    axes = figure.add_subplot()
+    figure: Any = Picture(figsize=size, layout="constrained") if ax is None else ax.figure
+    axes = figure.add_subplot() if ax is None else ax
     axes.set(xlabel=x, ylabel=y)
     axes.tick_params(direction="in", top=True, right=True)
     if title:
         axes.set_title(title)
     return figure, axes
+
+
+def legend_below(figure: Picture, ax: Axes | None) -> None:
+    """Write the legend below the axes of a new figure, or inside the axes given.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> _ = axes.plot([0, 1], label="3:3")
+    >>> legend_below(figure, None)
+    >>> len(figure.legends)
+    1
+    """
+    if ax is None:
+        figure.legend(frameon=False, loc="outside lower center", ncols=2)
+    else:
+        ax.legend(frameon=False)
+
+
+def write_title(figure: Figure, text: str) -> None:
+    """Write what is drawn above all panels of a figure, in lines that fit its width.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> write_title(figure, "Race 7:5, score 2:3")
+    >>> figure.get_suptitle()
+    'Race 7:5, score 2:3'
+    """
+    width = int(_LETTERS_AN_INCH * figure.get_figwidth())
+    lines = [fill(line, width) for line in text.splitlines()]
+    figure.suptitle("\n".join(lines), fontsize=_LABEL, parse_math=False)
 
 
 def unit_axis(axes: Axes, *which: str) -> None:
@@ -114,7 +132,7 @@ def label_on(axes: Axes, x: float, y: float, text: str) -> Text:
 
 
 def label_beside(
-    axes: Axes, x: float, y: float, text: str, side: Literal["left", "right", "above"]
+    axes: Axes, x: float, y: float, text: str, side: Literal["left", "right", "above", "below"]
 ) -> Text:
     """Write a curve's name beside the point (x, y), in the units of the axes.
 
@@ -123,6 +141,23 @@ def label_beside(
     'right'
     """
     offset, ha, va = _BESIDE[side]
-    return axes.annotate(
-        text, (x, y), offset, textcoords="offset points", fontsize=_LABEL, ha=ha, va=va
-    )
+    return note(axes, text, (x, y), offset, fontsize=_LABEL, ha=ha, va=va)
+
+
+def note(
+    axes: Axes, text: str, place: tuple[float, float], beside: tuple[float, float], **style: Any
+) -> Text:
+    """Write a text beside a place, in the units of the axes, by so many points of the page.
+
+    >>> figure, axes = new_axes("p", "W")
+    >>> note(axes, "even", (0.5, 0.5), (6, 0), ha="left").get_text()
+    'even'
+    """
+    return axes.annotate(text, place, beside, textcoords="offset points", **style)
+
+
+def take_names_as_they_are(axes: Axes) -> None:
+    """Show labels and legend without reading a $ in a player's name as mathematics."""
+    legend = axes.get_legend()
+    for text in (axes.xaxis.label, axes.yaxis.label, *(legend.get_texts() if legend else ())):
+        text.set_parse_math(False)

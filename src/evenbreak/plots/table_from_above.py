@@ -1,32 +1,30 @@
 """A pool table from above: cushions, pockets and diamonds, in inches."""
 
-from __future__ import annotations
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Rectangle
 
-from evenbreak.physics.objects import Table
+from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.units import INCH
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
 _RAIL = 5.0
-"""How far the rail goes beyond the noses of the cushions, in inches."""
+"""How far the rails extend beyond the noses of the cushions, in inches."""
 _DIAMOND = 3.6
-"""How far beyond them the diamonds lie."""
+"""How far the diamonds lie beyond them, in inches."""
 _HOLE = 2.5
-"""The radius of a pocket's hole."""
+"""The radius of a pocket's hole, in inches."""
 
 
 def bare_axes(figure: Figure, place: tuple[float, float, float, float]) -> Axes:
-    """Return axes without ticks, on which a circle is round.
+    """Return axes without ticks, with equal scales.
 
     Parameters
     ----------
     figure, place
-        left, bottom, width and height as shares of the figure.
+        the figure, and the left, bottom, width and height as shares of it.
     """
     axes = figure.add_axes(place)
     axes.set_axis_off()
@@ -34,17 +32,15 @@ def bare_axes(figure: Figure, place: tuple[float, float, float, float]) -> Axes:
     return axes
 
 
-def draw_table(axes: Axes, table: Table) -> None:
-    """Draw a table, x along it from the head cushion and y to the left, upwards.
+def draw_table(axes: Axes, table: PoolTable) -> None:
+    """Draw a table: x runs along it from the head cushion, y upwards.
 
     >>> from matplotlib.figure import Figure
     >>> axes = bare_axes(Figure(), (0.0, 0.0, 1.0, 1.0))
-    >>> draw_table(axes, Table())
+    >>> draw_table(axes, PoolTable())
     >>> [round(float(end), 9) for end in axes.get_xlim()]
     [-6.0, 106.0]
     """
-    from matplotlib.patches import Circle, Rectangle
-
     length, width = table.length / INCH, table.width / INCH
     border, size = (-_RAIL, -_RAIL), (length + 2.0 * _RAIL, width + 2.0 * _RAIL)
     axes.add_patch(Rectangle(border, *size, fc="0.82", ec="0.3", lw=1.0, zorder=0))
@@ -60,14 +56,12 @@ def draw_table(axes: Axes, table: Table) -> None:
 
 
 def draw_ball(axes: Axes, at: Any, radius: float, **style: Any) -> None:
-    """Draw a ball at a point, all in inches; `style` is that of matplotlib's patches."""
-    from matplotlib.patches import Circle
-
+    """Draw a ball at a point, in inches; `style` is for matplotlib's patch."""
     axes.add_patch(Circle(tuple(at), radius, **{"lw": 1.0, "zorder": 5, **style}))
 
 
 def _diamonds(length: float, width: float) -> list[tuple[float, float]]:
-    """Return the diamonds: at the eighths of the long rails, the quarters of the short ones.
+    """Return the diamonds: at the eighths of the long rails and the quarters of the short ones.
 
     >>> len(_diamonds(100.0, 50.0))
     18

@@ -1,22 +1,21 @@
-"""A traced shot, drawn from above on its table, and the moment of the hit enlarged."""
+"""A traced shot drawn from above on its table, with the hit enlarged."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.legend_handler import HandlerPatch
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Rectangle
 
 from evenbreak.physics.aimed import AimedShot
 from evenbreak.physics.leg import Leg
-from evenbreak.physics.objects import Table
+from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.shot import Shot
 from evenbreak.physics.units import DEGREE, INCH
+from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.style import LINES
 from evenbreak.plots.table_from_above import bare_axes, draw_ball, draw_table
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _SIZE = (9.0, 8.0)
 _CUE = LINES[1].color
@@ -27,48 +26,47 @@ _TANGENT: dict[str, Any] = {"color": "0.35", "ls": (0, (6, 2, 1, 2)), "lw": 1.0}
 _GHOST: dict[str, Any] = {"fc": "none", "ec": "black", "ls": (0, (3, 2)), "lw": 1.1}
 _UNAIDED: dict[str, Any] = {"fc": "none", "ec": LINES[3].color, "ls": (0, (1, 1)), "lw": 1.5}
 _REACH = 14.0
-"""How far the line of centres and the tangent line go on, in inches."""
+"""The length of the line of centres and of the tangent line, in inches."""
 _ALIGNED: dict[str, dict[int, Any]] = {
     "x": {-1: "right", 0: "center", 1: "left"},
     "y": {-1: "top", 0: "center", 1: "bottom"},
 }
-"""How a word stands at a point, so that it runs away from what is on its other side."""
+"""How a word is aligned at a point: away from what is on its other side."""
 _WORD = 5.0
-"""How near a cushion half a word may stand on the rail, in inches."""
+"""Closer to a cushion than this, a word might run onto the rail; in inches."""
 _NEAR = 5.6
-"""What is shown on each side of the hit where it is enlarged, in inches."""
+"""How much is shown on each side of the hit in the enlargement, in inches."""
 
 
-def shot_on_table(traced: Shot | AimedShot) -> Figure:
+@in_our_look
+def shot_on_table(traced: Shot | AimedShot) -> Picture:
     """Draw a shot from above, to scale: where both balls go, and how they meet.
 
-    Full lines are where a ball slides, dashed ones where it rolls. The ghost ball is where
-    the cue ball is at the hit; the line of centres goes on through the object ball, the
-    tangent line is at a right angle to it. Of an aimed shot the target has a cross, and the
-    ghost ball of the shot that does not allow for throw is shown too.
+    A line is solid where a ball slides and dashed where it rolls. The ghost ball is where the
+    cue ball is at the hit; the line of centres goes on through the object ball, and the tangent
+    line is at a right angle to it. For an aimed shot a cross marks the target, and a second
+    ghost ball shows the aim without allowing for throw.
 
     Parameters
     ----------
     traced
-        what `evenbreak.physics.shot` or `evenbreak.physics.aimed_shot` found.
+        a shot from `evenbreak.physics.shot`, `aimed_shot` or `pocketed_shot`.
 
     >>> from evenbreak.physics import shot, strike
     >>> figure = shot_on_table(shot(strike(1.2), 0.5, 0.5))
     >>> [axes.get_title() for axes in figure.axes]
     ['', 'At the hit', '']
     """
-    from matplotlib.figure import Figure
-
     aimed = traced if isinstance(traced, AimedShot) else None
     found = traced.shot if isinstance(traced, AimedShot) else traced
-    figure = Figure(figsize=_SIZE)
+    figure = Picture(figsize=_SIZE)
     whole = bare_axes(figure, (0.02, 0.42, 0.96, 0.57))
     draw_table(whole, found.table)
     _draw_shot(whole, found, aimed)
     for leg in found.legs[-2:]:
         _draw_end(whole, leg, found.table)
     near = bare_axes(figure, (0.03, 0.02, 0.42, 0.36))
-    near.set_title("At the hit" if found.reached else "As it was aimed", fontsize=11, pad=4)
+    near.set_title("At the hit" if found.reached else "As aimed", fontsize=11, pad=4)
     _draw_shot(near, found, aimed)
     middle = (0.5 * (found.ghost_position + found.object_position)) / INCH
     for name, at, reach in zip("xy", middle, (1.25 * _NEAR, _NEAR), strict=True):
@@ -99,14 +97,14 @@ def _draw_shot(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
             axes.plot(x, y, color=color, ls=dashes, lw=1.6, zorder=4)
 
 
-def _draw_end(axes: Axes, leg: Leg, table: Table) -> None:
-    """Draw a ball where its way ends, with a word on how."""
+def _draw_end(axes: Axes, leg: Leg, table: PoolTable) -> None:
+    """Draw a ball where its path ends, with a word on how."""
     at = leg.state(leg.end).position / INCH
     color = _CUE if leg.name == "cue ball" else _OBJECT
     radius = leg.slide.ball.radius / INCH
     draw_ball(axes, at, radius, fc="white" if color == _CUE else color, ec=color, alpha=0.6)
-    word = {"rest": "rests", "pocket": "falls"}.get(leg.ending, leg.ending)
-    # Beside the way, on the side of the middle of the table, where there is room.
+    word = {"rest": "stops", "pocket": "drops"}.get(leg.ending, leg.ending)
+    # Beside the path, on the side of the middle of the table, where there is room.
     along = at - leg.slide.at(0.98 * (leg.end - leg.begin)) / INCH
     length = float(np.hypot(*along))
     along = along / length if length else np.array([1.0, 0.0])
@@ -115,7 +113,7 @@ def _draw_end(axes: Axes, leg: Leg, table: Table) -> None:
     beside *= np.sign(beside @ (middle - at)) or 1.0
     place, aligned = at + 2.0 * radius * beside, []
     for axis, size in enumerate((table.length / INCH, table.width / INCH)):
-        # Next to a cushion it runs away from that, so as not to stand on the rail.
+        # Next to a cushion it runs away from the rail.
         out = int(place[axis] < _WORD) - int(place[axis] > size - _WORD)
         place[axis] = np.clip(place[axis], 0.5, size - 0.5)
         aligned.append(_ALIGNED["xy"[axis]][int(out or np.rint(beside[axis]))])
@@ -123,13 +121,10 @@ def _draw_end(axes: Axes, leg: Leg, table: Table) -> None:
 
 
 def _write_key(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
-    """Write what the lines are, and the angles."""
-    from matplotlib.legend_handler import HandlerPatch
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Circle
+    """Write the key of the lines, and the angles."""
 
     def as_circle(**space: Any) -> Circle:
-        # As it is drawn, dashes and all, which the marker of a line cannot have.
+        # Drawn as in the picture, with dashes, which a line marker cannot have.
         middle = (0.5 * space["width"] - space["xdescent"], 0.5 * space["height"])
         return Circle(middle, 0.5 * space["fontsize"])
 
@@ -144,7 +139,7 @@ def _write_key(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
     rows["tangent line"] = Line2D([], [], **_TANGENT)
     rows["ghost ball"] = Circle((0.0, 0.0), **_GHOST)
     if aimed is not None:
-        rows["ghost ball, throw not allowed for"] = Circle((0.0, 0.0), **_UNAIDED)
+        rows["ghost ball, ignoring throw"] = Circle((0.0, 0.0), **_UNAIDED)
         rows["target"] = Line2D([], [], marker="x", ms=7, color="black", ls="none")
     legend: dict[str, Any] = {"loc": "upper left", "frameon": False, "handlelength": 3.2}
     legend["handler_map"] = {Circle: HandlerPatch(patch_func=as_circle)}
@@ -154,7 +149,7 @@ def _write_key(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
 
 
 def _angles(found: Shot, aimed: AimedShot | None) -> list[str]:
-    """Return the angles of a shot in words.
+    """Return the angles of a shot, in words.
 
     >>> from evenbreak.physics import shot, strike
     >>> _angles(shot(strike(1.2), -0.5, 0.5), None)[0]
@@ -178,7 +173,5 @@ def _line(axes: Axes, start: Any, end: Any, **style: Any) -> None:
 
 
 def _frame(axes: Axes) -> Any:
-    from matplotlib.patches import Rectangle
-
     frame: dict[str, Any] = {"fc": "none", "ec": "0.5", "lw": 0.8, "transform": axes.transAxes}
     return Rectangle((0.0, 0.0), 1.0, 1.0, **frame, clip_on=False)

@@ -1,6 +1,6 @@
-"""Practice: what a drill log, a choice of shots or a break format tells a player.
+"""Practice: drills and their logs, the choice of a shot, break formats in the long run.
 
-This room joins games, chains and statistics; it reads no files.
+This package joins games, chains and statistics; it reads no files.
 """
 
 import lazy_loader

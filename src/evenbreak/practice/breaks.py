@@ -6,7 +6,7 @@ Then
 
     player 1 breaks the fraction  b / (a + b)  of the racks,
     wins the fraction             W = (b r_1 + a r_2) / (a + b),
-    and the start is forgotten as the powers of the second eigenvalue, 1 - a - b.
+    and the effect of the start fades like the powers of the second eigenvalue, 1 - a - b.
 
 In winner breaks a = 1 - p1 and b = 1 - p2; in loser breaks a = p1 and b = p2; in alternate
 breaks a = b = 1 (P5.24). Only positive numbers are added and multiplied, so no digits are lost.
@@ -18,13 +18,17 @@ import math
 from typing import Any, NamedTuple, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from evenbreak.checks import number, one_of, plain
+from evenbreak.arrays import Floats
+from evenbreak.checks import number, plain
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.practice.breakers import Breakers
+
+_SQUARABLE = 1e100
+"""Values beyond this are scaled before they are squared."""
 
 
 @overload
@@ -34,7 +38,7 @@ def long_run_share(
 @overload
 def long_run_share(
     p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
-) -> NDArray[np.float64]: ...
+) -> Floats: ...
 def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
     """Return the fraction of racks that player 1 wins in the long run; elementwise.
 
@@ -72,7 +76,6 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     >>> long_run_share([0.5, 0.1], [0.1, 0.5], loser_breaks).round(4)
     array([0.8333, 0.1667])
     """
-    one_of(first_breaker, "first_breaker", (1, 2))
     racks = Breakers.of(p1, p2, breaks)
     return plain(racks.won(first_breaker))
 
@@ -82,7 +85,7 @@ def long_run_sd(p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int
 @overload
 def long_run_sd(
     p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
-) -> NDArray[np.float64]: ...
+) -> Floats: ...
 def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
     """Return the standard deviation of the racks that player 1 wins, per square root of racks.
 
@@ -113,26 +116,26 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
     >>> round(long_run_sd(0.75, 0.75, loser_breaks), 4)
     0.2887
     """
-    one_of(first_breaker, "first_breaker", (1, 2))
     racks = Breakers.of(p1, p2, breaks)
     worth = np.nan_to_num(racks.first_break, posinf=0.0, neginf=0.0)
+    unit = np.where(np.abs(worth) > _SQUARABLE, np.abs(worth), 1.0)
     variance = sum(
-        broken * win * lose * (1.0 + pull * worth) ** 2
+        broken * win * lose * (1.0 / unit + pull * (worth / unit)) ** 2
         for broken, win, lose, pull in zip(
             racks.broken(first_breaker),
-            (racks.win_1, racks.win_2),
-            (racks.lose_1, racks.lose_2),
+            racks.win,
+            racks.lose,
             racks.pulls,
             strict=True,
         )
     )
-    return plain(np.sqrt(variance))
+    return plain(np.sqrt(variance) * unit)
 
 
 @overload
 def first_break_worth(p1: float, p2: float, breaks: BreakFormat) -> float: ...
 @overload
-def first_break_worth(p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat) -> NDArray[np.float64]: ...
+def first_break_worth(p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat) -> Floats: ...
 def first_break_worth(p1: Any, p2: Any, breaks: BreakFormat) -> Any:
     """Return how many more racks player 1 wins in all by breaking first instead of second.
 
@@ -221,7 +224,6 @@ def compare_break_formats(
     if not isinstance(rack, Rack):
         raise InputError(f"rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)")
     rack.of_numbers()
-    one_of(first_breaker, "first_breaker", (1, 2))
     wanted = "the points of a rack, 0 or more"
     prize = number(win, "win", low=0.0, wanted=wanted)
     price = number(lose, "lose", low=0.0, wanted=wanted)
@@ -243,6 +245,6 @@ def _value(name: str, rack: Rack, win: float, lose: float, first: int) -> BreakF
         points=share * win - loss * lose,
         sd_points=(win + lose) * long_run_sd(p1, p2, breaks, first_breaker=first),
         fair_ratio=loss / share if share > 0.0 else math.inf,
-        memory=float(1.0 - (racks.pass_1 + racks.pass_2)),
+        memory=float(1.0 - racks.changes),
         first_break=float(racks.first_break),
     )

@@ -4,29 +4,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from evenbreak.checks import whole
+from evenbreak.arrays import Bools, Ints, short_repr
+from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
 MOST_LEVELS = 100
-"""The most levels that the drill of a log may have."""
+"""The most levels that a drill with a log may have."""
 
 AFTER_START, AFTER_MISS, AFTER_SUCCESS = range(3)
-"""What came before an attempt: the middle index of `DrillLog.outcomes`."""
+"""What preceded an attempt; the middle index of `DrillLog.outcomes`."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class DrillLog:
     """The attempts of a progressive drill, in the order in which they were made.
 
-    By the drill's rule a success leads one level up (the last level repeats) and a miss
-    one level down (the first level repeats); a session may begin at any level.
+    The rule of the drill: a success leads one level up (the last level repeats), a miss one
+    level down (the first level repeats). A session may begin at any level.
 
     Parameters
     ----------
@@ -35,29 +35,31 @@ class DrillLog:
     success
         shape (attempts,): whether it succeeded.
     session
-        shape (attempts,): the session of each attempt, as any labels; a label other than
-        the one before begins a new session. None where all is one session.
+        shape (attempts,): any label for the session of each attempt; a change of label
+        begins a new session. None if everything is one session.
     levels
-        how many levels the drill has; None takes the highest one in the log.
+        how many levels the drill has, at most 100; None takes the highest one in the log.
 
     Raises
     ------
     InputError
         if there is no attempt, the shapes differ, or a level is not a whole number from 1
-        to `levels`, which is 100 at the most.
+        to `levels`.
 
     >>> log = DrillLog([1, 2, 3, 2], [True, True, False, True])
     >>> log.attempts, log.successes
     (array([1, 2, 1]), array([1, 2, 0]))
     """
 
-    level: NDArray[np.int64]
-    success: NDArray[np.bool_]
+    level: Ints
+    success: Bools
     session: NDArray[Any] | None = None
     levels: int | None = None
 
     def __post_init__(self) -> None:
-        level = _level_array(self.level)
+        level = whole_numbers(self.level, "level", at_least=1)
+        if level.ndim != 1 or not level.size:
+            raise InputError("level is empty or not a list; give the level of each attempt")
         success = np.asarray(self.success)
         if success.shape != level.shape or not np.isin(success, (0, 1)).all():
             raise InputError("success does not match level; give True or False for each attempt")
@@ -67,16 +69,13 @@ class DrillLog:
         highest = int(level.max())
         levels = highest if self.levels is None else whole(self.levels, "levels", at_least=1)
         if levels > MOST_LEVELS:
-            raise InputError(f"the drill has {levels} levels; give {MOST_LEVELS} at the most")
+            raise InputError(f"the drill has {levels} levels; give {MOST_LEVELS} at most")
         if highest > levels:
             raise InputError(f"levels is {levels}, but the log has level {highest}; give more")
-        for name, value in (
-            ("level", level),
-            ("success", success.astype(bool)),
-            ("session", session),
-            ("levels", levels),
-        ):
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "level", level.astype(np.int64))
+        object.__setattr__(self, "success", success.astype(bool))
+        object.__setattr__(self, "session", session)
+        object.__setattr__(self, "levels", levels)
 
     def __len__(self) -> int:
         return len(self.level)
@@ -87,25 +86,25 @@ class DrillLog:
         return int(self.levels or 0)
 
     @cached_property
-    def attempts(self) -> NDArray[np.int64]:
+    def attempts(self) -> Ints:
         """The attempts at each level; shape (levels,)."""
         return np.asarray(self.outcomes.sum((1, 2)))
 
     @cached_property
-    def successes(self) -> NDArray[np.int64]:
+    def successes(self) -> Ints:
         """The successes at each level; shape (levels,)."""
         return np.asarray(self.outcomes[:, :, 1].sum(1))
 
     @cached_property
-    def jumps(self) -> NDArray[np.int64]:
-        """The attempts, by position, that stand against the rule within their session."""
-        told = self.success[:-1] * 2 - 1
-        ruled = np.clip(self.level[:-1] + told, 1, self._top)
-        return np.flatnonzero((self.level[1:] != ruled) & ~self._new_session[1:]) + 1
+    def jumps(self) -> Ints:
+        """The positions of attempts that break the rule of the drill within their session."""
+        step = self.success[:-1] * 2 - 1
+        by_rule = np.clip(self.level[:-1] + step, 1, self._top)
+        return np.flatnonzero((self.level[1:] != by_rule) & ~self._new_session[1:]) + 1
 
     @cached_property
-    def starts(self) -> NDArray[np.int64]:
-        """The attempts, by position, that begin a session or stand against the rule."""
+    def starts(self) -> Ints:
+        """The positions of attempts that begin a session or break the rule."""
         begins = self._new_session.copy()
         begins[self.jumps] = True
         return np.flatnonzero(begins)
@@ -116,7 +115,7 @@ class DrillLog:
         return int(self._new_session.sum())
 
     @cached_property
-    def outcomes(self) -> NDArray[np.int64]:
+    def outcomes(self) -> Ints:
         """The attempts by level, by what came before, and by outcome; shape (levels, 3, 2).
 
         The middle index is `AFTER_START`, `AFTER_MISS` or `AFTER_SUCCESS`, the last one 0
@@ -130,17 +129,6 @@ class DrillLog:
         return counts.reshape(self._top, 3, 2)
 
     @cached_property
-    def _new_session(self) -> NDArray[np.bool_]:
+    def _new_session(self) -> Bools:
         session = np.asarray(self.session)
         return np.concatenate([[True], session[1:] != session[:-1]])
-
-
-def _level_array(given: Any) -> NDArray[np.int64]:
-    level = np.asarray(given)
-    if level.ndim != 1 or not level.size:
-        raise InputError("level is empty or no list; give the level of each attempt")
-    if level.dtype.kind not in "iuf" or not ((level >= 1) & (level == np.floor(level))).all():
-        raise InputError("level is not whole numbers from 1; give the level of each attempt")
-    if level.max() > MOST_LEVELS:
-        raise InputError(f"the log has level {level.max():g}; give {MOST_LEVELS} at the most")
-    return level.astype(np.int64)

@@ -3,41 +3,38 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from evenbreak.chains.explore import chain_of
 from evenbreak.chains.limits import stochastic_limit
+from evenbreak.games.drill import Drill
 from evenbreak.practice.levels import level_gains, level_lifts
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from evenbreak.games.drill import Drill
 
 
 @dataclass(frozen=True)
 class DrillStatistics:
-    """What a drill comes to in the long run, begun at level 1.
+    """Where a drill that begins at level 1 settles in the long run.
 
     Parameters
     ----------
     drill
         the drill.
     distribution
-        the law of the level attempted: the drill's stochastic limit, with its mean,
-        median, mode and standard deviation.
+        the distribution of the level attempted: the stochastic limit of the drill, with its
+        mean, median, mode and standard deviation.
     gain
-        for each level the derivative of the mean level to the chance of success there:
-        0.01 more of it lifts the mean by about 0.01 times the gain. One-sided where the
-        chance is 0 or 1; inf where the mean jumps; 0 where the level is not visited in
-        the long run.
+        for each level, the derivative of the mean level with respect to the chance of
+        success there: raising it by 0.01 lifts the mean by about 0.01 times the gain.
+        One-sided where the chance is 0 or 1; inf where the mean jumps; 0 where the level is
+        not visited in the long run.
     lift
-        for each level by how much the mean level rises with the chance of success there
-        0.05 higher, or 1 if it is above 0.95 already.
+        for each level, by how much the mean level rises if the chance of success there is
+        0.05 higher (or 1, if it is above 0.95 already).
     period
-        1 where the law is also that of a late attempt; 2 where odd and even attempts
-        differ for ever and the law is the average over both.
+        1 where the distribution is also that of a single late attempt; 2 where odd-numbered
+        and even-numbered attempts differ for ever and it is the average of both.
     """
 
     drill: Drill
@@ -48,12 +45,12 @@ class DrillStatistics:
 
     @property
     def practise_next(self) -> int | None:
-        """The level of the greatest lift, the lowest of several; None if none lifts."""
+        """The level with the greatest lift, the lowest such level; None if all lifts are 0."""
         return int(np.argmax(self.lift)) + 1 if any(self.lift) else None
 
 
 def drill_statistics(drill: Drill) -> DrillStatistics:
-    """Return where the player of a drill settles, and what each level is worth.
+    """Return where a drill settles, and what practice at each level is worth.
 
     Parameters
     ----------
@@ -73,7 +70,7 @@ def drill_statistics(drill: Drill) -> DrillStatistics:
     """
     limit = stochastic_limit(chain_of(drill))
     levels = range(1, len(drill.success) + 1)
-    # The chain has only the levels that can be reached from the first.
+    # The chain has only the levels that can be reached from level 1.
     law = np.array([limit.get(level, 0.0) for level in levels])
     success = np.array(drill.success)
     gain = level_gains(success, law)

@@ -1,40 +1,39 @@
 """Where progressive drills settle and what each level is worth, for many drills at once.
 
-A drill's levels stand in a line, so between two levels that communicate as many attempts go
-up as come down, law[i] p[i] = law[i + 1] q[i + 1], and the law is a product of quotients.
-The gain of a level follows from the climbs D[i] = h[i + 1] - h[i], where h[i] says how far
-ahead of the long-run mean a player is who stands at level i, added up over all time:
+The levels of a drill are in a line, so between two levels that communicate as many attempts go
+up as come down, law[i] p[i] = law[i + 1] q[i + 1], and the long-run distribution is a product of
+quotients. The gain of a level follows from the climbs D[i] = h[i + 1] - h[i], where h[i] is the
+total lead over the long-run mean, summed over all time, of a player who is now at level i:
 
     q[i] D[i - 1] - p[i] D[i] = i - mean,    D[0] = D[n] = 0,
     d mean / d p[i] = law[i] (D[i - 1] + D[i]).
 
-Above the mean the climbs are solved from the top, below it from the bottom: all terms are
-then positive, and no digits are lost. References: Schweitzer 1968; Karlin and McGregor 1957.
+The climbs are solved from the top for levels above the mean, from the bottom for those below:
+then all terms are positive and no digits are lost. References: Schweitzer 1968; Karlin and
+McGregor 1957.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from evenbreak.arrays import Floats, Ints
 
 MORE = 0.05
-"""The rise of a chance by which levels are compared: five more successes in a hundred."""
+"""The rise in a chance by which levels are compared: five more successes in 100."""
 
 
-def chances_seen(attempts: NDArray[np.int64], successes: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return the fraction of successes at each level, and what levels not tried count as.
+def chances_seen(attempts: Ints, successes: Ints) -> Floats:
+    """Return the success rate at each level, with a convention for levels that were not tried.
 
-    Those below all that were tried count as always succeeding: who begins at level 4 and
-    never falls below 3 is not held up at level 1. All others count as never succeeding.
+    Untried levels below all those tried count as always succeeding: a player who begins at
+    level 4 and never falls below 3 would not get stuck at level 1. All others count as never
+    succeeding.
 
     Parameters
     ----------
     attempts, successes
-        shape (..., n): the counts at each level, one log a row.
+        shape (..., n): the counts at each level, one log per row.
 
     >>> chances_seen(np.array([0, 2, 4, 0]), np.array([0, 2, 1, 0]))
     array([1.  , 1.  , 0.25, 0.  ])
@@ -44,13 +43,13 @@ def chances_seen(attempts: NDArray[np.int64], successes: NDArray[np.int64]) -> N
     return np.where(tried, successes / np.maximum(attempts, 1), below_all)
 
 
-def level_laws(success: NDArray[np.float64]) -> NDArray[np.float64]:
+def level_laws(success: Floats) -> Floats:
     """Return the stochastic limits of drills that begin at level 1.
 
     Parameters
     ----------
     success
-        shape (..., n): P(success | an attempt at level i), one drill a row.
+        shape (..., n): P(success | an attempt at level i), one drill per row.
 
     Returns
     -------
@@ -65,8 +64,7 @@ def level_laws(success: NDArray[np.float64]) -> NDArray[np.float64]:
     n = success.shape[-1]
     level = np.arange(n)
     failure = 1.0 - success
-    # The player stays between the last level that always sends upwards and the first that never
-    # does.
+    # The player stays between the last level that always succeeds and the first that never does.
     stuck = success == 0.0
     last = np.where(stuck.any(-1), stuck.argmax(-1), n - 1)[..., None]
     sure = (failure == 0.0) & (level > 0) & (level <= last)
@@ -81,12 +79,11 @@ def level_laws(success: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(law / law.sum(-1, keepdims=True))
 
 
-def level_gains(success: NDArray[np.float64], law: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the derivative of the mean level to the chance of success at each level.
+def level_gains(success: Floats, law: Floats) -> Floats:
+    """Return the derivative of the mean level with respect to the chance at each level.
 
-    At a chance of 0 or 1 it is the one-sided derivative; it is inf where the mean jumps
-    (level i never succeeds and level i + 1 always does), and 0 at levels that are not
-    visited in the long run.
+    At a chance of 0 or 1 it is one-sided. It is inf where the mean jumps (level i never
+    succeeds and level i + 1 always does), and 0 at levels not visited in the long run.
 
     Parameters
     ----------
@@ -114,11 +111,11 @@ def level_gains(success: NDArray[np.float64], law: NDArray[np.float64]) -> NDArr
     return np.where(law > 0.0, gain, 0.0)
 
 
-def level_lifts(success: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return by how much the mean level rises with five more successes in a hundred.
+def level_lifts(success: Floats) -> Floats:
+    """Return by how much the mean level rises with five more successes in 100 at each level.
 
-    Each entry is the rise with the chance at that level alone 0.05 higher, or 1 if it is
-    above 0.95 already; so a level that always succeeds has none.
+    Each entry is the rise if only the chance at that level is 0.05 higher (or 1, if it is above
+    0.95 already); so a level that always succeeds has none.
 
     Parameters
     ----------
@@ -135,5 +132,5 @@ def level_lifts(success: NDArray[np.float64]) -> NDArray[np.float64]:
         more = success.copy()
         more[..., i] = np.minimum(more[..., i] + MORE, 1.0)
         lifts[..., i] = level_laws(more) @ level - mean
-    # A rise below all rounding may come out negative.
+    # A rise smaller than rounding may come out negative.
     return np.maximum(lifts, 0.0)

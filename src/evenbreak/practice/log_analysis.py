@@ -1,13 +1,15 @@
-"""What the log of a drill tells: chances, where they lead, what to practise, what is odd."""
+"""The analysis of a drill log: chances, where they lead, what to practise, what stands out."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
+from evenbreak.practice.drill_log import DrillLog
 from evenbreak.practice.levels import chances_seen, level_gains, level_laws, level_lifts
 from evenbreak.practice.log_tests import (
     PlayedAgainTest,
@@ -19,42 +21,37 @@ from evenbreak.practice.played_again import play_again
 from evenbreak.practice.progressive_fit import ProgressiveFit, fit_progressive
 from evenbreak.stats.summary import Distribution
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.practice.drill_log import DrillLog
-
 _CONFIDENCE = 0.95
 _QUANTILES = (0.5 - _CONFIDENCE / 2, 0.5, 0.5 + _CONFIDENCE / 2)
 
 
 class LevelReport(NamedTuple):
-    """What a log tells about one level.
+    """What a log says about one level.
 
     Parameters
     ----------
     level, attempts, successes
-        the level, how often it was attempted and with how many successes.
+        the level, the number of attempts, and how many of them succeeded.
     p, p_low, p_high
-        P(success | an attempt at this level): the fraction seen, None without attempts,
-        and its 95 % interval (Wilson).
+        P(success | an attempt at this level): the fraction observed (None without attempts)
+        and its 95% interval (Wilson).
     p_model
-        the chance at this level by the model p^(level - 1) that was fitted; None if none was.
+        the chance at this level by the fitted model p^(level - 1); None without a model.
     visited
         the fraction of all attempts that were at this level.
-    implied
-        the fraction that would be in the long run, with the chances p, from level 1.
     expected
-        the mean fraction in logs with the same starts and lengths, with the chances p.
+        the mean of that fraction in logs with the same starts and lengths, with the chances p.
+    implied
+        that fraction in the long run, with the chances p, starting at level 1.
     gain
-        the derivative of the long-run mean level to p; see `DrillStatistics`.
+        the derivative of the long-run mean level with respect to p; see `DrillStatistics`.
     lift, lift_low, lift_high
-        by how much the long-run mean level rises with the chance at this level 0.05
-        higher, or 1 if it is above 0.95 already: the median over chances that fit the
-        log, and the 95 % interval.
+        by how much the long-run mean level rises if the chance at this level is 0.05 higher
+        (or 1, if it is above 0.95 already): the median over chances that fit the log, and
+        the 95% interval.
     p_best
-        how probable it is that this level has the greatest lift, above 0, of all that were
-        missed; a level not tried, or never missed, is nobody's to practise yet.
+        the probability that this level has the greatest lift, above 0, of all levels with a
+        miss. Levels without a miss or without attempts are not candidates for practice.
     """
 
     level: int
@@ -65,8 +62,8 @@ class LevelReport(NamedTuple):
     p_high: float
     p_model: float | None
     visited: float
-    implied: float
     expected: float
+    implied: float
     gain: float
     lift: float
     lift_low: float
@@ -76,32 +73,33 @@ class LevelReport(NamedTuple):
 
 @dataclass(frozen=True)
 class LogAnalysis:
-    """What the log of a drill tells.
+    """What a drill log says.
 
     Parameters
     ----------
     levels
-        what it tells about each level.
+        what it says about each level.
     visited
-        the law of the level over the attempts of the log, exact.
+        the distribution of the level over the attempts of the log, exact.
     implied
-        the law of the level in the long run, with the chances seen, from level 1.
+        the distribution of the level in the long run, with the chances observed, starting at
+        level 1.
     mean_low, mean_high
-        the 95 % interval of the long-run mean level.
+        the 95% interval of the long-run mean level.
     difference
-        test of visited against implied: half the sum of the absolute differences, the
-        fraction of attempts that would have to be at another level.
+        test of visited against implied: half the sum of the absolute differences, which is
+        the fraction of attempts that would have to be at another level.
     memory
-        test of chances that depend on what came before: how much higher the fraction of
-        successes is after a success than after a miss, at the same level. None where no
-        level was attempted after both.
+        test of whether a chance depends on the attempt before: the success rate after a
+        success minus that after a miss, at the same level. None where no level was attempted
+        after both.
     model
         the model p_i = p^(i - 1) fitted to the log; None without attempts above level 1.
     model_test
-        test of that model against a chance of its own for each level: the deviance. None
-        unless two levels above the first were attempted.
+        test of that model against a separate chance for each level: the deviance. None unless
+        two levels above the first were attempted.
     replicas
-        how many logs chance played for each test.
+        the number of simulated logs for each test.
     """
 
     levels: tuple[LevelReport, ...]
@@ -117,13 +115,13 @@ class LogAnalysis:
 
     @property
     def practise_next(self) -> LevelReport | None:
-        """The level of the greatest `p_best`; None where no missed level would lift the mean."""
+        """The level with the greatest `p_best`; None where no level with a miss has a lift."""
         best = max(self.levels, key=lambda report: report.p_best)
         return best if best.p_best else None
 
     @property
     def furthest_off_model(self) -> LevelReport | None:
-        """The level whose successes are the most standard deviations away from the model's."""
+        """The level whose successes are the most standard deviations from the model's."""
 
         def away(report: LevelReport) -> float:
             p = report.p_model or 0.0
@@ -133,22 +131,23 @@ class LogAnalysis:
         return max(self.levels, key=away) if self.model else None
 
 
-def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999) -> LogAnalysis:
-    """Return what the log of a drill tells, with how sure it is.
+def analyse_log(
+    log: DrillLog, *, rng: np.random.Generator | int, replicas: int = 1999
+) -> LogAnalysis:
+    """Return what a drill log says, and how certain that is.
 
-    What is said of the long run is conditional on chances that stay as they are, and on
-    what levels count as that were not attempted: those below all attempted ones as always
-    succeeding, all others as never succeeding.
+    Statements about the long run assume that the chances stay as they are, and that untried
+    levels always succeed if they are below all those tried, and never succeed otherwise.
 
     Parameters
     ----------
     log
         the attempts.
     rng
-        where chance comes from.
+        the source of the random draws: a generator or a seed.
     replicas
-        how many logs to play by chance for each test, and how many sets of chances to
-        draw for the intervals of lifts and of the mean.
+        how many logs to simulate for each test, and how many sets of chances to draw for the
+        intervals of the lifts and of the mean.
 
     Raises
     ------
@@ -157,10 +156,10 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
 
     Notes
     -----
-    Source: exercise 5.1. Intervals of lifts and of the mean: the chances are drawn from
-    their posterior laws under Jeffreys' prior, Beta(successes + 1/2, misses + 1/2), so a
-    level of three attempts counts as little as it should. Intervals of p: Wilson 1927.
-    The weights of the memory figure are those of Mantel & Haenszel 1959.
+    Source: exercise 5.1. For the intervals of the lifts and of the mean, chances are drawn from
+    their posterior distributions under Jeffreys' prior, Beta(successes + 1/2, misses + 1/2), so
+    a level with three attempts counts as little as it should. Intervals of p: Wilson 1927. The
+    memory test uses the weights of Mantel & Haenszel 1959.
 
     >>> from evenbreak.practice import DrillLog
     >>> evening = [(1, 1), (2, 1), (3, 0), (2, 0), (1, 1), (2, 0), (1, 0), (1, 1)]
@@ -176,6 +175,7 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
     attempts = log.attempts
     p_seen = chances_seen(attempts, log.successes)
     law = level_laws(p_seen)
+    rng = np.random.default_rng(rng)
     played = play_again(log, p_seen, replicas=replicas, rng=rng)
     mean_low, mean_high, lifts = _drawn_lifts(log, p_seen, rng, replicas)
     values = tuple(range(1, len(attempts) + 1))
@@ -197,10 +197,10 @@ def analyse_log(log: DrillLog, *, rng: np.random.Generator, replicas: int = 1999
 
 def _reports(
     log: DrillLog,
-    law: NDArray[np.float64],
-    gain: NDArray[np.float64],
-    played: NDArray[np.int64],
-    lifts: NDArray[np.float64],
+    law: Floats,
+    gain: Floats,
+    played: Ints,
+    lifts: Floats,
     model: ProgressiveFit | None,
 ) -> tuple[LevelReport, ...]:
     from scipy.stats import binomtest
@@ -216,7 +216,7 @@ def _reports(
         p_low, p_high = (
             binomtest(won, n).proportion_ci(_CONFIDENCE, method="wilson") if n else (0.0, 1.0)
         )
-        numbers = (n / len(log), law[i], expected[i], gain[i], lift[i], low[i], high[i], best[i])
+        numbers = (n / len(log), expected[i], law[i], gain[i], lift[i], low[i], high[i], best[i])
         p = won / n if n else None
         p_model = None if model is None else model.p**i
         reports.append(
@@ -228,11 +228,11 @@ def _reports(
 
 
 def _drawn_lifts(
-    log: DrillLog, p_seen: NDArray[np.float64], rng: np.random.Generator, draws: int
-) -> tuple[float, float, NDArray[np.float64]]:
-    """Return the interval of the mean level, and the lifts of chances that fit the log.
+    log: DrillLog, p_seen: Floats, rng: np.random.Generator, draws: int
+) -> tuple[float, float, Floats]:
+    """Return the interval of the mean level, and the lifts for chances that fit the log.
 
-    Shape (draws, levels): each row goes with one draw of all chances.
+    The lifts have shape (draws, levels): one row for each draw of all the chances.
     """
     misses = log.attempts - log.successes
     drawn = rng.beta(log.successes + 0.5, misses + 0.5, size=(draws, len(misses)))

@@ -1,41 +1,37 @@
-"""Is anything odd in a drill log? Tests against logs that chance plays.
+"""Does anything stand out in a drill log? Tests against simulated logs.
 
-Each test plays the log again many times by chance, with its starts and lengths, and asks
-how often chance alone goes as far as the log did. A formula would mislead. The fractions of
-attempts at each level and the chances estimated from the same log are nearly bound to
-agree: a session that keeps to the drill's rule crosses between two levels upwards as often
-as downwards, give or take once. And over short sessions even chances without any memory
-seem, on average, to have one (Miller & Sanjurjo 2018).
+Each test simulates the log many times, with the same starts and lengths, and counts how often
+chance alone gives a figure as extreme as that of the log. A formula would mislead: the
+fractions of attempts at each level and the chances estimated from the same log almost have to
+agree, since a session that keeps to the rule crosses between two levels upwards as often as
+downwards, give or take once. And in short sessions even chances without memory seem, on
+average, to have one (Miller & Sanjurjo 2018).
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS
+from evenbreak.arrays import Floats, Ints
+from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS, DrillLog
 from evenbreak.practice.levels import chances_seen, level_laws
 from evenbreak.practice.played_again import play_again
 from evenbreak.practice.progressive_fit import deviance
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.practice.drill_log import DrillLog
-
 
 class PlayedAgainTest(NamedTuple):
-    """A figure of a log beside the same figure of logs that chance plays.
+    """A figure of a log beside the same figure of simulated logs.
 
     Parameters
     ----------
     seen
         the figure of the log.
     by_chance
-        its mean over the logs that chance played.
+        its mean over the simulated logs.
     p_value
-        the probability that chance goes as far as the log; small: chance explains it badly.
+        the probability that chance alone gives a figure at least as extreme.
     """
 
     seen: float
@@ -43,28 +39,29 @@ class PlayedAgainTest(NamedTuple):
     p_value: float
 
 
-def difference_test(log: DrillLog, played: NDArray[np.int64]) -> PlayedAgainTest:
-    """Test the levels visited against those that the chances seen lead to in the long run.
+def difference_test(log: DrillLog, played: Ints) -> PlayedAgainTest:
+    """Test the levels visited against the long run of the chances observed.
 
-    The figure is half the sum of the absolute differences of the two laws. It is large
-    where sessions are short, so only `by_chance` says what to make of it; one that chance
-    does not reach tells of how sessions begin and end.
+    The figure is half the sum of the absolute differences of the two distributions. It is large
+    where sessions are short, so it must be compared with `by_chance`; a figure that chance does
+    not reach comes from how sessions begin and end.
 
     Parameters
     ----------
     log
         the log.
     played
-        shape (replicas, levels, 3, 2): logs that `play_again` made with the chances seen.
+        shape (replicas, levels, 3, 2): logs that `play_again` simulated with the chances
+        observed.
     """
     return _larger(_distance(log.outcomes), _distance(played))
 
 
-def memory_test(log: DrillLog, played: NDArray[np.int64]) -> PlayedAgainTest | None:
+def memory_test(log: DrillLog, played: Ints) -> PlayedAgainTest | None:
     """Test whether success is as likely after a success as after a miss, at the same level.
 
-    The figure is the difference of the two fractions, the levels weighted as Mantel and
-    Haenszel do; the test is two-sided about its mean by chance. None where no level was
+    The figure is the difference of the two success rates, with the levels weighted as by
+    Mantel and Haenszel; the test is two-sided about its mean by chance. None where no level was
     attempted after both.
 
     Parameters
@@ -84,11 +81,11 @@ def memory_test(log: DrillLog, played: NDArray[np.int64]) -> PlayedAgainTest | N
 def model_test(
     log: DrillLog, p: float, *, replicas: int, rng: np.random.Generator
 ) -> PlayedAgainTest | None:
-    """Test the model p_i = p^(i - 1) against a chance of its own for each level.
+    """Test the model p_i = p^(i - 1) against a separate chance for each level.
 
-    The figure is the deviance, twice the logarithm of the likelihood ratio. The logs are
-    played with the model's chances, but at level 1, of which the fit says nothing, with the
-    chance seen. None unless two levels above the first were attempted.
+    The figure is the deviance, twice the logarithm of the likelihood ratio. Logs are simulated
+    with the model's chances, except at level 1, which the fit ignores: there with the chance
+    observed. None unless two levels above the first were attempted.
 
     Parameters
     ----------
@@ -109,19 +106,19 @@ def model_test(
     return _larger(seen, deviance(played[..., 1], played[..., 0]))
 
 
-def _distance(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return half the absolute differences of visited and implied fractions, log by log."""
+def _distance(outcomes: Ints) -> Floats:
+    """Return half the sum of the absolute differences of visited and implied, for each log."""
     attempts = outcomes.sum((-1, -2))
     p = chances_seen(attempts, outcomes[..., 1].sum(-1))
     visited = attempts / attempts.sum(-1, keepdims=True)
     return np.asarray(np.abs(visited - level_laws(p)).sum(-1) / 2.0)
 
 
-def _memory(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return how much likelier success was after a success than after a miss, level by level.
+def _memory(outcomes: Ints) -> Floats:
+    """Return how much higher the success rate was after a success than after a miss.
 
-    The differences of the levels are weighted as Mantel and Haenszel do; NaN where no
-    level was attempted after both.
+    The levels are weighted as by Mantel and Haenszel; NaN where no level was attempted after
+    both.
     """
     after = outcomes[..., [AFTER_MISS, AFTER_SUCCESS], :]
     attempts = after.sum(-1)
@@ -131,8 +128,8 @@ def _memory(outcomes: NDArray[np.int64]) -> NDArray[np.float64]:
         return np.asarray((weight * (rate[..., 1] - rate[..., 0])).sum(-1) / weight.sum(-1))
 
 
-def _larger(seen: float | NDArray[np.float64], by_chance: NDArray[np.float64]) -> PlayedAgainTest:
-    """Return how often chance is as large as what was seen; the log itself counts as one."""
+def _larger(seen: float | Floats, by_chance: Floats) -> PlayedAgainTest:
+    """Return how often chance gives as large a figure; the log itself counts as one case."""
     as_large = int(np.count_nonzero(by_chance >= float(seen) * (1.0 - 1e-12)))
     p_value = (1 + as_large) / (1 + len(by_chance))
     return PlayedAgainTest(float(seen), float(by_chance.mean()), p_value)

@@ -1,45 +1,37 @@
-"""Drill logs played again by chance: what a log looks like if only its p_i decide."""
+"""Simulated drill logs: what a log looks like if nothing but the chances decides."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from evenbreak.practice.drill_log import AFTER_MISS, AFTER_START, AFTER_SUCCESS
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.practice.drill_log import DrillLog
+from evenbreak.arrays import Floats, Ints
+from evenbreak.practice.drill_log import AFTER_MISS, AFTER_START, AFTER_SUCCESS, DrillLog
 
 _AT_ONCE = 500_000
-"""Stretches that are played side by side, so that memory stays small."""
+"""The most stretches simulated side by side, so that memory stays small."""
 
 
-def play_again(
-    log: DrillLog, success: NDArray[np.float64], *, replicas: int, rng: np.random.Generator
-) -> NDArray[np.int64]:
-    """Return the outcomes of logs played by chance, with the starts and lengths of a log.
+def play_again(log: DrillLog, success: Floats, *, replicas: int, rng: np.random.Generator) -> Ints:
+    """Return the outcomes of simulated logs that have the starts and lengths of a log.
 
-    Each stretch of the log, from a start to the next, is played again from its first level
-    for as many attempts, each independent of those before, given its level.
+    Each stretch of the log, from one start to the next, is simulated from its first level for
+    the same number of attempts, each independent of those before it, given its level.
 
     Parameters
     ----------
     log
-        where the stretches begin and how long they are.
+        where the stretches begin, and how long they are.
     success
         shape (levels,): P(success | an attempt at level i).
     replicas
-        how many logs to play.
+        how many logs to simulate.
     rng
-        where chance comes from.
+        the source of the random draws.
 
     Returns
     -------
     numpy.ndarray
-        shape (replicas, levels, 3, 2): as `DrillLog.outcomes`, one log a row.
+        shape (replicas, levels, 3, 2): as `DrillLog.outcomes`, one log per row.
 
     >>> from evenbreak.practice import DrillLog
     >>> log = DrillLog([1, 2, 1], [True, False, True])
@@ -60,13 +52,13 @@ def play_again(
 
 
 def _played(
-    first: NDArray[np.int64],
-    lengths: NDArray[np.int64],
-    success: NDArray[np.float64],
+    first: Ints,
+    lengths: Ints,
+    success: Floats,
     replicas: int,
     rng: np.random.Generator,
-) -> NDArray[np.int64]:
-    """Play all stretches of all replicas side by side, the longest first."""
+) -> Ints:
+    """Simulate all stretches of all replicas side by side, the longest first."""
     n = len(success)
     counts = np.zeros(replicas * n * 6, dtype=np.int64)
     level = np.tile(first, (replicas, 1))

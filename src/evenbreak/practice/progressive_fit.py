@@ -1,51 +1,48 @@
-"""One shot chance p for a whole drill: the model in which level i takes i - 1 good shots.
+"""A single shot chance p for a whole drill: the model in which level i takes i - 1 good shots.
 
 With s_i successes and f_i misses at level i, and p_i = p^(i - 1),
 
     log L(p) = sum over i >= 2 of  s_i (i - 1) log p + f_i log(1 - p^(i - 1)).
 
-In x = -log p the slope, sum of (i - 1) (f_i / (exp((i - 1) x) - 1) - s_i), falls all the
-way, so there is one maximum, found by bisection. Level 1 says nothing: there the model is
-p^0 = 1 whatever p.
+In x = -log p the slope, sum of (i - 1) (f_i / (exp((i - 1) x) - 1) - s_i), decreases
+throughout, so there is one maximum, found by bisection. Level 1 is ignored: there the model is
+p^0 = 1 for any p.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import xlog1py, xlogy
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import InputError
+from evenbreak.practice.drill_log import DrillLog
 from evenbreak.stats.confidence import open_share
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.practice.drill_log import DrillLog
-
 _LOG_X = (-40.0, 8.0)
-"""Between these natural logs of x the bisection looks; beyond them p is 1 or 0 in floats."""
+"""The bisection searches between these natural logs of x; beyond them p is 1 or 0 in floats."""
 _HALVINGS = 60
 
 
 class ProgressiveFit(NamedTuple):
-    """The p of the model p_i = p^(i - 1) that makes a log likeliest.
+    """The p of the model p_i = p^(i - 1) that fits a log best.
 
     Parameters
     ----------
     p
-        the maximum-likelihood estimate; 1 where every attempt above level 1 succeeded,
-        0 where none did.
+        the maximum-likelihood estimate; 1 if every attempt above level 1 succeeded, 0 if
+        none did.
     low, high
-        the interval of those p that the log does not speak against (likelihood ratio).
+        the likelihood-ratio interval for p.
     confidence
-        how often such an interval holds the true p.
+        how often such an interval contains the true p.
     attempts
         the attempts above level 1, from which p is estimated.
     level_1_attempts, level_1_misses
-        what was left out: the model says that level 1 never fails, so each of these
-        misses contradicts it.
+        what was left out: by the model level 1 never fails, so each of these misses
+        contradicts it.
     """
 
     p: float
@@ -58,7 +55,7 @@ class ProgressiveFit(NamedTuple):
 
 
 def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFit:
-    """Return the p of the model p_i = p^(i - 1) that makes a log likeliest.
+    """Return the p of the model p_i = p^(i - 1) that fits a log best.
 
     Parameters
     ----------
@@ -70,8 +67,8 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
     Raises
     ------
     InputError
-        if the log has no attempt above level 1, for only those tell p; or the confidence
-        is not between 0 and 1.
+        if the log has no attempt above level 1, from which p could be estimated, or the
+        confidence is not between 0 and 1.
 
     Notes
     -----
@@ -89,7 +86,7 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
     attempts = int(log.attempts[1:].sum())
     if not attempts:
         raise InputError(
-            "the log has no attempt above level 1, and only those tell p; log higher levels too"
+            "the log has no attempt above level 1, from which p is estimated; log higher levels too"
         )
     p = float(likeliest_p(successes, failures))
     allowed = float(chi2.ppf(confidence, 1)) / 2.0
@@ -105,13 +102,13 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
     )
 
 
-def likeliest_p(successes: NDArray[np.int64], failures: NDArray[np.int64]) -> NDArray[np.float64]:
+def likeliest_p(successes: Ints, failures: Ints) -> Floats:
     """Return the maximum-likelihood p of each of many logs.
 
     Parameters
     ----------
     successes, failures
-        shape (..., levels); level 1 is not looked at.
+        shape (..., levels); level 1 is ignored.
 
     Returns
     -------
@@ -136,11 +133,10 @@ def likeliest_p(successes: NDArray[np.int64], failures: NDArray[np.int64]) -> ND
     return np.asarray(np.where(any_won | any_lost, p, np.nan))[()]
 
 
-def deviance(successes: NDArray[np.int64], failures: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return twice the log-likelihood that the model loses against free chances.
+def deviance(successes: Ints, failures: Ints) -> Floats:
+    """Return twice the log-likelihood that the model loses against a free chance for each level.
 
-    Each level above the first may have its own chance in the free model; shapes as in
-    `likeliest_p`. 0 where the model fits the log as well as that.
+    Shapes are as in `likeliest_p`. It is 0 where the model fits as well as free chances.
 
     >>> deviance(np.array([[9, 3, 9], [9, 3, 0]]), np.array([[0, 1, 7], [0, 1, 4]])).round(2)
     array([0.  , 3.29])
@@ -152,23 +148,19 @@ def deviance(successes: NDArray[np.int64], failures: NDArray[np.int64]) -> NDArr
     return np.asarray(np.maximum(2.0 * (free - _log_likelihood(p, successes, failures)), 0.0))[()]
 
 
-def _log_likelihood(
-    p: float | NDArray[np.float64], successes: NDArray[np.int64], failures: NDArray[np.int64]
-) -> NDArray[np.float64]:
+def _log_likelihood(p: float | Floats, successes: Ints, failures: Ints) -> Floats:
     shots = np.arange(1.0, successes.shape[-1])
     chance = np.asarray(p)[..., None] ** shots
     terms = xlogy(successes[..., 1:], chance) + xlog1py(failures[..., 1:], -chance)
     return np.asarray(terms.sum(-1))
 
 
-def _edge(
-    end: float, p: float, least: float, successes: NDArray[np.int64], failures: NDArray[np.int64]
-) -> float:
-    """Return where between `end` and p the log-likelihood comes down to `least`."""
+def _edge(end: float, p: float, least: float, successes: Ints, failures: Ints) -> float:
+    """Return where between `end` and p the log-likelihood falls to `least`."""
     from scipy.optimize import brentq
 
     def above(q: float) -> float:
-        # A likelihood of 0 is as far down as any that brentq can work with.
+        # A likelihood of 0 is replaced by one that brentq can work with.
         return max(float(_log_likelihood(q, successes, failures)) - least, -1e9)
 
     if above(p) <= 0.0:

@@ -1,4 +1,4 @@
-"""Which shot to take: the chance of winning the one-ball game, given what a shot makes and leaves.
+"""Which shot to take in the one-ball game, given how often it goes in and what a miss leaves.
 
 Player 1 shoots first and makes the ball with probability p1; after a miss player 2 makes it
 with p2. With q = 1 - p, P(player 1 wins) is
@@ -6,19 +6,23 @@ with p2. With q = 1 - p, P(player 1 wins) is
     infinite look-ahead:   p1 / (1 - q1 q2) = p1 / (p1 + q1 p2)    the shots repeat for ever
     two-shot look-ahead:   p1 + q1 q2 / 2                          even after two misses
 
-Both are 1/2 on one curve, p2 = p1 / (1 - p1) (P5.20 and P5.21).
+Both are 1/2 on one curve, p2 = p1 / (1 - p1) (P5.20 and P5.21). If the chances p3, p4, ... of later
+shots are known too, there is an n-shot look-ahead, after which the game is even:
+
+    p1 + q1 q2 p3 + q1 q2 q3 q4 p5 + ... + q1 q2 ... qn / 2
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import number_probability, one_of, plain, probability, together
 from evenbreak.errors import InputError
 from evenbreak.games.one_ball import OneBallLookAhead
@@ -26,13 +30,14 @@ from evenbreak.games.one_ball import OneBallLookAhead
 LOOK_AHEADS = ("infinite", "two shots")
 """What is assumed after the first two shots: the same two for ever, or an even game."""
 
+CHOICE_LOOK_AHEADS = (*LOOK_AHEADS, "all shots")
+"""The same for a `ShotChoice`: or its later shots in turn, and an even game after them."""
+
 
 @overload
 def one_ball_win(p1: float, p2: float, *, look_ahead: str = "infinite") -> float: ...
 @overload
-def one_ball_win(
-    p1: ArrayLike, p2: ArrayLike, *, look_ahead: str = "infinite"
-) -> NDArray[np.float64]: ...
+def one_ball_win(p1: ArrayLike, p2: ArrayLike, *, look_ahead: str = "infinite") -> Floats: ...
 def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     """Return P(player 1 wins the one-ball game), given that player 1 shoots first; elementwise.
 
@@ -69,7 +74,9 @@ def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     array([0.46 , 0.545])
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
-    make, leave = _pair(p1, p2)
+    first, second = probability(p1, "p1"), probability(p2, "p2")
+    together(p1=first, p2=second)
+    make, leave = np.broadcast_arrays(first, second)
     if look_ahead == "two shots":
         return plain(make + (1.0 - make) * (1.0 - leave) / 2.0)
     someone = make + (1.0 - make) * leave  # 1 - q1 q2 without the subtraction
@@ -97,7 +104,7 @@ def look_ahead_win(game: OneBallLookAhead) -> float:
 @overload
 def critical_p2(p1: float) -> float: ...
 @overload
-def critical_p2(p1: ArrayLike) -> NDArray[np.float64]: ...
+def critical_p2(p1: ArrayLike) -> Floats: ...
 def critical_p2(p1: Any) -> Any:
     """Return the p2 above which player 2 is the favourite, p1 / (1 - p1); elementwise.
 
@@ -125,8 +132,8 @@ def critical_p2(p1: Any) -> Any:
 def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> float | None:
     """Return the p2 with which a shot wins the game with chance `win`, given its p1.
 
-    None if there is no such p2, or if any p2 will do. For win = 1/2 it is `critical_p2`, if
-    that is not above 1.
+    None if there is no such p2, or every p2 gives that chance. For win = 1/2 it is
+    `critical_p2`, if that is not above 1.
 
     Raises
     ------
@@ -143,12 +150,20 @@ def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> flo
     True
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
+    return _break_even(p1, win, after=0.5 if look_ahead == "two shots" else None)
+
+
+def _break_even(p1: float, win: float, *, after: float | None) -> float | None:
+    """Return the p2 with which a shot wins with chance `win`.
+
+    `after` is the chance after two misses; None if the two shots are then repeated.
+    """
     make, target = number_probability(p1, "p1"), number_probability(win, "win")
     miss = 1.0 - make
-    if miss == 0.0:
+    if miss == 0.0 or after == 0.0:
         return None
-    if look_ahead == "two shots":
-        left = 1.0 - 2.0 * (target - make) / miss
+    if after is not None:
+        left = 1.0 - (target - make) / (miss * after)
     elif 0.0 in (make, target):
         return None
     else:
@@ -168,23 +183,31 @@ class ShotChoice:
         P(player 1 makes it | player 1 takes it).
     p2
         P(player 2 makes the shot that is left | player 1 missed).
+    later
+        the chances p3, p4, ... of the shots after these two, each if all before it were missed:
+        player 1's, player 2's, and so on. They count for the look-ahead "all shots" only.
 
     Raises
     ------
     InputError
-        if p1 or p2 is not a probability.
+        if a value is not a probability.
 
     >>> ShotChoice("bank", 0.4, 0.8).region
     'sell-out'
+    >>> round(ShotChoice("bank", 0.4, 0.8, (0.5, 0.2)).win("all shots"), 3)
+    0.484
     """
 
     name: str
     p1: float
     p2: float
+    later: Sequence[float] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "p1", number_probability(self.p1, "p1"))
         object.__setattr__(self, "p2", number_probability(self.p2, "p2"))
+        later = tuple(number_probability(p, f"later[{k}]") for k, p in enumerate(self.later))
+        object.__setattr__(self, "later", later)
 
     @property
     def region(self) -> str:
@@ -198,8 +221,22 @@ class ShotChoice:
         return "sell-out" if self.p2 >= 0.5 else "safety"
 
     def win(self, look_ahead: str = "infinite") -> float:
-        """Return P(player 1 wins the game | player 1 takes this shot), see `one_ball_win`."""
+        """Return P(player 1 wins the game | player 1 takes this shot), see `one_ball_win`.
+
+        With "all shots", the shots of `later` follow, and the game is even after the last.
+        """
+        one_of(look_ahead, "look_ahead", CHOICE_LOOK_AHEADS)
+        if look_ahead == "all shots":
+            return look_ahead_win(OneBallLookAhead([self.p1, self.p2, *self.later]))
         return float(one_ball_win(self.p1, self.p2, look_ahead=look_ahead))
+
+    def break_even_p2(self, win: float, look_ahead: str = "infinite") -> float | None:
+        """Return the p2 with which this shot wins with chance `win`, as `break_even_p2` does."""
+        one_of(look_ahead, "look_ahead", CHOICE_LOOK_AHEADS)
+        if look_ahead != "all shots":
+            return break_even_p2(self.p1, win, look_ahead=look_ahead)
+        after = look_ahead_win(OneBallLookAhead(self.later)) if self.later else 0.5
+        return _break_even(self.p1, win, after=after)
 
 
 class RankedShot(NamedTuple):
@@ -227,7 +264,7 @@ def compare_shots(
     shots
         the shots that player 1 may choose from, at least one.
     look_ahead
-        as in `one_ball_win`. With infinite look-ahead the best shot is also the best for a
+        as for `ShotChoice.win`. With infinite look-ahead the best shot is also the best for a
         player who may choose again after every miss, as the chances stay the same.
 
     Raises
@@ -245,7 +282,10 @@ def compare_shots(
     >>> round(best.turning_p2, 4), round(other.turning_p2, 4)
     (0.5143, 0.4667)
     """
-    one_of(look_ahead, "look_ahead", LOOK_AHEADS)
+    shots = tuple(shots)
+    for shot in shots:
+        if not isinstance(shot, ShotChoice):
+            raise InputError(f"a shot is {shot!r}; give ShotChoice(name, p1, p2)")
     ranked = sorted(shots, key=lambda shot: -round(shot.win(look_ahead), 12))
     if not ranked:
         raise InputError("shots is empty; give at least one ShotChoice")
@@ -257,14 +297,7 @@ def compare_shots(
             shot,
             win,
             best - win,
-            None if rival is None else break_even_p2(shot.p1, rival, look_ahead=look_ahead),
+            None if rival is None else shot.break_even_p2(rival, look_ahead),
         )
         for shot, win, rival in zip(ranked, wins, rivals, strict=True)
     )
-
-
-def _pair(p1: Any, p2: Any) -> tuple[Any, Any]:
-    make, leave = probability(p1, "p1"), probability(p2, "p2")
-    together(p1=make, p2=leave)
-    first, second = np.broadcast_arrays(make, leave)
-    return first, second

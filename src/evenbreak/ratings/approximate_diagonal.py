@@ -1,4 +1,4 @@
-"""The diagonal of the inverse of a league's Hessian that no order of elimination keeps sparse.
+"""The diagonal of the inverse of a league's Hessian, where no elimination order keeps it sparse.
 
 All rows of H sum to τ, so 1/τ is the eigenvalue of H⁻¹ for the constant vector and, with
 a weak prior, its largest by far. It is put aside exactly: with u the vector of ones,
@@ -27,12 +27,11 @@ from scipy import sparse
 from scipy.linalg import lapack
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import AccuracyError
 
-Floats = NDArray[np.float64]
-
 _LARGE = 2000
-"""From this many rows on, answers that are not good to rounding are taken for being fast."""
+"""From this many rows on, answers may be approximate, because they are much faster."""
 
 _WELL_MIXED = 0.002
 """How far from certain an answer by cavities may be. As ρ² is at least the sum of any row of
@@ -40,7 +39,7 @@ squares, no such sum is then above .015, and every round comes 60 times nearer."
 _ROUNDS = 6
 
 
-def filled_in_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
+def approximate_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
     """Return the diagonal of the inverse; parameters and errors of `inverse_diagonal`."""
     if matrix.shape[0] >= _LARGE:
         league = _Levelled.of(matrix, row_sum)
@@ -73,7 +72,7 @@ class _Levelled:
 
 
 def _by_cavities(league: _Levelled) -> Floats | None:
-    """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.2 %."""
+    """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.2%."""
     r, pull = league.r, league.pull
     rr, size = r * r, len(r)
     w = LinearOperator((size, size), lambda v: pull @ v - r * (r @ v) + rr * v, dtype=np.float64)

@@ -1,9 +1,9 @@
 """How good predictions were: losses with bootstrap intervals, calibration and its slope.
 
-A prediction is p, the chance of a side to win a game (or a match), for `games` games of
-which it won `won`. In a race the games are not independent of their number, but w - p n
-still has mean zero and w log p + (n - w) log(1 - p) is still the log-likelihood: a race
-stops at a time that does not look ahead.
+A prediction is p, the chance of a player to win a game (or a match), for `games` games of
+which they won `won`. In a race the number of games depends on how they went, but w - p n
+still has mean zero and w log p + (n - w) log(1 - p) is still the log-likelihood: when a
+race stops depends on the past only.
 """
 
 from __future__ import annotations
@@ -12,26 +12,24 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.special import expit, ndtri, xlog1py, xlogy
+from scipy.special import expit, ndtr, ndtri, xlog1py, xlogy
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from evenbreak.arrays import Floats, Ints
 
 CONFIDENCE = 0.95
-"""How sure all intervals are to cover."""
+"""How often intervals cover the truth."""
 
 REPLICAS = 2_000
 """Samples of a bootstrap."""
 
 TOSS_UP = 1e-9
-"""How near to 1/2 a chance has no favourite: an integral's rounding makes nobody one."""
+"""A match with a chance this near to 1/2 has no favourite: it may be a rounded 1/2."""
 
 _Z = float(ndtri(0.5 + CONFIDENCE / 2))
 
 
 class Estimate(NamedTuple):
-    """A figure with its 95 % interval.
+    """A figure with its 95% interval.
 
     Parameters
     ----------
@@ -47,21 +45,21 @@ class Estimate(NamedTuple):
 
 
 class CalibrationBin(NamedTuple):
-    """Predictions of about the same chance for the favourite, and how often he won.
+    """Predictions of about the same chance for the favourite, and how often the favourite won.
 
     Parameters
     ----------
     p_from, p_to
-        the span of the favourite's chances, its upper end included in the last bin only.
+        the range of the favourite's chances; the upper end belongs to the last bin only.
     matches, games
         how many matches, and the games in them (or matches again, where matches are
         predicted).
     predicted
-        the mean chance, games counting alike.
+        the mean chance, every game counting alike.
     seen
-        the part of them that the favourite won.
+        the share of them that the favourite won.
     low, high
-        its 95 % interval (Wilson's, for as many independent games as they are worth).
+        its 95% interval (Wilson's, for the number of independent games they are worth).
     """
 
     p_from: float
@@ -95,14 +93,14 @@ def brier(p: Floats, won: Floats, games: Floats) -> Floats:
 def bootstrap_ratio(
     above: Floats, below: Floats, cluster: Ints, rng: np.random.Generator
 ) -> Estimate:
-    """Return sum(above) / sum(below) with its percentile interval, clusters drawn anew.
+    """Return sum(above) / sum(below) with its percentile interval, resampling clusters.
 
     Parameters
     ----------
     above, below
         what each match adds.
     cluster
-        the number of each match's cluster, from 0 on: those of one are drawn together.
+        the number of each match's cluster, from 0 up: matches of a cluster are drawn together.
     rng
         draws them.
     """
@@ -120,8 +118,8 @@ def logistic_coefficient(
 ) -> Estimate | None:
     """Return b where P(win) = 1 / (1 + exp(-(offset + b x))) fits best, with its interval.
 
-    With x the predicted log-odds, b is the calibration slope: 1 is right, below it the
-    predictions were too sure of themselves. With x = 1 or -1, b is an advantage in log-odds.
+    With x the predicted log-odds, b is the calibration slope: 1 is right, below 1 the
+    predictions were too extreme. With x = 1 or -1, b is an advantage in log-odds.
 
     Parameters
     ----------
@@ -133,7 +131,7 @@ def logistic_coefficient(
     Returns
     -------
     Estimate or None
-        None where the rows do not determine b: x is 0 throughout, or a side won all.
+        None where the rows do not determine b: x is 0 throughout, or one side won everything.
 
     Notes
     -----
@@ -147,7 +145,7 @@ def logistic_coefficient(
         curvature = float((games * p * (1.0 - p) * x * x).sum())
         if curvature <= 1e-9 * float((games * x * x).sum()):
             return None
-        # A long step may leap over the maximum; a short one only takes longer.
+        # A long step may overshoot the maximum; a short one only takes longer.
         most = 1.0 / float(np.abs(x).max())
         step = max(-most, min(most, slope / curvature))
         b += step
@@ -165,8 +163,17 @@ def logistic_coefficient(
 
 
 def with_error(value: float, error: float) -> Estimate:
-    """Return a figure with the 95 % interval that its standard error makes."""
+    """Return a figure with the 95% interval from its standard error."""
     return Estimate(value, value - _Z * error, value + _Z * error)
+
+
+def two_sided(z: float) -> float:
+    """Return the chance that a standard normal variable is as far from 0 as z.
+
+    >>> round(two_sided(-1.96), 3)
+    0.05
+    """
+    return float(2.0 * ndtr(-abs(z)))
 
 
 def calibration(
@@ -174,16 +181,16 @@ def calibration(
 ) -> list[CalibrationBin]:
     """Return how often favourites won, by their predicted chance from 0.5 to 1.
 
-    Matches in which neither is the favourite, p = 0.5, say nothing and are left out.
+    Matches without a favourite, p = 0.5, are left out.
 
     Parameters
     ----------
     p, won, games
         the predictions, a row a match.
     bins
-        how many spans of equal width.
+        how many ranges of equal width.
     worth
-        independent games that a game is worth: below 1 where the games of a match vary
+        how many independent games a game is worth: below 1 where the games of a match vary
         together.
 
     >>> rows = calibration(np.array([0.62, 0.39]), np.array([7.0, 3.0]), np.array([12.0, 10.0]))
@@ -211,7 +218,7 @@ def calibration(
 
 
 def no_favourites(p: Floats, games: Floats) -> int:
-    """Return how many matches with games are left out by `calibration`: p is 1/2.
+    """Return how many matches with games `calibration` leaves out because p is 1/2.
 
     >>> no_favourites(np.array([0.5, 0.7]), np.array([9.0, 9.0]))
     1
@@ -220,12 +227,12 @@ def no_favourites(p: Floats, games: Floats) -> int:
 
 
 def wilson(share: float, n: float) -> tuple[float, float]:
-    """Return Wilson's 95 % interval for a chance of which `share` of n tries came true.
+    """Return Wilson's 95% interval for a chance, given the share of n trials that succeeded.
 
     >>> [round(end, 3) for end in wilson(0.5, 10)]
     [0.237, 0.763]
     """
     middle = (share + _Z**2 / (2.0 * n)) / (1.0 + _Z**2 / n)
     half = _Z * math.sqrt(share * (1.0 - share) / n + _Z**2 / (4.0 * n * n)) / (1.0 + _Z**2 / n)
-    # Rounding may leave an end on the wrong side where nobody or everybody won.
+    # Rounding may put an end on the wrong side where the share is 0 or 1.
     return max(0.0, min(share, middle - half)), min(1.0, max(share, middle + half))

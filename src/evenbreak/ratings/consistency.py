@@ -1,21 +1,24 @@
 """Where the columns of a results table contradict each other.
 
-Every check is a mask over all rows; words are made only for the rows that fail.
+Every check is a mask over all rows; a message is made only for the rows that fail it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import partial
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.ratings.results import Results
+from evenbreak.arrays import Bools, Ints
+from evenbreak.ratings.doors import check_results
 
-Mask = NDArray[np.bool_]
-_Finding = tuple[Mask, str, Callable[[int], str]]
+if TYPE_CHECKING:
+    from evenbreak.ratings.results import Results
+
+_Finding = tuple[Bools, str, str]
+"""The rows that fail a check, the column to blame, and a message for `_words` to fill in."""
 
 
 class Problem(NamedTuple):
@@ -27,127 +30,110 @@ class Problem(NamedTuple):
 
 
 def find_problems(results: Results) -> list[Problem]:
-    """Return everything in which the rows contradict themselves, in the order of the rows.
+    """Return every contradiction in the rows, in the order of the rows.
 
-    Checked are: scores and races below zero, a player against himself, a race given
-    for one player alone, the scores against the races, the stated winner against
-    both, and the racks against all of these. Forfeits and 0-0 rows are not held to
-    their race: they were not played out.
+    It looks for scores and races below zero, players on both sides of a match, a race given
+    for one player only, scores that do not fit the races, a stated winner who fits neither,
+    and racks that fit none of these. Forfeits and 0-0 rows need not fit their race: they
+    were not played out.
 
+    >>> from evenbreak.ratings import Results
     >>> season = Results.from_names(["Ann"], ["Bo"], [4], [5], race_a=[7], race_b=[5], winner=[1])
     >>> for problem in find_problems(season):
     ...     print(problem.row, problem.column, problem.message)
     0 winner winner is a, but b reached the race (4-5 in a race 7:5); write b, or correct the
     scores or the race
     """
-    checks = (_cells, _races, _winners, _racks)
+    check_results(results)
     found = [
-        Problem(int(row), column, message(int(row)))
-        for check in checks
+        Problem(row, column, message.format(**_words(results, row)))
+        for check in (_cells, _races, _winners, _racks)
         for mask, column, message in check(results)
-        for row in np.flatnonzero(mask)
+        for row in np.flatnonzero(mask).tolist()
     ]
     # Stable: within a row the checks keep their order, plain mistakes first.
     return sorted(found, key=lambda problem: problem.row)
 
 
+def _words(results: Results, row: int) -> dict[str, Any]:
+    """Return what messages about a row may quote."""
+    scores = int(results.score_a[row]), int(results.score_b[row])
+    race = tuple(int(needed[row]) for needed in results.races)
+    score = f"{scores[0]}-{scores[1]}"
+    racks = "" if results.racks is None else str(results.racks[row])
+    winner = 0 if results.winner is None else int(results.winner[row])
+    return {
+        "player": repr(results.players[results.player_b[row]]),
+        "cells": dict(zip(_COUNTS, (*scores, *race), strict=True)),
+        "bare": score,
+        "score": f"{score} in a race {race[0]}:{race[1]}" if all(race) else score,
+        "winner": " ab"[winner],
+        "other": " ba"[winner],
+        "racks": repr(racks),
+        "counted": f"{racks.count('a')}-{racks.count('b')}",
+    }
+
+
+_COUNTS = ("score_a", "score_b", "race_a", "race_b")
+
+
 def _cells(results: Results) -> Iterator[_Finding]:
     """Find what is wrong whatever else the row says."""
-    for column in ("score_a", "score_b", "race_a", "race_b"):
-        values: NDArray[np.int64] | None = getattr(results, column)
+    for column in _COUNTS:
+        values: Ints | None = getattr(results, column)
         if values is not None:
-            yield values < 0, column, partial(_below_zero, column, values)
-    yield (
-        results.player_a == results.player_b,
-        "player_b",
-        lambda row: (
-            f"{results.players[results.player_b[row]]!r} plays against himself or herself; "
-            "correct one of the names"
-        ),
-    )
+            least = "0, 1, 2, ..." if column.startswith("score") else "1, 2, 3, ..."
+            message = f"{column} is {{cells[{column}]}}, below zero; write {least}"
+            yield values < 0, column, message
+    message = "{player} is on both sides of the match; correct one of the names"
+    yield results.player_a == results.player_b, "player_b", message
 
 
-def _below_zero(column: str, values: NDArray[np.int64], row: int) -> str:
-    least = "0, 1, 2, ..." if column.startswith("score") else "1, 2, 3, ..."
-    return f"{column} is {values[row]}, below zero; write {least}"
-
-
-def _stated_races(results: Results) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    zeros = np.zeros(len(results), dtype=np.int64)
-    race_a = zeros if results.race_a is None else results.race_a
-    race_b = zeros if results.race_b is None else results.race_b
-    return race_a, race_b
-
-
-def _finished(results: Results) -> Mask:
-    """Return which rows tell of a match played to its end, with scores that can be."""
+def _finished(results: Results) -> Bools:
+    """Return which rows hold a match played to its end, with scores that are possible."""
     whole = (results.score_a >= 0) & (results.score_b >= 0)
-    whole &= (results.score_a > 0) | (results.score_b > 0)
-    return whole if results.forfeit is None else whole & ~results.forfeit
-
-
-def _score(results: Results, row: int) -> str:
-    race_a, race_b = _stated_races(results)
-    score = f"{results.score_a[row]}-{results.score_b[row]}"
-    if race_a[row] and race_b[row]:
-        score += f" in a race {race_a[row]}:{race_b[row]}"
-    return score
+    return whole & ((results.score_a > 0) | (results.score_b > 0)) & ~results.given_away
 
 
 def _races(results: Results) -> Iterator[_Finding]:
-    """Find races that are stated by half, or that the scores do not fit."""
-    race_a, race_b = _stated_races(results)
+    """Find races that are stated for one player only, and scores that do not fit them."""
+    race_a, race_b = results.races
     for column, other, lone in (
         ("race_b", "race_a", (race_a > 0) & (race_b == 0)),
         ("race_a", "race_b", (race_b > 0) & (race_a == 0)),
     ):
-        text = f"{column} is empty, but {other} is not; give both, or neither"
-        yield lone, column, partial(_same_text, text)
+        yield lone, column, f"{column} is empty, but {other} is not; give both, or neither"
     raced = _finished(results) & (race_a > 0) & (race_b > 0)
     over_a, over_b = results.score_a > race_a, results.score_b > race_b
-    yield raced & over_a, "score_a", partial(_beyond, results, "score_a")
-    yield raced & over_b, "score_b", partial(_beyond, results, "score_b")
+    for column, over in (("score_a", over_a), ("score_b", over_b)):
+        message = (
+            " is more than the race ({score}); correct the score or the race, or leave both races "
+            "empty"
+        )
+        yield raced & over, column, column + message
     reached_a, reached_b = results.score_a >= race_a, results.score_b >= race_b
-    yield (
-        raced & reached_a & reached_b & ~over_a & ~over_b,
-        "score_b",
-        lambda row: (
-            f"both players reached their race ({_score(results, row)}); correct the scores or "
-            "the race"
-        ),
+    message = "both players reached their race ({score}); correct the scores or the race"
+    yield raced & reached_a & reached_b & ~over_a & ~over_b, "score_b", message
+    message = (
+        "neither player reached their race ({score}); correct the scores or the race, mark the "
+        "match as a forfeit, or leave both races empty"
     )
-    yield (
-        raced & ~reached_a & ~reached_b,
-        "score_a",
-        lambda row: (
-            f"nobody reached the race ({_score(results, row)}); correct the scores or the race, "
-            "mark the match as a forfeit, or leave both races empty"
-        ),
-    )
-
-
-def _same_text(text: str, _: int) -> str:
-    return text
-
-
-def _beyond(results: Results, column: str, row: int) -> str:
-    return (
-        f"{column} is more than the race ({_score(results, row)}); correct the score or the race, "
-        "or leave both races empty"
-    )
+    yield raced & ~reached_a & ~reached_b, "score_a", message
 
 
 def who_won(results: Results) -> NDArray[np.int8]:
-    """Return 1 or 2 where the scores and races say who won, else 0.
+    """Return 1 or 2 where the scores and races determine the winner, else 0.
 
-    Without a race it is who won more games; of forfeits and 0-0 nobody won.
+    With a race that is the player who reached it, without one the player with more games.
+    Forfeits and 0-0 have no winner.
 
+    >>> from evenbreak.ratings import Results
     >>> season = Results.from_names(["Ann"] * 2, ["Bo"] * 2, [4, 4], [3, 3], race_a=[5, 0],
     ...                             race_b=[3, 0])
     >>> who_won(season)
     array([2, 1], dtype=int8)
     """
-    race_a, race_b = _stated_races(results)
+    race_a, race_b = results.races
     reached_a, reached_b = results.score_a >= race_a, results.score_b >= race_b
     raced = (race_a > 0) & (race_b > 0)
     plain = (race_a == 0) & (race_b == 0)
@@ -158,73 +144,47 @@ def who_won(results: Results) -> NDArray[np.int8]:
 
 
 def _winners(results: Results) -> Iterator[_Finding]:
-    """Find stated winners who did not reach the race, or have no more games without one."""
+    """Find stated winners who did not reach the race or, without one, did not win more games."""
     if results.winner is None:
         return
     stated, won = results.winner, who_won(results)
-    race_a, race_b = _stated_races(results)
-
-    def message(row: int) -> str:
-        said, other = "ab"[stated[row] - 1], "ab"[won[row] - 1]
-        score = _score(results, row)
-        if race_a[row] > 0:
-            return (
-                f"winner is {said}, but {other} reached the race ({score}); write {other}, or "
-                "correct the scores or the race"
-            )
-        return (
-            f"winner is {said}, but {other} won more games ({score}); write {other}, or give "
-            "race_a and race_b if it was a handicap race"
-        )
-
-    yield (stated > 0) & (won > 0) & (stated != won), "winner", message
-    tied = _finished(results) & (results.score_a == results.score_b) & (results.score_a > 0)
-    yield (
-        (stated > 0) & tied & (race_a == 0) & (race_b == 0),
-        "winner",
-        lambda row: (
-            f"winner is {'ab'[stated[row] - 1]}, but the score is tied ({_score(results, row)}); "
-            "correct the score, or give race_a and race_b if it was a handicap race"
-        ),
+    race_a, race_b = results.races
+    wrong = (stated > 0) & (won > 0) & (stated != won)
+    message = (
+        "winner is {winner}, but {other} reached the race ({score}); write {other}, or correct "
+        "the scores or the race"
     )
+    yield wrong & (race_a > 0), "winner", message
+    message = (
+        "winner is {winner}, but {other} won more games ({score}); write {other}, or give race_a "
+        "and race_b if it was a handicap race"
+    )
+    yield wrong & (race_a <= 0), "winner", message
+    tied = _finished(results) & (results.score_a == results.score_b)
+    message = (
+        "winner is {winner}, but the score is tied ({score}); correct the score, or give race_a "
+        "and race_b if it was a handicap race"
+    )
+    yield (stated > 0) & tied & (race_a == 0) & (race_b == 0), "winner", message
 
 
 def _racks(results: Results) -> Iterator[_Finding]:
     """Find racks that do not add up to the scores, or go on after the race was won."""
     if results.racks is None:
         return
-    racks = results.racks
-    rows = np.flatnonzero([bool(text) for text in racks])
-    count_a, count_b = np.zeros(len(results), np.int64), np.zeros(len(results), np.int64)
-    other, last = np.zeros(len(results), bool), np.zeros(len(results), np.int8)
-    for row in rows:
-        text = racks[row]
-        count_a[row], count_b[row] = text.count("a"), text.count("b")
-        other[row] = count_a[row] + count_b[row] < len(text)
-        last[row] = 1 if text[-1] == "a" else 2
-    stated = np.zeros(len(results), bool)
-    stated[rows] = True
-    yield (
-        other,
-        "racks",
-        lambda row: f"racks {racks[row]!r} has other letters than a and b; write one a or b a rack",
-    )
-    adds_up = (count_a == results.score_a) & (count_b == results.score_b)
-    yield (
-        stated & ~other & ~adds_up,
-        "racks",
-        lambda row: (
-            f"racks {racks[row]!r} is {count_a[row]}-{count_b[row]}, but the score is "
-            f"{results.score_a[row]}-{results.score_b[row]}; correct one of them"
-        ),
-    )
-    race_a, race_b = _stated_races(results)
+    counts = np.array([(text.count("a"), text.count("b"), len(text)) for text in results.racks])
+    a, b, long = counts.reshape(-1, 3).T
+    last = np.array([" ab".find(text[-1:] or " ") for text in results.racks], dtype=np.int8)
+    strange = a + b < long
+    message = "racks {racks} has letters other than a and b; write an a or a b for each rack"
+    yield strange, "racks", message
+    adds_up = (a == results.score_a) & (b == results.score_b)
+    message = "racks {racks} is {counted}, but the score is {bare}; correct one of them"
+    yield (long > 0) & ~strange & ~adds_up, "racks", message
+    race_a, race_b = results.races
     won = np.where((race_a > 0) & (race_b > 0), who_won(results), 0)
-    yield (
-        stated & ~other & adds_up & (won > 0) & (won != last),
-        "racks",
-        lambda row: (
-            f"racks {racks[row]!r} goes on after the race was won ({_score(results, row)}); "
-            "correct the racks, the scores or the race"
-        ),
+    message = (
+        "racks {racks} goes on after the race was won ({score}); correct the racks, the scores or "
+        "the race"
     )
+    yield (long > 0) & ~strange & adds_up & (won > 0) & (won != last), "racks", message

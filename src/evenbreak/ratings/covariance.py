@@ -14,18 +14,17 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse.linalg import LinearOperator, cg
 
+from evenbreak.arrays import Floats, Places
+from evenbreak.chains.arcs import sums
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 
-Floats = NDArray[np.float64]
-
 _DENSE_UP_TO = 2000
-"""Players up to which the Hessian is factorised once; of more, each answer is iterated for."""
+"""Players up to which the Hessian is factorised once; with more, each answer is iterated."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +36,8 @@ class Curvature:
     size
         how many players there are.
     low, high, weight
-        the two players of each pair that met, and the pair's curvature, 0 or more.
+        the two players of each pair that met, sorted by the low player and then the high one,
+        and the pair's curvature, 0 or more.
     precision
         τ, the prior precision of a rating.
     border, corner
@@ -46,8 +46,8 @@ class Curvature:
     """
 
     size: int
-    low: NDArray[np.intp]
-    high: NDArray[np.intp]
+    low: Places
+    high: Places
     weight: Floats
     precision: float
     border: Floats | None = None
@@ -56,15 +56,17 @@ class Curvature:
     @cached_property
     def matrix(self) -> sparse.csc_array:
         """The ratings' block: shape (size, size), symmetric, its row sums all `precision`."""
-        shape = (self.size, self.size)
-        upper = sparse.coo_array((-self.weight, (self.low, self.high)), shape=shape).tocsr()
+        upper = self._upper(-self.weight)
         return sparse.csc_array(upper + upper.T + sparse.diags_array(self._diagonal))
+
+    def _upper(self, values: Floats) -> sparse.csr_array:
+        """Return an upper triangle with a value for each pair."""
+        starts = np.searchsorted(self.low, np.arange(self.size + 1))
+        return sparse.csr_array((values, self.high, starts), shape=(self.size, self.size))
 
     @cached_property
     def _diagonal(self) -> Floats:
-        total: Floats = np.bincount(self.low, self.weight, self.size).astype(np.float64)
-        total += np.bincount(self.high, self.weight, self.size)
-        return total + self.precision
+        return sums_by_player(self.size, self.low, self.high, self.weight) + self.precision
 
     @cached_property
     def _factor(self) -> Any:
@@ -127,14 +129,37 @@ class Curvature:
     def _iterate(self, right: Floats, accuracy: float) -> Floats:
         """Return H⁻¹ times a vector by conjugate gradients, H scaled to a unit diagonal."""
         scale = 1.0 / np.sqrt(self._diagonal)
-        matrix = self.matrix
-
-        def product(v: Floats) -> Floats:
-            return np.asarray(scale * (matrix @ (scale * v)))
-
-        shape = (self.size, self.size)
-        scaled = LinearOperator(shape, product, dtype=np.float64)
+        upper = self._upper(self.weight * scale[self.low] * scale[self.high])
+        lower = upper.T
+        scaled = LinearOperator(upper.shape, lambda v: v - upper @ v - lower @ v, dtype=np.float64)
         solution, failed = cg(scaled, scale * right, rtol=accuracy, atol=0.0)
         if failed:
             raise AccuracyError("the ratings' covariance was not found; give a smaller prior_sd")
         return np.asarray(scale * solution)
+
+
+def sums_by_player(
+    players: int,
+    low: Places,
+    high: Places,
+    for_low: Floats,
+    for_high: Floats | None = None,
+) -> Floats:
+    """Return for each player the sum over their pairs, right to about one rounding.
+
+    A plain sum over 20,000 opponents moves in jumps: each term is rounded the same way.
+
+    Parameters
+    ----------
+    players
+        how many there are.
+    low, high
+        the two players of each pair.
+    for_low, for_high
+        what each pair adds to its low and its high player; the same where only one is given.
+
+    >>> sums_by_player(3, np.array([0, 0]), np.array([1, 2]), np.array([1.0, 10.0]))
+    array([11., 1., 10.])
+    """
+    also = for_low if for_high is None else for_high
+    return sums(low, for_low, players) + sums(high, also, players)

@@ -1,43 +1,41 @@
-"""The posterior of a league that grows day by day: refitted from where it stood before.
+"""Ratings refitted day by day, each time from where they stood the day before.
 
-The model is that of `evenbreak.ratings.posterior`. From one day to the next little
-changes, so a few Newton steps from yesterday's mode find today's. Newton systems, and the
-variances of today's differences, are solved by conjugate gradients: no slower than a
-factorisation here, and no threads that wait for each other.
+The model is that of `evenbreak.ratings.posterior`. Little changes from one day to the next,
+so a few Newton steps from yesterday's mode find today's. Newton systems, and the variances
+of today's differences, are solved by conjugate gradients, which here take no longer than a
+factorisation and start no threads that wait for each other.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.special import expit
 
-from evenbreak.errors import AccuracyError
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from evenbreak.arrays import Floats, Ints
+from evenbreak.ratings.covariance import sums_by_player
+from evenbreak.ratings.newton import damped, find_zero, step_accuracy, tolerance
 
 GRADIENT = 1e-6
-"""What the gradient comes down to, in games, times τ where that is below 1."""
-
-_MOST_STEPS = 200
-_ROUNDING = 1e-14
+"""How small the gradient has to become, in games, times τ where that is below 1."""
 
 
-class GrowingLeague:
-    """The skills of a league's players in natural log-odds, as more and more is learnt.
+VARIANCE_ACCURACY = 1e-5
+"""How exactly to solve for a variance, which is off by the square of what its solution is."""
+
+
+class DailyRefit:
+    """The skills of a league's players in natural log-odds, as results come in.
 
     Parameters
     ----------
     players
-        how many there are, those who have not played yet included.
+        how many there are, including those who have not played yet.
     player_a, player_b
-        the pairs that will ever meet: one entry a match, in the order of learning.
+        the players of each match that will come in, in that order.
     precision
         τ, the prior precision 1/sd² in log-odds.
     """
@@ -50,11 +48,11 @@ class GrowingLeague:
         self._games = np.zeros(len(pairs))
         self._low_won = np.zeros(len(pairs))
         self._precision = precision
-        self._solve: Callable[[Floats], Floats] | None = None
+        self._solve: Callable[[Floats, float], Floats] | None = None
         self.skill = np.zeros(players)
 
     def learn(self, matches: slice, won_a: Ints, won_b: Ints) -> None:
-        """Learn the games won in some of the matches that were announced."""
+        """Take in the games won in some of the matches."""
         pair = self._pair[matches]
         low_won = np.where(self._a_is_low[matches], won_a, won_b)
         self._games += np.bincount(pair, won_a + won_b, len(self._games))
@@ -62,7 +60,7 @@ class GrowingLeague:
         self._find_mode()
 
     def fade(self, keep: float) -> None:
-        """Let everything learnt so far be worth only a part of what it was."""
+        """Reduce the weight of everything so far to a part of what it was."""
         self._games *= keep
         self._low_won *= keep
         self._find_mode()
@@ -75,59 +73,52 @@ class GrowingLeague:
         right = np.zeros((len(self.skill), len(a)))
         right[a, which] += 1.0
         right[b, which] -= 1.0
-        solved = self._solve(right)
+        solved = self._solve(right, VARIANCE_ACCURACY)
         return np.asarray(solved[a, which] - solved[b, which])
 
     def _find_mode(self) -> None:
-        # H >= τI, so a gradient g leaves the skills within |g|/τ of the mode.
-        tolerance = max(
-            GRADIENT * min(1.0, self._precision), _ROUNDING * float(self._ends(self._games).max())
-        )
-        for _ in range(_MOST_STEPS):
-            p_low = expit(self.skill[self._low] - self.skill[self._high])
+        def gradient_at(skill: Floats) -> tuple[Floats, Callable[[], Floats]]:
+            p_low = expit(skill[self._low] - skill[self._high])
             surplus = self._games * p_low - self._low_won
-            gradient = self._ends(surplus, -surplus) + self._precision * self.skill
-            self._solve = self._solver(self._games * p_low * (1.0 - p_low))
-            size = float(np.abs(gradient).max(initial=0.0))
-            if size <= tolerance:
-                return
-            step = -self._solve(gradient)
-            beta = float(np.abs(step[self._low] - step[self._high]).max(initial=0.0))
-            # Damped where it is long, as `evenbreak.ratings.posterior.find_mode` says.
-            self.skill = self.skill + (step if beta < 1.7 else step * (math.log1p(beta) / beta))
-        raise AccuracyError(
-            f"the ratings' gradient is {size:.1e} after {_MOST_STEPS} Newton steps; give a smaller "
-            "prior_sd"
-        )
+            ends = sums_by_player(len(skill), self._low, self._high, surplus, -surplus)
+            gradient = ends + self._precision * skill
+            solve = self._solver(self._games * p_low * (1.0 - p_low))
+            self._solve = solve
+            accuracy = step_accuracy(gradient)
+            return gradient, lambda: damped(-solve(gradient, accuracy), self._low, self._high)
 
-    def _ends(self, low: Floats, high: Floats | None = None) -> Floats:
-        """Return for each player the sum over his pairs of `low` or `high`, as he is in them."""
-        players = len(self.skill)
-        total: Floats = np.bincount(self._low, low, players).astype(np.float64)
-        total += np.bincount(self._high, low if high is None else high, players)
-        return total
+        most = float(self._ends(self._games).max())
+        enough = tolerance(self._precision, most, GRADIENT)
+        self.skill = find_zero(self.skill, gradient_at, enough).point
 
-    def _solver(self, weight: Floats) -> Callable[[Floats], Floats]:
-        """Return what solves Hx = b, H the Laplacian of `weight` plus τI."""
+    def _ends(self, each: Floats) -> Floats:
+        """Return for each player the sum over their pairs, to a few roundings a pair."""
+        low, high = (np.bincount(ends, each, len(self.skill)) for ends in (self._low, self._high))
+        return np.asarray(low + high)
+
+    def _solver(self, weight: Floats) -> Callable[[Floats, float], Floats]:
+        """Return what solves Hx = b to an accuracy, H the Laplacian of `weight` plus τI."""
         players = len(self.skill)
         diagonal = self._ends(weight) + self._precision
         seen = weight > 0.0
         low, high = self._low[seen], self._high[seen]
         upper = sparse.csr_array((-weight[seen], (low, high)), shape=(players, players))
         whole = sparse.csr_array(upper + upper.T + sparse.diags_array(diagonal))
-        return lambda right: _conjugate_gradients(whole, diagonal, right)
+        return lambda right, accuracy: _conjugate_gradients(whole, diagonal, right, accuracy)
 
 
-def _conjugate_gradients(matrix: Any, diagonal: Floats, right: Floats) -> Floats:
-    """Return the solution of each column, the matrix scaled to a unit diagonal."""
+def _conjugate_gradients(matrix: Any, diagonal: Floats, right: Floats, accuracy: float) -> Floats:
+    """Return the solution of each column, the matrix scaled to a unit diagonal.
+
+    What is left over of each column is at most `accuracy` times it.
+    """
     columns = right[:, None] if right.ndim == 1 else right
     scale = 1.0 / np.sqrt(diagonal)[:, None]
     residual = scale * columns
     solution = np.zeros_like(residual)
     direction = residual.copy()
     square = (residual**2).sum(0)
-    # A variance is off by the square of what its solution is off by.
-    enough = 1e-12 * square
+    enough = accuracy**2 * square
     for _ in range(2 * len(diagonal) + 100):
         if (square <= enough).all():
             break

@@ -1,18 +1,19 @@
-"""How much an older match still says: a weight that halves every so many days."""
+"""How much an older match still counts: a weight that halves every so many days."""
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats
+from evenbreak.checks import column, positive
 from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 
 
-def day_of(value: Any, name: str = "as_of") -> np.datetime64:
+def day_of(value: Any) -> np.datetime64:
     """Return a day: a date, a `numpy.datetime64`, or text such as '2026-01-31'.
 
     Raises
@@ -24,15 +25,15 @@ def day_of(value: Any, name: str = "as_of") -> np.datetime64:
     np.datetime64('2026-01-31')
     """
     try:
-        day = np.datetime64(value, "D")
-    except (TypeError, ValueError):
+        day = column([value], "as_of", 1, "days", "datetime64[D]")[0]
+    except InputError:
         day = np.datetime64("NaT", "D")
     if np.isnat(day):
-        raise InputError(f"{name} is {value!r}; give a day, such as 2026-01-31")
-    return day
+        raise InputError(f"as_of is {value!r}; give a day, such as 2026-01-31")
+    return np.datetime64(day)
 
 
-def until(results: Results, as_of: np.datetime64) -> NDArray[np.bool_]:
+def until(results: Results, as_of: np.datetime64) -> Bools:
     """Return which matches were played by the end of a day.
 
     Raises
@@ -44,12 +45,10 @@ def until(results: Results, as_of: np.datetime64) -> NDArray[np.bool_]:
     return np.asarray(date <= as_of)
 
 
-def match_weights(
-    results: Results, half_life: float, as_of: np.datetime64 | None = None
-) -> NDArray[np.float64]:
+def match_weights(results: Results, half_life: float, as_of: np.datetime64 | None = None) -> Floats:
     """Return the weight of each match: 1 on the day `as_of`, 1/2 `half_life` days before.
 
-    A game of weight w counts in the likelihood as its w-th power, so as w games.
+    A game of weight w enters the likelihood with the power w, so it counts as w games.
 
     Parameters
     ----------
@@ -72,7 +71,7 @@ def match_weights(
     >>> match_weights(season, 30)
     array([0.5, 1. ])
     """
-    days = _half_life(half_life)
+    days = positive(half_life, "half_life", wanted="a number of days above 0")
     date = _dated(results)
     if not len(date):
         return np.zeros(0)
@@ -81,23 +80,13 @@ def match_weights(
     return np.asarray(np.exp2(-age / days))
 
 
-def _half_life(value: Any) -> float:
-    try:
-        days = float(value)
-    except (TypeError, ValueError):
-        days = math.nan
-    if not (math.isfinite(days) and days > 0):
-        raise InputError(f"half_life is {value!r}; give a number of days above 0")
-    return days
-
-
 def _dated(results: Results) -> NDArray[np.datetime64]:
     undated = len(results) if results.date is None else int(np.isnat(results.date).sum())
     if results.date is None or undated:
         if not len(results):
             return np.zeros(0, dtype="datetime64[D]")
         raise InputError(
-            f"{undated:,} of {len(results):,} matches have no date; add their dates, or rate "
-            "without a half-life and a day"
+            f"{undated:,} of {len(results):,} matches have no date; add the dates, or rate without "
+            "a half-life and without a day"
         )
     return results.date

@@ -1,4 +1,4 @@
-"""In which dense blocks a sparse symmetric matrix is eliminated.
+"""The dense blocks in which a sparse symmetric matrix is eliminated.
 
 A minimum degree order, its elimination tree, and pivots that share their rows gathered
 in one front (Liu 1992, "The multifrontal method for sparse matrix solution").
@@ -9,15 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import spilu
 
-Ints = NDArray[np.intp]
+from evenbreak.arrays import Places
 
 _ONE_FRONT_UP_TO = 300
 _PADDING, _PADDING_PER_ROW = 64, 20
-"""Explicit zeros that a front takes in rather than hand its rows on to a front of their own."""
+"""Explicit zeros that a front accepts before its rows get a front of their own."""
 
 
 @dataclass(eq=False)
@@ -28,8 +27,8 @@ class Front:
     this front takes up; they come before it.
     """
 
-    pivots: Ints
-    rows: Ints
+    pivots: Places
+    rows: Places
     children: list[int] = field(default_factory=list)
 
 
@@ -50,7 +49,7 @@ def _fills_in(matrix: sparse.csc_array) -> bool:
     """Return whether nearly everybody is reached in two steps, through many at once.
 
     No order helps such a matrix, and finding that out by minimum degree takes longer than
-    the elimination. A sample of the rows tells.
+    the elimination. A sample of the rows is enough.
     """
     size = matrix.shape[0]
     if matrix.nnz < 32 * size:
@@ -65,7 +64,7 @@ def _fills_in(matrix: sparse.csc_array) -> bool:
     return bool(np.median(reached) > size / 6)
 
 
-def _minimum_degree(matrix: sparse.csc_array) -> Ints:
+def _minimum_degree(matrix: sparse.csc_array) -> Places:
     """Return the columns in the order of elimination.
 
     SuperLU orders before it factorises, and an incomplete factor that drops all it may
@@ -82,13 +81,13 @@ def _minimum_degree(matrix: sparse.csc_array) -> Ints:
     return np.argsort(factor.perm_c)
 
 
-def _gather(matrix: sparse.csc_array, order: Ints) -> list[Front]:
+def _gather(matrix: sparse.csc_array, order: Places) -> list[Front]:
     """Return the fronts for an order, in the names of the matrix."""
     size = len(order)
     rank = np.empty(size, dtype=np.intp)
     rank[order] = np.arange(size)
     pivots: list[list[int]] = []
-    rows: list[Ints] = []
+    rows: list[Places] = []
     children: list[list[int]] = []
     waiting: list[list[int]] = [[] for _ in range(size)]  # fronts, by the first of their rows
     for k in range(size):

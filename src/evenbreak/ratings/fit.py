@@ -4,38 +4,42 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of, match_weights, until
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fitted import Ratings
-from evenbreak.ratings.mixed_posterior import Evidence, evidence_of, find_mixed_mode
-from evenbreak.ratings.posterior import PairCounts, count_pairs, find_mode
+from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
+from evenbreak.ratings.mixed_posterior import find_mixed_mode
+from evenbreak.ratings.pairs import PairCounts, count_pairs
+from evenbreak.ratings.posterior import find_mode
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
 
 PRIOR_SD = math.log(2.0)
 """Default standard deviation of the prior, in natural log-odds: one doubling of the odds.
 
-That is 30 points in the NPL and 100 of Fargo's. The NPL's own range, from beginners at 20
-to professionals at 130, is four of them wide. A season of snooker professionals, who are
-nearer to each other, is predicted best with 0.36 (see `evenbreak.ratings.prior`); ln 2 costs
-0.0024 of log-loss a frame there. It weighs as much as eight games against an equal
-opponent, so after a few matches the results speak.
+That is 30 points in the NPL and 100 on the Fargo scale. The NPL's own range, from beginners
+at 20 to professionals at 130, is four of them wide. A season of snooker professionals, who are
+closer to each other, is predicted best with 0.36 (see `evenbreak.ratings.prior`); there ln 2
+costs 0.0024 of log-loss a frame. The prior weighs as much as eight games against an equal opponent,
+so after a few matches the results dominate.
 """
 
-# Beyond these the data, or the prior, are nothing but rounding to the other.
+# Beyond these either the data or the prior is lost in the rounding of the other.
 NARROWEST, WIDEST = 1e-3, 100.0
 
 BREAK_SD = math.log(2.0)
 """Standard deviation of the prior of the break advantage, about 0, in natural log-odds.
 
-Wide beside the advantages that are met with; it keeps one finite where every breaker won.
+Wide compared with real advantages; it keeps the estimate finite where every breaker won.
 """
 
 
@@ -51,48 +55,47 @@ def fit(
 ) -> Ratings:
     """Return the ratings that are most likely a posteriori, given the games of `results`.
 
-    Every game counts alike: a match is so many games won and lost, whatever the race. Of a
-    match that is known by its winner alone, the race counts (see `race_slopes`). Forfeits
-    and 0-0 are left out and counted. A player who won (or lost) every game gets a finite
-    rating from the prior.
+    Every game counts alike: a match is so many games won and lost, whatever the race. A
+    match known by its winner alone counts by its race (see `race_slopes`). Forfeits and 0-0
+    are left out, and the answer says how many there were. The prior keeps the rating of a
+    player who won (or lost) every game finite.
 
     Parameters
     ----------
     results
         the matches.
     prior_sd
-        standard deviation of the prior in natural log-odds, whatever the scale: the scale
-        only rescales.
+        standard deviation of the prior in natural log-odds, whatever the scale.
     scale
         'npl', 'fargo', 'elo', points that double the odds, or a `Scale`.
     anchor
-        the prior mean in points; or the ratings of named players: all ratings of their
-        component are shifted so that on average these have the ratings given. None is
-        the scale's centre, also for components without a named player.
+        the prior mean in points; or the ratings of named players: their component is
+        shifted so that on average they have these ratings. None is the scale's centre,
+        which also holds for components without a named player.
     half_life
         days after which a match counts half; None: age does not matter.
     as_of
-        the day for which the ratings are: later matches are left out and counted, and
-        ages are counted from it. None is the last date of the results.
+        the day to rate for: later matches are left out, and the age of a match is counted
+        back from this day. None is the last date of the results.
     break_advantage
         by how many points the breaker of a rack plays better; 'fit' to estimate it from
-        the racks of which it is known who broke (see `count_broken`); None: the break
+        the racks whose breaker is known (see `count_broken`); None: the break
         does not matter.
 
     Raises
     ------
     InputError
-        if prior_sd is not in 0.001 to 100, an anchor is not finite or not a player with
-        results, half_life is not above 0, a date is missing where dates are needed, or a
-        score is negative or a player meets himself (see `find_problems`).
+        if prior_sd is not in 0.001 to 100, an anchor is not finite or names an unknown
+        player, half_life is not above 0, a date is missing where dates are needed, a score
+        is negative, or the two players of a match are the same (see `find_problems`).
     AccuracyError
         if the mode is not found to rounding.
 
     Notes
     -----
-    Bradley & Terry (1952), "Rank analysis of incomplete block designs"; the prior after
-    Caron & Doucet (2012), there gamma, here normal. Without named players a component's
-    ratings have the mean `anchor` exactly.
+    Bradley & Terry (1952), "Rank analysis of incomplete block designs"; a prior as in
+    Caron & Doucet (2012), though theirs is gamma and this one normal. Without named players
+    the ratings of a component have exactly the mean `anchor`.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
@@ -102,7 +105,8 @@ def fit(
     >>> fit(season, scale="fargo", anchor={"Ann": 600}).rating.round(1)
     array([600. , 539.7, 503.5])
     """
-    prior_sd = _checked_sd(prior_sd)
+    check_results(results)
+    prior_sd = checked_prior(prior_sd)
     scale = scale_of(scale)
     centre, named = _anchors(anchor, scale, results.players)
     day = None if as_of is None else day_of(as_of)
@@ -113,16 +117,26 @@ def fit(
     pairs = count_pairs(
         len(results.players), scored.player_a, scored.player_b, scored.score_a, scored.score_b
     )
+    played: PairCounts | LikelihoodTerms = pairs
+    advantage = break_precision = None
+    break_games = 0.0
     if not len(won_only) and half_life is None and break_advantage is None:
-        found = _by_games(pairs, prior_sd)
+        mode = find_mode(pairs, prior_sd**-2)
+        skill = mode.point
     else:
+        breaks = break_advantage is not None
+        known = _known_advantage(break_advantage, scale) if breaks else 0.0
         weights = _weights(scored, won_only, half_life, day)
-        breaks = _break(break_advantage, scale)
-        found = _by_all(
-            evidence_of(scored, won_only, weights, breaks=breaks.enters), prior_sd, breaks
+        played = terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
+        break_games = terms.games_with_breaker if breaks else 0.0
+        break_precision = BREAK_SD**-2 if known is None and break_games else None
+        mode = find_mixed_mode(
+            terms, prior_sd**-2, advantage=known or 0.0, break_precision=break_precision
         )
-    component = _components(found.graph)
-    rating = centre + scale.points_per_log_odds * found.skill
+        skill = mode.point[:-1]
+        advantage = float(mode.point[-1]) if break_games else None
+    component = _components(played.graph)
+    rating = centre + scale.points_per_log_odds * skill
     races_won, races_lost = _races(won_only)
     return Ratings(
         players=results.players,
@@ -134,8 +148,8 @@ def fit(
         scale=scale,
         anchor=centre,
         prior_sd=prior_sd,
-        iterations=found.iterations,
-        gradient=found.gradient,
+        iterations=mode.iterations,
+        gradient=mode.gradient,
         matches=len(scored) + len(won_only),
         forfeits=forfeits,
         empty=empty,
@@ -145,69 +159,25 @@ def fit(
         half_life=None if half_life is None else float(half_life),
         as_of=day,
         later=len(results) - len(in_time),
-        break_advantage=None if found.advantage is None else float(scale.points(found.advantage)),
-        break_games=found.break_games,
-        _played=found.played,
-        _skill=found.skill,
-        _break_precision=found.break_precision,
+        break_advantage=None if advantage is None else scale.points(advantage),
+        break_games=break_games,
+        _played=played,
+        _skill=skill,
+        _break_precision=break_precision,
     )
 
 
-class _Found(NamedTuple):
-    """The mode, and what the ratings' uncertainty is worked out from."""
-
-    skill: NDArray[np.float64]
-    gradient: float
-    iterations: int
-    played: PairCounts | Evidence
-    graph: sparse.csr_array
-    advantage: float | None = None
-    break_precision: float | None = None
-    break_games: float = 0.0
+def checked_prior(prior_sd: Any) -> float:
+    """Return the standard deviation of a prior if it is within the limits, in log-odds."""
+    wanted = f"a number from {NARROWEST:g} to {WIDEST:g}, in log-odds"
+    return number(prior_sd, "prior_sd", low=NARROWEST, high=WIDEST, wanted=wanted)
 
 
-class _Break(NamedTuple):
-    """Whether the break enters, whether its advantage is estimated, and else what it is."""
-
-    enters: bool
-    estimated: bool
-    advantage: float
-
-
-def _by_games(pairs: PairCounts, prior_sd: float) -> _Found:
-    """Return the mode where every game counts alike."""
-    mode = find_mode(pairs, prior_sd**-2)
-    return _Found(mode.skill, mode.gradient, mode.iterations, pairs, pairs.games)
-
-
-def _by_all(evidence: Evidence, prior_sd: float, breaks: _Break) -> _Found:
-    """Return the mode where matches differ in weight, in what is known, and in who broke."""
-    known = evidence.games_with_breaker if breaks.enters else 0.0
-    estimated = breaks.estimated and known > 0.0
-    break_precision = BREAK_SD**-2 if estimated else None
-    mode = find_mixed_mode(
-        evidence, prior_sd**-2, advantage=breaks.advantage, break_precision=break_precision
-    )
-    enters = breaks.enters and known > 0.0
-    return _Found(
-        mode.skill,
-        mode.gradient,
-        mode.iterations,
-        evidence,
-        evidence.graph,
-        mode.advantage if enters else None,
-        break_precision,
-        known,
-    )
-
-
-def _break(value: Any, scale: Scale) -> _Break:
-    if value is None:
-        return _Break(False, False, 0.0)
+def _known_advantage(value: Any, scale: Scale) -> float | None:
+    """Return the break advantage in log-odds; None where it is estimated."""
     if value == "fit":
-        return _Break(True, True, 0.0)
-    points = _finite(value, f"break_advantage is {value!r}; give points, 'fit' or None")
-    return _Break(True, False, float(scale.log_odds(points)))
+        return None
+    return scale.log_odds(number(value, "break_advantage", wanted="points, 'fit' or None"))
 
 
 def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float, dict[str, float]]:
@@ -215,47 +185,35 @@ def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float
     if not isinstance(anchor, Mapping):
         if anchor is None:
             return scale.centre, {}
-        return _finite(anchor, f"anchor is {anchor!r}; give a finite number of points"), {}
+        return number(anchor, "anchor", wanted="a finite number of points"), {}
     for name in anchor:
         if name not in players:
-            raise InputError(
-                f"anchor {name!r} is not among the players; give a name of the results"
-            )
+            raise InputError(f"anchor {name!r} is not in the results; give a name that is")
     return scale.centre, {
-        name: _finite(points, f"anchor of {name!r} is {points!r}; give a finite number of points")
+        name: number(points, f"anchor of {name!r}", wanted="a finite number of points")
         for name, points in anchor.items()
     }
 
 
-def _finite(value: Any, message: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not math.isfinite(number):
-        raise InputError(message)
-    return number
-
-
 def _shifted(
-    rating: NDArray[np.float64],
+    rating: Floats,
     named: Mapping[str, float],
     players: tuple[str, ...],
-    component: NDArray[np.int64],
-) -> NDArray[np.float64]:
-    """Return the ratings, each component moved to where its named players are on average."""
+    component: Ints,
+) -> Floats:
+    """Return the ratings, each component shifted so that its named players fit on average."""
     at = np.array([players.index(name) for name in named], dtype=np.int64)
     missing = np.array(list(named.values())) - rating[at]
     rating = rating.copy()
-    for number in np.unique(component[at]):
-        rating[component == number] += missing[component[at] == number].mean()
+    for label in np.unique(component[at]):
+        rating[component == label] += missing[component[at] == label].mean()
     return rating
 
 
 def _weights(
     scored: Results, won_only: Results, half_life: float | None, day: np.datetime64 | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return what each match weighs; ages are counted from the last of all."""
+) -> tuple[Floats, Floats]:
+    """Return the weight of each match; ages are counted from the last match of all."""
     if half_life is None:
         return np.ones(len(scored)), np.ones(len(won_only))
     if day is None:
@@ -266,8 +224,8 @@ def _weights(
     return match_weights(scored, half_life, day), match_weights(won_only, half_life, day)
 
 
-def _races(won_only: Results) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return how many matches each player won and lost of which only the winner is known."""
+def _races(won_only: Results) -> tuple[Ints, Ints]:
+    """Return how many matches known by their winner alone each player won and lost."""
     players = len(won_only.players)
     a_won = np.zeros(0, bool) if won_only.winner is None else won_only.winner == 1
     winner = np.where(a_won, won_only.player_a, won_only.player_b)
@@ -277,25 +235,15 @@ def _races(won_only: Results) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 def _refuse_nonsense(scored: Results, won_only: Results) -> None:
     if (scored.score_a < 0).any() or (scored.score_b < 0).any():
-        raise InputError("results hold a negative score; correct what find_problems tells")
+        raise InputError("results hold a negative score; correct what find_problems lists")
     for part in (scored, won_only):
         if (part.player_a == part.player_b).any():
             raise InputError(
-                "results hold a player against himself; correct what find_problems tells"
+                "results hold a match of one player only; correct what find_problems lists"
             )
 
 
-def _checked_sd(prior_sd: Any) -> float:
-    value = _finite(
-        prior_sd,
-        message := f"prior_sd is {prior_sd!r}; give a number from 0.001 to 100, in log-odds",
-    )
-    if not NARROWEST <= value <= WIDEST:
-        raise InputError(message)
-    return value
-
-
-def _components(graph: sparse.csr_array) -> NDArray[np.int64]:
+def _components(graph: sparse.csr_array) -> Ints:
     """Return the component of each player, numbered from 1, the largest first."""
     number, label = connected_components(graph, directed=False)
     size = np.bincount(label, minlength=number)

@@ -1,23 +1,24 @@
-"""Ratings as they come out of a fit, with what is known of their uncertainty."""
+"""Ratings as a fit returns them, with their uncertainty."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.errors import InputError
 from evenbreak.ratings.covariance import Curvature
-from evenbreak.ratings.mixed_posterior import Evidence
-from evenbreak.ratings.posterior import PairCounts, curvature
+from evenbreak.ratings.likelihood_terms import LikelihoodTerms
+from evenbreak.ratings.pairs import PairCounts
 from evenbreak.ratings.scale import Scale
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,14 +30,14 @@ class Ratings:
     players
         the names.
     rating
-        points on `scale`; a middling player of a component is at `anchor`, unless
+        points on `scale`; an average player of a component is at `anchor`, unless
         `named` says otherwise.
     games, won, lost
         games played, won and lost by each player, without forfeits, each counted once
         whatever its age.
     component
         players who are connected through opponents share a number, from 1 for the
-        largest component; across components the ratings compare nothing but the prior.
+        largest component; ratings from different components cannot be compared.
     scale, anchor, prior_sd
         the scale, the mean of the prior in points, and its standard deviation in
         natural log-odds.
@@ -46,17 +47,17 @@ class Ratings:
     matches, forfeits, empty
         rows used, rows left out as forfeits, and rows left out as 0-0.
     races_won, races_lost
-        matches of each player of which only the race and the winner are known.
+        matches of each player that are known by race and winner alone.
     named
-        the players at whose ratings their components are anchored, and these ratings.
+        the players whose ratings anchor their components, and these ratings.
     half_life, as_of, later
-        days after which a match counts half, or None; the day for which the ratings
-        are, or None; rows left out because they are later than that.
+        days after which a match counts half, or None; the day that is rated for, or None;
+        rows left out because they are later than that.
     break_advantage
         by how many points the breaker of a rack plays better, estimated or given; None
-        where the break does not enter.
+        where the break does not matter.
     break_games
-        the games, by weight, of which it is known who broke, if the break enters.
+        the games, by weight, whose breaker is known, if the break matters.
     """
 
     players: tuple[str, ...]
@@ -82,20 +83,61 @@ class Ratings:
     later: int = 0
     break_advantage: float | None = None
     break_games: float = 0.0
-    _played: PairCounts | Evidence = field(repr=False)
+    _played: PairCounts | LikelihoodTerms = field(repr=False)
     _skill: Floats = field(repr=False)
     _break_precision: float | None = field(default=None, repr=False)
 
+    def __repr__(self) -> str:
+        return (
+            f"<Ratings of {len(self.players):,} players from {self.matches:,} matches, "
+            f"{self.scale.name} scale>"
+        )
+
+    def strongest_first(self, players: Iterable[int] | None = None) -> list[int]:
+        """Return players (positions in `players`; None: all), the strongest first, then by name."""
+        # Rounded in log-odds, so that neither the scale nor the last bits decide.
+        strength = np.round(self.scale.log_odds(self.rating - self.anchor), 9)
+        chosen = range(len(self.players)) if players is None else players
+        return sorted(chosen, key=lambda k: (-strength[k], k))
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return every player's rating as a DataFrame, the strongest first.
+
+        Its columns are those of ratings.csv: player; rating, standard_error and quasi_error in
+        points of the scale; games, won and lost in the matches that were used; races_won and
+        races_lost, where there are matches of which only the winner is known; component: players
+        with the same number are linked by a chain of opponents, and only their ratings can be
+        compared; and scale, the same in each row: its name, or the points that double the odds.
+
+        >>> from evenbreak.ratings import Results, fit
+        >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [50], [70]), scale="fargo")
+        >>> ratings.to_frame()[["player", "rating", "games"]].round(1)
+          player  rating  games
+        0     Bo   523.4    120
+        1    Ann   476.6    120
+        """
+        import pandas as pd
+
+        order = self.strongest_first()
+        columns = ["rating", "standard_error", "quasi_error", "games", "won", "lost"]
+        columns += ["races_won", "races_lost"] if self.races_won.any() else []
+        columns.append("component")
+        return pd.DataFrame(
+            {
+                "player": [self.players[k] for k in order],
+                **{name: np.asarray(getattr(self, name))[order] for name in columns},
+                "scale": self.scale.text,
+            }
+        )
+
     @property
-    def idle(self) -> NDArray[np.bool_]:
-        """Which players have no result that counts: their rating is the prior's."""
+    def idle(self) -> Bools:
+        """Which players have no result that counts: theirs is the prior's rating."""
         return np.asarray(self.games + self.races_won + self.races_lost == 0)
 
     @property
     def weight(self) -> float:
-        """The games, and the matches known by their winner alone, with a half-life by weight."""
-        if isinstance(self._played, PairCounts):
-            return float(self._played.games.sum())
+        """How many games, and matches known by their winner alone, there are, by weight."""
         return self._played.amount
 
     @cached_property
@@ -104,8 +146,8 @@ class Ratings:
 
         Laplace's approximation: the square root of the diagonal of the inverse Hessian,
         given the model and the prior. Where a component is anchored at named players it is
-        that of the difference from their mean. Good to rounding for up to 2,000 players,
-        and for more who play in divisions; for more who all play each other within 0.1 %,
+        that of the difference from their mean. Exact to rounding for up to 2,000 players,
+        and for more who play in divisions; for more who all play each other within 0.1%,
         as a rule within 1e-5.
         """
         variance = self._variance.copy()
@@ -119,23 +161,24 @@ class Ratings:
     def quasi_error(self) -> Floats:
         """How far each rating may be off in comparisons, in points: quasi-standard errors.
 
-        The standard error of a difference of two ratings of one component is close to the root
-        of the sum of the squares of these two, as if the ratings were independent. So they
-        serve where a list says one number of each player; `difference_error` is exact. They do
-        not depend on where a component is anchored. Of a player alone in his component it is
+        The standard error of the difference of two ratings of one component is close to the
+        root of the sum of the squares of these two, as if the ratings were independent. Use
+        them where a list has one error for each player; `difference_error` is exact. They do
+        not depend on where a component is anchored. For a player alone in a component it is
         the prior's standard deviation.
 
         Notes
         -----
         After Firth & de Menezes (2004), "Quasi-variances", Biometrika 91, who fit them to all
-        differences. Here they are told outright: the curvature's row sums are the prior's
+        differences. Here they follow directly: the curvature's row sums are the prior's
         precision, so the level of a component of n players has the variance σ²/n (σ² the
-        prior's) and is independent of who stands where in it. With v the variance of a rating,
+        prior's) and is independent of where in it each player stands. With v the variance of
+        a rating,
 
             q = (v - σ²/n) n / (n - 1),
 
-        so that the mean of q₁ + q₂ over the pairs of a component is exactly that of the
-        variances of their differences. For n = 2 the only pair's is exact too.
+        so that the mean of q₁ + q₂ over the pairs of a component is exactly the mean variance
+        of their differences. For n = 2 that of the only pair is exact too.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [70], [50]), scale="fargo")
@@ -158,19 +201,19 @@ class Ratings:
     def difference_error(self, player: str, opponent: str) -> float:
         """Return the standard error of the difference of two ratings, in points.
 
-        It takes their covariance into account, so it is less than both ratings' standard
-        errors make one believe: most of what is uncertain in common, such as the level of
-        the whole league, cancels.
+        It takes their covariance into account, so it is smaller than the two standard
+        errors suggest: what is uncertain for both, such as the level of the whole league,
+        cancels.
 
         Raises
         ------
         InputError
-            if a player is not among the rated, or no chain of opponents connects the two.
+            if a player is not rated, or no chain of opponents connects the two.
 
         Notes
         -----
-        The variance is (e₁ - e₂)ᵀ H⁻¹ (e₁ - e₂): of up to 2,000 players H is factorised
-        once; of more, each pair is one linear system, solved by conjugate gradients.
+        The variance is (e₁ - e₂)ᵀ H⁻¹ (e₁ - e₂): for up to 2,000 players H is factorised
+        once; for more, each pair is one linear system, solved by conjugate gradients.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [70], [50]), scale="fargo")
@@ -185,7 +228,7 @@ class Ratings:
         return math.sqrt(variance) * self.scale.points_per_log_odds
 
     def covariance(self, players: Sequence[str]) -> Floats:
-        """Return the covariance of some players' ratings with each other, in squared points.
+        """Return the covariance matrix of some players' ratings, in squared points.
 
         Parameters
         ----------
@@ -195,7 +238,7 @@ class Ratings:
         Raises
         ------
         InputError
-            if a player is not among the rated.
+            if a player is not rated.
         """
         contrasts = np.zeros((len(players), len(self.players)))
         for row, name in enumerate(players):
@@ -212,28 +255,25 @@ class Ratings:
         Raises
         ------
         InputError
-            if a player is not among the rated, or the two cannot be compared because no
-            chain of opponents connects them.
+            if a player is not rated, or no chain of opponents connects the two.
         """
         first, second = self._comparable(player, opponent)
-        difference = float(self.rating[first] - self.rating[second])
-        return float(self.scale.win_probability(difference))
+        return self.scale.win_probability(float(self.rating[first] - self.rating[second]))
 
     @cached_property
     def _variance(self) -> Floats:
-        """The variance of each rating in log-odds, wherever its component is anchored."""
+        """The variance of each rating in log-odds, whatever anchors its component."""
         return self._curvature.variances()
 
     @cached_property
     def _curvature(self) -> Curvature:
-        precision = self.prior_sd**-2
-        if isinstance(self._played, PairCounts):
-            return curvature(self._played, self._skill, precision)
         advantage = self.scale.log_odds(self.break_advantage or 0.0)
-        return self._played.curvature(self._skill, advantage, precision, self._break_precision)
+        return self._played.curvature(
+            self._skill, advantage, self.prior_sd**-2, self._break_precision
+        )
 
-    def _levels(self) -> list[tuple[NDArray[np.bool_], Floats]]:
-        """Return for each anchored component its players, and their share in its level."""
+    def _levels(self) -> list[tuple[Bools, Floats]]:
+        """Return the players of each anchored component, and each one's share in its level."""
         at = np.array([self._position(name) for name, _ in self.named], dtype=np.int64)
         levels = []
         for number in np.unique(self.component[at]):
@@ -254,7 +294,5 @@ class Ratings:
 
     def _position(self, player: str) -> int:
         if player not in self.players:
-            raise InputError(
-                f"player {player!r} is not among the rated; give a name of the results"
-            )
+            raise InputError(f"player {player!r} is not rated; write the name as the results do")
         return self.players.index(player)

@@ -1,4 +1,4 @@
-"""Whether the chart is fair in the data: how often the player with the longer race wins."""
+"""Whether handicaps are fair in the data: how often the player with the longer race wins."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from evenbreak.ratings.calibration import wilson
 from evenbreak.ratings.walk_forward import Forecasts
 
 
-class SpotFairness(NamedTuple):
-    """The handicap races of one spot: how often the player with the longer race won.
+class HandicapFairness(NamedTuple):
+    """The handicap races with one spot: how often the player with the longer race won.
 
     Parameters
     ----------
     spot
-        the games that he gave: his race less the other's; None: all spots together.
+        the games that this player gave: their race less the opponent's; None: all spots together.
     matches, won
-        races played out, and those that he won.
+        races played to the end, and those that this player won.
     share, low, high
-        won / matches with its 95 % interval (Wilson's); a fair chart makes it 1/2.
+        won / matches with its 95% interval (Wilson's); with a fair chart it is 1/2.
     expected
-        the mean chance that the ratings before each date gave him.
+        the mean chance that the ratings before each date gave this player.
     """
 
     spot: int | None
@@ -34,18 +34,18 @@ class SpotFairness(NamedTuple):
     expected: float
 
 
-def spot_fairness(told: Forecasts) -> list[SpotFairness]:
-    """Return the fairness of each spot, ascending, and of all together at the end.
+def handicap_fairness(forecasts: Forecasts) -> list[HandicapFairness]:
+    """Return how fair each spot was, ascending, and all of them together at the end.
 
-    Only stated races count; empty where none was a handicap race.
+    Only stated races count; the list is empty where none was a handicap race.
     """
-    gives = told.race_a - told.race_b
+    gives = forecasts.race_a - forecasts.race_b
     rows = gives != 0
     if not rows.any():
         return []
     a_gives = gives[rows] > 0
-    won = np.where(a_gives, told.won[rows], 1.0 - told.won[rows])
-    p = np.where(a_gives, told.p_match_integrated[rows], 1.0 - told.p_match_integrated[rows])
+    won, p = forecasts.won[rows], forecasts.p_match_integrated[rows]
+    won, p = np.where(a_gives, won, 1.0 - won), np.where(a_gives, p, 1.0 - p)
     spot = np.abs(gives[rows])
     found = []
     for games in (*np.unique(spot).tolist(), None):
@@ -53,5 +53,7 @@ def spot_fairness(told: Forecasts) -> list[SpotFairness]:
         matches, wins = int(chosen.sum()), int(won[chosen].sum())
         share = wins / matches
         expected = float(p[chosen].mean())
-        found.append(SpotFairness(games, matches, wins, share, *wilson(share, matches), expected))
+        found.append(
+            HandicapFairness(games, matches, wins, share, *wilson(share, matches), expected)
+        )
     return found

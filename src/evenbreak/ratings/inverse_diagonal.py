@@ -13,14 +13,12 @@ and of S⁻¹ only the entries that the block touches are needed (Takahashi, Fag
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import lapack
 
-from evenbreak.ratings.approximate_diagonal import filled_in_diagonal, not_definite
+from evenbreak.arrays import Floats
+from evenbreak.ratings.approximate_diagonal import approximate_diagonal, not_definite
 from evenbreak.ratings.elimination_fronts import Front, fronts_of
-
-Floats = NDArray[np.float64]
 
 _TRACE = 1e-100
 _NOTHING = np.zeros((0, 0))
@@ -39,10 +37,11 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
     Returns
     -------
     numpy.ndarray
-        n values, with a relative error near rounding. A matrix of 2,000 rows or more that
-        fills in is answered by cavities (see `filled_in`) where that is within 0.2 % at
-        worst, 1e-5 as a rule; failing that in single precision where its condition number
-        is below 1000: then within a few 1e-6 as a rule, and some 1e-4 at worst.
+        n values, with a relative error near rounding. For a matrix of 2,000 rows or more
+        that fills in they come from the cavity approximation (see `approximate_diagonal`)
+        where that is within 0.2% at worst, 1e-5 as a rule; failing that from single
+        precision where the condition number is below 1000: within a few 1e-6 as a rule,
+        and 1e-4 at worst.
 
     Raises
     ------
@@ -55,7 +54,7 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
     """
     fronts = fronts_of(matrix)
     if len(fronts) == 1 and len(fronts[0].rows) == 0:
-        return filled_in_diagonal(matrix, row_sum)
+        return approximate_diagonal(matrix, row_sum)
     return _come_back(fronts, *_eliminate(matrix, fronts))
 
 

@@ -1,9 +1,10 @@
-"""Who won how many racks on the own break, where a match is known by its score alone.
+"""How many racks players won on their own break, where a match is known by its score alone.
 
-In a race of which the break format and the first breaker are known, the score i:j and who
-won the last rack tell how many racks each player broke: a broke n of them. Not known is
-how many of those a won, k. The sequences of racks with the same k are equally likely, and
-there are c(k) of them, so that with the skills' difference d and the break advantage β
+In a race whose break format and first breaker are known, the score i:j and the winner of the
+last rack determine how many racks each player broke: a broke n of them. It is
+not known how many of those a won, k. The sequences of racks with the same k are equally
+likely, and there are c(k) of them, so that with the skills' difference d and the break
+advantage β
 
     P(score) = exp(d i) / ((1 + exp(d + β))^n (1 + exp(d - β))^(i + j - n))
                * Σ_k c(k) exp(β (2k - i)):
@@ -17,31 +18,42 @@ from math import comb, log
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import logsumexp
 
-Floats = NDArray[np.float64]
+from evenbreak.arrays import Floats
 
 
-class Split(NamedTuple):
-    """The racks that a broke, the values that k may have, and the logarithm of c(k)."""
+class BreakWins(NamedTuple):
+    """The racks that a broke, how many of them (k) a may have won, and the logarithm of c(k)."""
 
     broke_a: int
     won: Floats
     log_count: Floats
 
 
-class Splits(NamedTuple):
-    """Several splits: for each 2k less its middle value, and log c(k), -inf beyond its end.
+class BreakWinsTerms(NamedTuple):
+    """Terms of the likelihood: 2k less its middle value, and log c(k), -inf beyond its end.
 
-    Shape (splits, most values of k).
+    Shape (terms, most values of k).
     """
 
     value: Floats
     log_count: Floats
 
+    @classmethod
+    def of(cls, matches: list[BreakWins]) -> BreakWinsTerms:
+        """Return the terms of several matches."""
+        width = max((len(match.won) for match in matches), default=1)
+        value = np.zeros((len(matches), width))
+        log_count = np.full((len(matches), width), -np.inf)
+        for row, match in enumerate(matches):
+            own = len(match.won)
+            value[row, :own] = 2.0 * match.won - (match.won[0] + match.won[-1])
+            log_count[row, :own] = match.log_count
+        return cls(value, log_count)
+
     def log_sums(self, advantage: float) -> tuple[Floats, Floats, Floats]:
-        """Return log Σ c(k) exp(β value) of each split, and its first two derivatives in β."""
+        """Return log Σ c(k) exp(β value) of each term, and its first two derivatives in β."""
         terms = self.log_count + advantage * self.value
         total = logsumexp(terms, axis=1)
         share = np.exp(terms - total[:, None])
@@ -50,20 +62,8 @@ class Splits(NamedTuple):
         return total, mean, spread
 
 
-def stacked(splits: list[Split]) -> Splits:
-    """Return splits as arrays."""
-    width = max((len(split.won) for split in splits), default=1)
-    value = np.zeros((len(splits), width))
-    log_count = np.full((len(splits), width), -np.inf)
-    for row, split in enumerate(splits):
-        own = len(split.won)
-        value[row, :own] = 2.0 * split.won - (split.won[0] + split.won[-1])
-        log_count[row, :own] = split.log_count
-    return Splits(value, log_count)
-
-
-def split_of(form: str, first: int, games: tuple[int, int], last: int) -> Split:
-    """Return how a score may have come about.
+def break_wins(form: str, first: int, games: tuple[int, int], last: int) -> BreakWins:
+    """Return how many racks a may have won on their own break, and in how many ways.
 
     Parameters
     ----------
@@ -78,8 +78,8 @@ def split_of(form: str, first: int, games: tuple[int, int], last: int) -> Split:
     -----
     Sequences are counted by their runs: of t racks in r runs there are C(t - 1, r - 1).
 
-    >>> split = split_of("winner", 1, (2, 1), 1)  # aba or baa: a won 1 of 2
-    >>> split.broke_a, split.won, np.exp(split.log_count)
+    >>> wins = break_wins("winner", 1, (2, 1), 1)  # aba or baa: a won 1 of 2
+    >>> wins.broke_a, wins.won, np.exp(wins.log_count)
     (2, array([1.]), array([2.]))
     """
     i, j = games
@@ -96,7 +96,7 @@ def split_of(form: str, first: int, games: tuple[int, int], last: int) -> Split:
         for k in range(max(0, broke_a - j), min(broke_a, i) + 1)
     }
     possible = [k for k, number in ways.items() if number]
-    return Split(
+    return BreakWins(
         broke_a,
         np.array(possible, dtype=np.float64),
         np.array([log(ways[k]) for k in possible]),

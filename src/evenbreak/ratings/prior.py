@@ -1,28 +1,35 @@
 """How wide the prior should be: the width that predicts the next matches best.
 
-The season is cut into stretches of whole days. Each stretch but the first is predicted
-from the ratings of all days before it, by each width; the width whose predictions gave
-what happened the highest likelihood is chosen. Nothing is predicted from itself.
+Each stretch of a season is predicted from the days before it with each width (see
+`evenbreak.ratings.stretches`). The width under which the actual results were most likely is
+chosen, if the results are enough to choose by.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
-from evenbreak.ratings.fit import PRIOR_SD, fit
-from evenbreak.ratings.mixed_posterior import evidence_of
+from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.stretches import StretchLosses, stretch_losses
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
 
-STRETCHES = 30
+AS_GOOD = 1.92
+"""What a width may lose in all, in nats, to be as good as the best: half of chi-squared's 95%."""
+
+VAGUE = 4.0
+"""Where widths this many times apart are as good as the best, the results cannot choose."""
+
+FEWEST = 100
+"""Games (or matches known by the winner alone) to predict before a width is chosen by them."""
 
 
 class PriorChoice(NamedTuple):
@@ -31,20 +38,30 @@ class PriorChoice(NamedTuple):
     Attributes
     ----------
     prior_sd
-        that width, in natural log-odds.
+        that width, in natural log-odds; the one nearest to `PRIOR_SD` where `learnt` is false.
     tried
         all widths, in rising order.
     log_loss
-        for each of them the mean of -ln P(what happened | the days before): per game where
+        for each of them the mean of -ln P(the result | the days before): per game where
         scores are known, per match where only the winner is.
     predicted
         how many games and such matches were predicted.
+    low, high
+        the ends of the range of widths that predict as well as the best (95%).
+    learnt
+        whether that range is narrow enough to choose by, and 100 results were predicted.
+    as_it_went
+        the log-loss where each stretch has the width that did best before it.
     """
 
     prior_sd: float
     tried: tuple[float, ...]
     log_loss: tuple[float, ...]
     predicted: int
+    low: float
+    high: float
+    learnt: bool
+    as_it_went: float
 
 
 def best_prior(
@@ -54,20 +71,25 @@ def best_prior(
     half_life: float | None = None,
     break_advantage: float | str | None = None,
     scale: Any = "npl",
+    progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> PriorChoice:
     """Return the width of the prior whose ratings predict later matches best.
 
-    Predictions take the ratings as they stand, without their uncertainty. Players who
-    have not played yet are predicted at the middle, so the matches of newcomers count too.
+    Predictions take the ratings at face value, without their uncertainty. Players who
+    have not played yet are predicted to be average, so the matches of newcomers count too.
+    Where fewer than 100 games are predicted, or widths four times apart predict equally well,
+    there are too few results to choose by, and the width nearest to the default is returned.
 
     Parameters
     ----------
     results
-        matches that all have a date, on two days at least; forfeits and 0-0 may lack one.
+        matches on at least two days, all with a date; forfeits and 0-0 may lack one.
     widths
         the standard deviations to try, in natural log-odds.
     half_life, break_advantage, scale
-        as for `fit`; the scale matters to a break advantage in points alone.
+        as for `fit`; the scale only matters for a break advantage in points.
+    progress
+        called with how many stretches are done, and of how many.
 
     Raises
     ------
@@ -85,64 +107,45 @@ def best_prior(
     >>> choice.prior_sd, choice.predicted
     (0.5, 33)
     """
+    check_results(results)
     if not len(widths):
         raise InputError("widths is empty; give at least one standard deviation")
-    played, date = _played(results)
-    losses = np.zeros(len(widths))
-    predicted = 0
-    options: dict[str, Any] = {
-        "half_life": half_life,
-        "break_advantage": break_advantage,
-        "scale": scale,
-    }
-    for first, last in _stretches(date):
-        before = played.select(date < first)
-        coming = played.select((date >= first) & (date <= last))
-        scored, won_only = coming.played().results, coming.won_only()
-        weights = np.ones(len(scored)), np.ones(len(won_only))
-        evidence = evidence_of(scored, won_only, weights, breaks=break_advantage is not None)
-        predicted += round(evidence.amount)
-        for k, width in enumerate(widths):
-            ratings = fit(before, prior_sd=width, **options)
-            skill = ratings.scale.log_odds(ratings.rating - ratings.anchor)
-            advantage = ratings.scale.log_odds(ratings.break_advantage or 0.0)
-            losses[k] -= evidence.log_likelihood(skill, advantage)
-    order = np.argsort(widths)
+    tried = np.sort(np.asarray(widths, dtype=float))
+    ways = [
+        {
+            "prior_sd": width,
+            "half_life": half_life,
+            "break_advantage": break_advantage,
+            "scale": scale,
+        }
+        for width in tried.tolist()
+    ]
+    found = stretch_losses(results, ways, progress=progress)
+    total = found.losses.sum(0)
+    good = tried[total <= total.min() + AS_GOOD]
+    predicted = int(found.predicted.sum())
+    learnt = predicted >= FEWEST and round(float(good[-1] / good[0]), 6) < VAGUE
+    best = total if learnt else _from_default(tried)
     return PriorChoice(
-        float(widths[int(np.argmin(losses))]),
-        tuple(float(widths[k]) for k in order),
-        tuple(float(losses[k]) / predicted for k in order),
+        float(tried[best.argmin()]),
+        tuple(tried.tolist()),
+        tuple(found.means.tolist()),
         predicted,
+        float(good[0]),
+        float(good[-1]),
+        learnt,
+        _as_it_went(found, tried),
     )
 
 
-def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
-    """Return the matches that tell something and their dates, or refuse those without."""
-    counted = (results.score_a > 0) | (results.score_b > 0)
-    if results.unscored is not None:
-        counted |= results.unscored
-    if results.forfeit is not None:
-        counted &= ~results.forfeit
-    played = results.select(counted)
-    undated = len(played) if played.date is None else int(np.isnat(played.date).sum())
-    if undated:
-        raise InputError(
-            f"{undated:,} of {len(played):,} matches have no date, and a prior is chosen by what "
-            "it predicts of later days; add the dates, or give the prior's width"
-        )
-    if len(played) == 0 or played.date is None or played.date.min() == played.date.max():
-        raise InputError(
-            "a prior is chosen by what it predicts of later days, and there are no two days with "
-            "matches; give the prior's width"
-        )
-    return played, played.date
+def _from_default(widths: Floats) -> Floats:
+    return np.abs(np.log(widths / PRIOR_SD))
 
 
-def _stretches(date: NDArray[np.datetime64]) -> list[tuple[np.datetime64, np.datetime64]]:
-    """Return the first and last day of each stretch but the first, of about as many matches."""
-    days, matches = np.unique(date, return_counts=True)
-    done = np.cumsum(matches) - matches
-    number = done // max(math.ceil(len(date) / STRETCHES), 1)
-    first = np.flatnonzero(np.diff(number, prepend=-1))
-    last = np.append(first[1:], len(days)) - 1
-    return [(days[a], days[b]) for a, b in zip(first[1:], last[1:], strict=True)]
+def _as_it_went(found: StretchLosses, tried: Floats) -> float:
+    """Return the log-loss where each stretch has the width that did best before it."""
+    before = np.cumsum(found.losses, axis=0) - found.losses
+    # Before the first stretch nothing is known: then the width nearest to the default is used.
+    before[0] = _from_default(tried)
+    chosen = found.losses[np.arange(len(before)), before.argmin(1)]
+    return float(chosen.sum() / found.predicted.sum())

@@ -1,13 +1,13 @@
-"""What a race that was won or lost says of the rating difference, when no score is known.
+"""What winning or losing a race says about the rating difference, when no score is known.
 
 With d the difference in natural log-odds, p = 1 / (1 + exp(-d)) and q = 1 - p, the race
 m:n is won with chance W = I_p(m, n), the regularised incomplete beta function. Then
 
     d/dd log W = h,    d²/dd² log W = h (m q - n p - h),    h = p^m q^n / (B(m, n) W),
 
-and the second is nowhere above zero: log W is concave, so that matches known by their
-winners alone have one most likely set of ratings. (The integrand of I_p, written in d,
-is log-concave, and so is every integral of it from -∞ on: Prékopa 1973.)
+and the second is nowhere above zero: log W is concave, so matches known by their winners
+alone have one most likely set of ratings. (The integrand of I_p, written in d, is
+log-concave, and so is every integral of it from -∞: Prékopa 1973.)
 """
 
 from __future__ import annotations
@@ -15,30 +15,31 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import betainc, betaln, expit, hyp2f1, log_expit
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 
 _FAR = 1e-200
-"""Below such a chance W is not formed, so that neither it nor its logarithm underflows."""
+"""For smaller chances the logarithm is worked out without W, which would underflow."""
 
 
 class RaceSlopes(NamedTuple):
     """log W(p(d); m, n), and its first and second derivative in d, elementwise."""
 
-    log_win: NDArray[np.float64]
-    slope: NDArray[np.float64]
-    curvature: NDArray[np.float64]
+    log_win: Floats
+    slope: Floats
+    curvature: Floats
 
 
 def race_slopes(difference: ArrayLike, m: ArrayLike, n: ArrayLike) -> RaceSlopes:
-    """Return the logarithm of the chance to win a race, and how it bends with the difference.
+    """Return the logarithm of the chance to win a race, with its derivatives.
 
     Parameters
     ----------
     difference
-        of the player who won from the other, in natural log-odds of a game.
+        the winner's skill less the loser's, in natural log-odds of a game.
     m, n
         the games that the winner and the loser of the match needed, 1 or more. The three
         are broadcast together.

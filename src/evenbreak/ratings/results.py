@@ -1,23 +1,27 @@
 """What was played, column by column.
 
-A `Results` holds one match a row, as arrays. It knows no file: whoever reads one
-builds a `Results`, asks `evenbreak.ratings.consistency` whether it can be true, and
-says in which line each problem is.
+A `Results` holds one match a row, as arrays. It knows nothing of files: a reader builds a
+`Results`, asks `evenbreak.ratings.consistency` for contradictions in it, and says in which
+line of the file each of them is.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from evenbreak.arrays import Bools, Ints
+from evenbreak.checks import column, names
 from evenbreak.errors import InputError
+from evenbreak.ratings.consistency import find_problems
+from evenbreak.ratings.results_frame import FORMATS, FrameReader, columns_of
 
-FORMATS = ("", "winner", "loser", "alternate", "a", "b")
-"""Break formats in the order of their codes in `Results.break_format`; 0 is not stated."""
+if TYPE_CHECKING:
+    import pandas as pd
 
 _TYPES: dict[str, Any] = {
     "player_a": np.int64,
@@ -39,7 +43,7 @@ _CODES = {"winner": 3, "first_break": 3, "break_format": len(FORMATS)}
 
 
 class Played(NamedTuple):
-    """The matches that were played, and how many rows were left out and why."""
+    """The matches that were played, and how many rows were left out: forfeits and 0-0."""
 
     results: Results
     forfeits: int
@@ -55,25 +59,25 @@ class Results:
     players
         the names, each once.
     player_a, player_b
-        who played: positions in `players`. Which of the two is called a means
-        nothing; in particular a is not taken to be the breaker.
+        who played: positions in `players`. Which of the two is called a has no
+        meaning; in particular, a is not assumed to break.
     score_a, score_b
         games won by each.
     date
         days (`datetime64[D]`, NaT where not stated).
     race_a, race_b
-        the games that each needed to win the match, 0 where not stated. The winner
-        is then who reached the race, whatever the scores.
+        the games that each needed to win the match, 0 where not stated. Where they are
+        stated, the player who reached their race won, whoever won more games.
     winner, first_break
-        who won the match, who broke first: 1 for a, 2 for b, 0 where not stated.
+        the winner of the match and the first breaker: 1 for a, 2 for b, 0 where not stated.
     break_format
-        who broke the next rack: positions in `FORMATS`, 0 where not stated.
+        who breaks the next rack: positions in `FORMATS`, 0 where not stated.
     racks
         who won each rack, in order, as text like 'abba'; '' where not stated.
     event
         any text.
     forfeit
-        whether the match was given away; its scores are then no games played.
+        whether the match was a forfeit; its scores then do not count as games played.
     unscored
         whether only the race and the winner are known; both must then be stated, and
         the scores are 0.
@@ -83,8 +87,9 @@ class Results:
     Raises
     ------
     InputError
-        if columns differ in length, or a position or code is out of range. What a
-        person may have typed wrongly is for `find_problems`.
+        if columns differ in length, hold what is not of their type (a score of 2.5, a
+        forfeit marked NaN or 'no'), or a position or code is out of range. Contradictions
+        that a person may have typed are left to `find_problems`.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 0], [5, 0])
     >>> season.players, season.player_a, len(season)
@@ -92,41 +97,33 @@ class Results:
     """
 
     players: tuple[str, ...]
-    player_a: NDArray[np.int64]
-    player_b: NDArray[np.int64]
-    score_a: NDArray[np.int64]
-    score_b: NDArray[np.int64]
+    player_a: Ints
+    player_b: Ints
+    score_a: Ints
+    score_b: Ints
     _: KW_ONLY
     date: NDArray[np.datetime64] | None = None
-    race_a: NDArray[np.int64] | None = None
-    race_b: NDArray[np.int64] | None = None
+    race_a: Ints | None = None
+    race_b: Ints | None = None
     winner: NDArray[np.int8] | None = None
     first_break: NDArray[np.int8] | None = None
     break_format: NDArray[np.int8] | None = None
     racks: NDArray[np.object_] | None = None
     event: NDArray[np.object_] | None = None
-    forfeit: NDArray[np.bool_] | None = None
-    unscored: NDArray[np.bool_] | None = None
+    forfeit: Bools | None = None
+    unscored: Bools | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "players", tuple(self.players))
-        if len(set(self.players)) < len(self.players):
-            raise InputError("players holds a name twice; give each name once")
+        object.__setattr__(self, "players", names(self.players, "players"))
         rows = len(self.player_a)
         for name, kind in _TYPES.items():
             given = getattr(self, name)
             if given is None:
                 continue
-            # A copy, so that a later change of the caller's array changes nothing here.
-            column = np.array(given, dtype=kind)
-            if column.shape != (rows,):
-                raise InputError(
-                    f"{name} has the shape {column.shape}; give one value for each of {rows} rows"
-                )
-            column.flags.writeable = False
-            object.__setattr__(self, name, column)
+            values = column(given, name, rows, "rows", kind)
+            object.__setattr__(self, name, values)
             limit = len(self.players) if name.startswith("player_") else _CODES.get(name)
-            if limit is not None and rows and not (0 <= column.min() <= column.max() < limit):
+            if limit is not None and rows and not (0 <= values.min() <= values.max() < limit):
                 raise InputError(f"{name} holds a code outside 0..{limit - 1}; give codes in range")
         self._refuse_unknown()
 
@@ -135,8 +132,8 @@ class Results:
         if self.unscored is None:
             return
         for name in ("race_a", "race_b", "winner"):
-            column = getattr(self, name)
-            if (self.unscored if column is None else self.unscored & (column <= 0)).any():
+            values = getattr(self, name)
+            if (self.unscored if values is None else self.unscored & (values <= 0)).any():
                 raise InputError(f"unscored marks a match without {name}; give it, or the scores")
         if (self.unscored & ((self.score_a != 0) | (self.score_b != 0))).any():
             raise InputError("unscored marks a match with games in its score; unmark it")
@@ -150,44 +147,140 @@ class Results:
         score_b: ArrayLike,
         **columns: Any,
     ) -> Results:
-        """Return the results of named players, who are put in the order of their names.
+        """Return the results of named players, sorted by name.
 
         The other columns are given by keyword, as `Results` describes them.
         """
-        players = sorted({*player_a, *player_b})
+        players = sorted(names({*player_a, *player_b}, "player_a or player_b"))
         position = {name: k for k, name in enumerate(players)}
         return cls(
             tuple(players),
             np.array([position[name] for name in player_a], dtype=np.int64),
             np.array([position[name] for name in player_b], dtype=np.int64),
-            np.asarray(score_a, dtype=np.int64),
-            np.asarray(score_b, dtype=np.int64),
+            score_a,  # type: ignore[arg-type]  # made an array by __post_init__
+            score_b,  # type: ignore[arg-type]
             **columns,
         )
 
+    @classmethod
+    def from_frame(cls, frame: pd.DataFrame) -> Results:
+        """Return the results in a DataFrame, a match a row.
+
+        Parameters
+        ----------
+        frame
+            with the columns of a results file: `player_a`, `player_b`, `score_a` and
+            `score_b`, and those of `date`, `race_a`, `race_b`, `winner`, `first_break`,
+            `break_format`, `racks`, `event` and `forfeit` that are known. `winner` and
+            `first_break` are a, b or a name. A forfeit may leave its scores empty, and so may a
+            match of which the races and the winner are known. Other columns are not used, which
+            a warning says.
+
+        Raises
+        ------
+        DataError
+            with every cell that has no meaning and every contradiction, a line each, which
+            names the row by its label in the index; and with names that differ in case or
+            spaces alone.
+
+        >>> import pandas as pd
+        >>> frame = pd.DataFrame({"player_a": ["Ann", "Bo"], "player_b": ["Bo", "Cy"],
+        ...                       "score_a": [7, 4], "score_b": [5, 7], "race_a": 7, "race_b": 7})
+        >>> Results.from_frame(frame)
+        <Results of 2 matches between 3 players>
+        >>> Results.from_frame(frame.assign(score_b=[5, 6.5]))
+        Traceback (most recent call last):
+        ...
+        evenbreak.errors.DataError: row 1: score_b is 6.5; give a whole number, 0 or more
+        """
+        if not all(hasattr(frame, name) for name in ("columns", "index", "iloc")):
+            raise InputError(f"frame is {type(frame).__name__} {frame!r:.60}; give a DataFrame")
+        reader = FrameReader(frame)
+        columns = columns_of(reader)
+        reader.raise_any()
+        results = cls.from_names(**columns)
+        for problem in find_problems(results):
+            reader.add(problem.row, problem.message)
+        reader.raise_any()
+        return results
+
     def __len__(self) -> int:
         return len(self.player_a)
+
+    def __repr__(self) -> str:
+        return f"<Results of {len(self):,} matches between {len(self.players):,} players>"
+
+    @property
+    def races(self) -> tuple[Ints, Ints]:
+        """The games that a and b needed to win each match, 0 where not stated."""
+        zeros = np.zeros(len(self), dtype=np.int64)
+        return (
+            zeros if self.race_a is None else self.race_a,
+            zeros if self.race_b is None else self.race_b,
+        )
+
+    @property
+    def given_away(self) -> Bools:
+        """Which matches were forfeits."""
+        return np.zeros(len(self), dtype=bool) if self.forfeit is None else self.forfeit
+
+    @property
+    def counted(self) -> Bools:
+        """Which matches enter ratings: those with games or a known winner, without forfeits."""
+        played = (self.score_a > 0) | (self.score_b > 0)
+        if self.unscored is not None:
+            played = played | self.unscored
+        return np.asarray(played & ~self.given_away)
 
     def select(self, rows: NDArray[Any]) -> Results:
         """Return the rows that a mask or positions pick; `players` stays as it is."""
         columns = {name: getattr(self, name) for name in _TYPES}
         picked: dict[str, Any] = {
-            name: None if column is None else column[rows] for name, column in columns.items()
+            name: None if values is None else values[rows] for name, values in columns.items()
         }
         return Results(self.players, **picked)
+
+    def with_match(
+        self, a: int, b: int, score_a: int, score_b: int, date: np.datetime64 | None = None
+    ) -> Results:
+        """Return the results with one more match at the end; what else they hold is not stated.
+
+        Parameters
+        ----------
+        a, b
+            who plays: positions in `players`.
+        score_a, score_b
+            the games that each wins.
+        date
+            the day, where the results have days.
+
+        >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[7])
+        >>> more = season.with_match(1, 0, 7, 2)
+        >>> more.player_a, more.score_b, more.race_a
+        (array([0, 1]), array([5, 2]), array([7, 0]))
+        """
+        given = {"player_a": a, "player_b": b, "score_a": score_a, "score_b": score_b}
+        given["date"] = np.datetime64("NaT", "D") if date is None else date  # type: ignore[assignment]
+        columns: dict[str, Any] = {}
+        for name, kind in _TYPES.items():
+            values = getattr(self, name)
+            unstated = "" if kind is object else 0
+            more = np.array([given.get(name, unstated)], dtype=kind)
+            columns[name] = None if values is None else np.concatenate([values, more])
+        return Results(self.players, **columns)
 
     def played(self) -> Played:
         """Return the matches with games in them, and how many rows were left out.
 
-        A forfeit is left out whatever its score says; a 0-0 that is no forfeit is
-        counted as empty. Matches known by their winner alone are for `won_only`.
+        A forfeit is left out whatever its score; a 0-0 that is not a forfeit counts as
+        empty. For matches known by their winner alone see `won_only`.
 
         >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 0], [5, 0])
         >>> season.played()[1:]
         (0, 1)
         """
         empty = (self.score_a == 0) & (self.score_b == 0)
-        forfeit = np.zeros(len(self), dtype=bool) if self.forfeit is None else self.forfeit
+        forfeit = self.given_away
         left_out = empty | forfeit
         kept = self.select(~left_out) if left_out.any() else self
         if self.unscored is not None:
@@ -195,8 +288,7 @@ class Results:
         return Played(kept, int(forfeit.sum()), int((empty & ~forfeit).sum()))
 
     def won_only(self) -> Results:
-        """Return the matches of which only the race and the winner are known, without forfeits."""
+        """Return the matches known by race and winner alone, without forfeits."""
         if self.unscored is None:
             return self.select(np.zeros(0, dtype=np.int64))
-        known = self.unscored if self.forfeit is None else self.unscored & ~self.forfeit
-        return self.select(known)
+        return self.select(self.unscored & ~self.given_away)

@@ -1,4 +1,4 @@
-"""A roster: who is rated how, and how far each rating can be trusted."""
+"""A roster: the players of a league, their ratings, and how uncertain each rating is."""
 
 from __future__ import annotations
 
@@ -6,17 +6,19 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.checks import column, names
 from evenbreak.errors import InputError
 
 NOT_STATED = -1
-"""The games or matches of a player of whom the list does not say how many he has played."""
+"""The games or matches of a player, where the list does not say how many there were."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False, init=False)
 class Roster:
     """The players of a league with their ratings, as read-only columns in the list's order.
@@ -28,25 +30,27 @@ class Roster:
     rating
         points, one for each player; NaN for a new player who has none yet.
     standard_error
-        how far a rating may be off, in points (one standard deviation); NaN where that is
-        not stated. None: stated for nobody. Pairs take the root of the sum of two squares for
-        the error of a difference, so what all ratings have in common should not be in it:
-        `Ratings.quasi_error` is meant for this.
+        how far a rating may be off, in points (one standard deviation); NaN where not
+        stated. The error of a difference is taken to be the root of the sum of two squares,
+        so what all ratings have in common should not be in it: use `Ratings.quasi_error`.
     games
         the games that each rating rests on, 0 for a new player; `NOT_STATED` where the list
-        does not say. None: stated for nobody.
+        does not say.
     component
-        players linked by a chain of opponents share a number from 1 on, and only their
-        ratings can be compared; 0 where that is not stated. None: stated for nobody.
+        players linked by a chain of opponents share a number from 1 up, and only their
+        ratings can be compared; 0 where not stated.
     matches
-        the matches that each player has played, by which some systems tell newcomers;
-        `NOT_STATED` where the list does not say. None: stated for nobody.
+        the matches that each player has played, by which some systems recognise newcomers;
+        `NOT_STATED` where the list does not say.
+
+    A column that is None is not stated for any player.
 
     Raises
     ------
     InputError
-        if a name stands there twice, the columns differ in length or hold what is no number,
-        a rating is infinite, an error is negative or infinite, or matches are negative.
+        if a name appears twice, the columns differ in length or hold something that is not a
+        number, a rating is infinite, an error is negative or infinite, or games or matches are
+        negative.
 
     >>> club = Roster(["Ann", "Bo"], [92.0, np.nan], games=[140, 0])
     >>> len(club), club.position("Bo"), club.standard_error
@@ -54,11 +58,11 @@ class Roster:
     """
 
     players: tuple[str, ...]
-    rating: NDArray[np.float64]
-    standard_error: NDArray[np.float64]
-    games: NDArray[np.int64]
-    component: NDArray[np.int64]
-    matches: NDArray[np.int64]
+    rating: Floats
+    standard_error: Floats
+    games: Ints
+    component: Ints
+    matches: Ints
 
     def __init__(
         self,
@@ -70,11 +74,8 @@ class Roster:
         component: ArrayLike | None = None,
         matches: ArrayLike | None = None,
     ) -> None:
-        names = tuple(players)
-        if len(set(names)) < len(names):
-            raise InputError("players holds a name twice; give each name once")
-        object.__setattr__(self, "players", names)
-        many = len(names)
+        object.__setattr__(self, "players", names(players, "players"))
+        many = len(self.players)
         for name, given, kind, unstated in (
             ("rating", rating, np.float64, math.nan),
             ("standard_error", standard_error, np.float64, math.nan),
@@ -83,19 +84,22 @@ class Roster:
             ("matches", matches, np.int64, NOT_STATED),
         ):
             values = np.full(many, unstated) if given is None else given
-            object.__setattr__(self, name, _column(values, name, kind, many))
+            object.__setattr__(self, name, column(values, name, many, "players", kind))
         if np.isinf(self.rating).any():
             raise InputError("rating holds infinity; give numbers, NaN for a new player")
         if (self.standard_error < 0).any() or np.isinf(self.standard_error).any():
             raise InputError("standard_error is negative or infinite somewhere; give 0 or more")
-        if (self.matches < NOT_STATED).any():
-            raise InputError("matches is negative somewhere; give 0 or more, NOT_STATED if unknown")
+        for name in ("games", "matches"):
+            if (getattr(self, name) < NOT_STATED).any():
+                raise InputError(
+                    f"{name} is negative somewhere; give 0 or more, NOT_STATED if unknown"
+                )
 
     def __len__(self) -> int:
         return len(self.players)
 
     def position(self, player: str) -> int:
-        """Return where a player stands in the list, from 0.
+        """Return the position of a player in the list, counted from 0.
 
         Raises
         ------
@@ -114,15 +118,15 @@ class Roster:
         return {name: place for place, name in enumerate(self.players)}
 
     def with_starters(self, rating: float, standard_error: float) -> Roster:
-        """Return the roster with new players filled in by what is known before they play.
+        """Return the roster with a rating and an error for new players.
 
         Parameters
         ----------
         rating
-            points of a player who has no rating yet.
+            for every player without one, in points.
         standard_error
-            the prior's standard deviation in points: the error of every player who has no
-            rating or no game yet and whose error is not stated.
+            for every player who has no rating or no games yet and no error stated: the
+            prior's standard deviation, in points.
 
         Raises
         ------
@@ -148,20 +152,3 @@ class Roster:
             component=self.component,
             matches=self.matches,
         )
-
-
-def _column(values: Any, name: str, kind: Any, many: int) -> NDArray[Any]:
-    try:
-        # A copy, so that a later change of the caller's array changes nothing here.
-        numbers = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} is {values!r}; give a number for each player") from None
-    if kind is np.int64 and not (np.isfinite(numbers) & (numbers == np.floor(numbers))).all():
-        raise InputError(f"{name} holds a value that is not whole; give whole numbers")
-    column = numbers.astype(kind)
-    if column.shape != (many,):
-        raise InputError(
-            f"{name} has the shape {column.shape}; give one value for each of {many} players"
-        )
-    column.flags.writeable = False
-    return column

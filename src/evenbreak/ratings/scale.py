@@ -7,15 +7,27 @@ p = 1 / (1 + 2^(-d/s)), so the odds p / (1 - p) are 2^(d/s).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
+from evenbreak.checks import probability
 from evenbreak.errors import InputError
+from evenbreak.games.rack import Rack
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Many: TypeAlias = Sequence[float] | NDArray[Any]
+    Floats: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Scale:
     """A rating scale: `points_per_doubling` points of difference double the odds.
+
+    Its methods take a number and return a float, or take an array and return an array.
 
     Parameters
     ----------
@@ -24,8 +36,8 @@ class Scale:
     points_per_doubling
         points, above zero.
     centre
-        the rating of a middling player, in points: where ratings are anchored if the
-        user names no anchor. Differences do not depend on it.
+        the rating of an average player, in points: the anchor of ratings where the user
+        gives none. Differences do not depend on it.
 
     Raises
     ------
@@ -56,32 +68,55 @@ class Scale:
             raise InputError(f"centre is {self.centre!r}; give a finite number")
 
     @property
+    def text(self) -> str:
+        """What a file calls the scale: its name, or else its points; `scale_of` reads it.
+
+        >>> SCALES["fargo"].text, Scale("of my club", 40.0).text
+        ('fargo', '40')
+        """
+        if SCALES.get(self.name) == self:
+            return self.name
+        return f"{self.points_per_doubling!r}".removesuffix(".0")
+
+    def same_points(self, other: Scale) -> bool:
+        """Return whether a difference of ratings means the same on another scale."""
+        return math.isclose(self.points_per_doubling, other.points_per_doubling, rel_tol=1e-6)
+
+    @property
     def points_per_log_odds(self) -> float:
         """Points of difference for each unit of natural log-odds."""
         return self.points_per_doubling / math.log(2.0)
 
-    def log_odds(self, difference: Any) -> Any:
-        """Return the natural log-odds of a game, given a difference in points (or an array)."""
-        return _numeric(difference, "difference") / self.points_per_log_odds
+    @overload
+    def log_odds(self, difference: float) -> float: ...
+    @overload
+    def log_odds(self, difference: Many) -> Floats: ...
+    def log_odds(self, difference: float | Many) -> float | Floats:
+        """Return the natural log-odds of a game, given a difference in points."""
+        return _numbers(difference, "difference") / self.points_per_log_odds
 
-    def points(self, log_odds: Any) -> Any:
-        """Return the difference in points that has these natural log-odds (or an array)."""
-        return _numeric(log_odds, "log_odds") * self.points_per_log_odds
+    @overload
+    def points(self, log_odds: float) -> float: ...
+    @overload
+    def points(self, log_odds: Many) -> Floats: ...
+    def points(self, log_odds: float | Many) -> float | Floats:
+        """Return the difference in points that has these natural log-odds."""
+        return _numbers(log_odds, "log_odds") * self.points_per_log_odds
 
-    def win_probability(self, difference: Any) -> Any:
+    @overload
+    def win_probability(self, difference: float) -> float: ...
+    @overload
+    def win_probability(self, difference: Many) -> Floats: ...
+    def win_probability(self, difference: float | Many) -> float | Floats:
         """Return P(player 1 wins a game | rating 1 - rating 2 = difference).
 
-        Both tails keep their digits: the loser's chance is `win_probability(-difference)`,
-        which is as accurate as the winner's, however small.
+        The chances of both players keep their digits: the loser's is
+        `win_probability(-difference)`, as accurate as the winner's however small it is.
 
         Parameters
         ----------
         difference
-            points, a number or an array; it may be infinite.
-
-        Returns
-        -------
-        float or numpy.ndarray
+            in points; it may be infinite.
 
         Raises
         ------
@@ -91,22 +126,42 @@ class Scale:
         >>> scale_of("fargo").win_probability(-10_000.0)
         7.888609052210118e-31
         """
-        doublings = _numeric(difference, "difference") / self.points_per_doubling
+        doublings = _numbers(difference, "difference") / self.points_per_doubling
         if isinstance(doublings, float):
-            odds = 2.0 ** -abs(doublings)  # at most 1, so that nothing overflows
+            odds: float = 2.0 ** -abs(doublings)  # at most 1, so that nothing overflows
             return (odds if doublings < 0 else 1.0) / (1.0 + odds)
         import numpy as np
 
-        odds = np.exp2(-np.abs(doublings))
-        return np.where(doublings < 0, odds, 1.0) / (1.0 + odds)
+        small = np.exp2(-np.abs(doublings))
+        chances: Floats = np.where(doublings < 0, small, 1.0) / (1.0 + small)
+        return chances
 
-    def difference(self, p: Any) -> Any:
+    @overload
+    def rack(self, difference: float) -> Rack[float]: ...
+    @overload
+    def rack(self, difference: Many) -> Rack[Floats]: ...
+    def rack(self, difference: float | Many) -> Rack[Any]:
+        """Return one rack between two players, given the difference of their ratings in points.
+
+        Both chances keep their digits, however small one of them is.
+
+        >>> SCALES["npl"].rack(1600.0).chance(2)
+        8.811845986046434e-17
+        """
+        points = _numbers(difference, "difference")
+        return Rack(self.win_probability(points), q1=self.win_probability(-points))
+
+    @overload
+    def difference(self, p: float) -> float: ...
+    @overload
+    def difference(self, p: Many) -> Floats: ...
+    def difference(self, p: float | Many) -> float | Floats:
         """Return the rating difference, in points, at which player 1 wins a game with chance p.
 
         Parameters
         ----------
         p
-            P(player 1 wins a game), a number or an array; 0 and 1 give infinite points.
+            P(player 1 wins a game); 0 and 1 give infinite points.
 
         Raises
         ------
@@ -116,23 +171,19 @@ class Scale:
         >>> round(scale_of("npl").difference(2 / 3), 9)
         30.0
         """
-        p = _numeric(p, "p")
-        if isinstance(p, float):
-            if not 0.0 <= p <= 1.0:
-                raise InputError(f"p is {p!r}, not a probability; give a number from 0 to 1")
-            if p in (0.0, 1.0):
-                return math.copysign(math.inf, p - 0.5)
-            if 0.25 <= p <= 0.75:  # 2p - 1 is exact here, and log(p / (1 - p)) loses digits
-                return self.points(2.0 * math.atanh(2.0 * p - 1.0))
-            return self.points_per_doubling * math.log2(p / (1.0 - p))
+        chance = probability(p, "p")
+        if isinstance(chance, float):
+            if chance in (0.0, 1.0):
+                return math.copysign(math.inf, chance - 0.5)
+            if 0.25 <= chance <= 0.75:  # 2p - 1 is exact here, and log(p / (1 - p)) loses digits
+                return self.points(2.0 * math.atanh(2.0 * chance - 1.0))
+            return self.points_per_doubling * math.log2(chance / (1.0 - chance))
         import numpy as np
 
-        if not np.all((p >= 0) & (p <= 1)):
-            raise InputError("p holds a value that is no probability; give numbers from 0 to 1")
         with np.errstate(divide="ignore"):
-            tails = self.points_per_doubling * (np.log2(p) - np.log2(1.0 - p))
-        middle = (p >= 0.25) & (p <= 0.75)
-        near = self.points(2.0 * np.arctanh(np.where(middle, 2.0 * p - 1.0, 0.0)))
+            tails = self.points_per_doubling * (np.log2(chance) - np.log2(1.0 - chance))
+        middle = (chance >= 0.25) & (chance <= 0.75)
+        near = self.points(2.0 * np.arctanh(np.where(middle, 2.0 * chance - 1.0, 0.0)))
         return np.where(middle, near, tails)
 
 
@@ -148,7 +199,7 @@ SCALES: dict[str, Scale] = {
 
 
 def scale_of(text_or_number: Any) -> Scale:
-    """Return a scale by its name, or the scale of so many points a doubling of the odds.
+    """Return a scale by its name, or the scale on which so many points double the odds.
 
     Parameters
     ----------
@@ -183,8 +234,12 @@ def scale_of(text_or_number: Any) -> Scale:
     return Scale(f"{points:g} points", points)
 
 
-def _numeric(value: Any, name: str) -> Any:
-    """Return a float for a number and a float array for an array; refuse the rest."""
+@overload
+def _numbers(value: float, name: str) -> float: ...
+@overload
+def _numbers(value: Many, name: str) -> Floats: ...
+def _numbers(value: float | Many, name: str) -> float | Floats:
+    """Return a float for a number and a float array for an array; either may be infinite."""
     if not hasattr(value, "__len__") and not hasattr(value, "ndim"):
         try:
             number = float(value)

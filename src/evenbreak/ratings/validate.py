@@ -1,136 +1,92 @@
-"""How far ratings can be trusted: a season walked through, and what came of it."""
+"""How far ratings can be trusted: a season predicted date by date, and what happened."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from functools import partial
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from evenbreak.ratings.calibration import (
-    CalibrationBin,
-    Estimate,
-    bootstrap_ratio,
-    brier,
-    calibration,
-    log_loss,
-    logistic_coefficient,
-    no_favourites,
-)
-from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.handicap_fairness import SpotFairness, spot_fairness
-from evenbreak.ratings.prior import WIDTHS
-from evenbreak.ratings.results import Results
-from evenbreak.ratings.walk_forward import Forecasts, walk_forward
-from evenbreak.ratings.within_matches import (
-    Dispersion,
+from evenbreak.checks import seed_of
+from evenbreak.ratings.advantages import (
     FirstBreaks,
-    Streaks,
+    FirstColumn,
     break_advantage,
-    dispersion,
     first_breaks,
+    first_column,
     side_advantage,
-    streaks,
 )
-
-Floats = NDArray[np.float64]
-
-PRIORS = WIDTHS[:9]
-"""The prior standard deviations that are tried, in log-odds: 0.09 to 1.39, `PRIOR_SD` too."""
+from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
+from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
+from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
+from evenbreak.ratings.prior import PriorChoice, best_prior
+from evenbreak.ratings.race_lengths import RaceLengths, race_lengths
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.scored import How, Of, Predictions, Scored
+from evenbreak.ratings.walk_forward import Forecasts, walk_forward
+from evenbreak.ratings.within_matches import Dispersion, Streaks, dispersion, streaks
 
 FEWEST_DATES = 10
-"""Dates from which the bootstrap draws whole dates; with fewer it draws matches."""
+"""Dates from which the bootstrap resamples whole dates; with fewer it resamples matches."""
 
 BINS = 10
-
-FEWEST_MATCHES = 30
-"""Matches with a favourite from which a slope is told."""
-
-WIDEST_SLOPE = 4.0
-"""A slope whose interval is wider tells nothing."""
-
-SUREST = 1e-12
-"""No chance is taken to be nearer to 0 or 1."""
-
-
-class Scored(NamedTuple):
-    """How good one kind of prediction was, with the prior that suits it best.
-
-    Parameters
-    ----------
-    of
-        'game' or 'match': what is predicted.
-    how
-        'plug-in': the ratings as they stand; 'integrated': with their uncertainty
-        integrated out.
-    prior_sd
-        the prior that gave the least log-loss, or the one that was given.
-    log_loss, brier
-        the mean over games (or matches), in nats; a toss-up has ln 2 and 1/4.
-    slope
-        the calibration slope: 1 is right, below it the predictions are too sure of
-        themselves. None where it cannot be told: of fewer than 30 matches with a
-        favourite, or where its interval is wider than 4.
-    as_it_went
-        the log-loss if each date is predicted with the prior that did best before it;
-        None where the prior was given.
-    """
-
-    of: Literal["game", "match"]
-    how: Literal["plug-in", "integrated"]
-    prior_sd: float
-    log_loss: Estimate
-    brier: Estimate
-    slope: Estimate | None
-    as_it_went: float | None
 
 
 @dataclass(frozen=True, eq=False)
 class Validation:
-    """What a season says of the ratings that it is rated with.
+    """What a season says about the ratings that were predicted from it.
 
     Attributes
     ----------
     forecasts
         the predictions with the prior `prior_sd`.
     prior_sd
-        the prior to use: the best for single games, uncertainty integrated out.
-    priors
-        each prior that was tried with its log-loss a game, integrated.
+        the prior that was given, or else the one that `best_prior` chooses.
+    choice
+        how it was chosen; None where it was given.
     scored
-        games and matches, plug-in and integrated, each at its own best prior; no matches
-        where there are no races.
+        games and matches, plug-in and integrated; no matches where there are no races.
     usual
-        the integrated predictions with the prior that is used unless another is given,
-        `PRIOR_SD`; empty where the prior was given here.
+        the integrated predictions with the default prior, `PRIOR_SD`; empty where a prior
+        was given.
     gain
-        log-loss of plug-in less that of integrated, each at its own best prior, by what
-        is predicted: above 0, the uncertainty is worth its while.
+        log-loss of plug-in less that of integrated, by what is predicted: above 0,
+        integrating out the uncertainty helps.
+    half_lives
+        what it gains to let old games count less; empty where a half-life was given, or the
+        season is too short to say.
     skill
-        ln 2 less the log-loss a game, integrated: above 0, the ratings know something.
+        ln 2 less the log-loss a game, integrated: above 0, the ratings beat a coin.
     games, matches
-        calibration of the favourites' chances, integrated, at the prior to use.
+        calibration of the favourites' chances, integrated, with the prior to use.
     matches_plug_in
-        the same of matches by the ratings as they stand.
+        the same for matches, by the ratings at face value.
     toss_ups
         how many matches have no favourite and so are in no bin, by what is predicted.
-    dispersion, streaks, side, breaker, first_breaks
-        whether play inside matches is what the model says; None where the file does not
-        tell.
+    dispersion, streaks, breaker, first_breaks
+        whether play inside matches agrees with the model; None where the file does not say.
+    side, first_column
+        how much stronger players in the first column are than their ratings, in log-odds, and
+        how many matches they won; None where nobody did, or nothing shows it.
+    lengths
+        how often favourites won short races and long ones, where there are both.
     spots
         how often the player with the longer race won.
     drawn
-        what the bootstrap draws: 'dates' or 'matches'.
+        what the bootstrap resamples: 'dates' or 'matches'.
     """
 
     forecasts: Forecasts
     prior_sd: float
-    priors: tuple[tuple[float, float], ...]
+    choice: PriorChoice | None
     scored: tuple[Scored, ...]
     usual: tuple[Scored, ...]
     gain: dict[str, Estimate]
+    half_lives: tuple[HalfLifeGain, ...]
     skill: Estimate
     games: tuple[CalibrationBin, ...]
     matches: tuple[CalibrationBin, ...]
@@ -139,9 +95,11 @@ class Validation:
     dispersion: Dispersion | None
     streaks: Streaks | None
     side: Estimate | None
+    first_column: FirstColumn | None
     breaker: Estimate | None
     first_breaks: FirstBreaks | None
-    spots: tuple[SpotFairness, ...]
+    spots: tuple[HandicapFairness, ...]
+    lengths: tuple[RaceLengths, ...]
     drawn: Literal["dates", "matches"]
 
 
@@ -150,24 +108,25 @@ def validate(
     *,
     prior_sd: float | None = None,
     half_life: float | None = None,
-    seed: int = 1,
-    progress: Callable[[str], None] = lambda _: None,
+    seed: int | np.random.Generator = 1,
+    progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Validation:
-    """Walk forward through a season, and say how good the predictions were.
+    """Predict a season date by date, and return how good the predictions were.
 
     Parameters
     ----------
     results
         the matches, with dates.
     prior_sd
-        standard deviation of the prior in natural log-odds; None: each kind of
-        prediction gets that of `PRIORS`, or between them, which suits it best.
+        standard deviation of the prior in natural log-odds; None: the one that `best_prior`
+        chooses from all matches with a date.
     half_life
-        days after which a game counts half; None: games never age.
+        days after which a game counts half; None: games never age, and it is tested whether
+        that is right.
     seed
-        of the bootstrap and of the seasons that chance plays.
+        of the bootstrap and of the simulated seasons: a whole number, or a generator.
     progress
-        is told in a sentence what is done next.
+        called with how much is done, and of how much.
 
     Raises
     ------
@@ -176,8 +135,8 @@ def validate(
 
     Notes
     -----
-    A prior that is chosen on the season which it is judged by looks a little better than
-    it is: `Scored.as_it_went` does not.
+    A prior chosen on the season by which it is judged looks slightly better than it is;
+    `PriorChoice.as_it_went` is free of that.
 
     >>> season = Results.from_names(["Ann", "Ann", "Bo"], ["Bo", "Bo", "Ann"], [7, 7, 3], [2, 4, 7],
     ...     date=["2024-09-03", "2024-09-10", "2024-09-17"])
@@ -185,167 +144,91 @@ def validate(
     >>> [(row.of, row.how, round(row.log_loss.value, 3)) for row in found.scored[:2]]
     [('game', 'plug-in', 0.654), ('game', 'integrated', 0.655)]
     """
-    tried = PRIORS if prior_sd is None else (prior_sd,)
-    many = "" if len(tried) == 1 else f", with each of {len(tried)} priors"
-    progress(f"Predicting each date from those before it{many}")
-    walks = [walk_forward(results, prior_sd=sd, half_life=half_life) for sd in tried]
-    found = {}
-    for of in ("game", "match"):
-        for how in ("plug-in", "integrated"):
-            if of == "game" or walks[0].race_a.any():
-                found[of, how] = _best(walks, of, how, results, half_life)
-    used = found["game", "integrated"].walk
-    dates = int(used.date_of[-1]) + 1
-    drawn: Literal["dates", "matches"] = "dates" if dates >= FEWEST_DATES else "matches"
-    cluster = used.date_of if drawn == "dates" else np.arange(len(used))
+    check_results(results)
+    seed = seed_of(seed)
+    parts = _parts(progress, 1 + 2 * (prior_sd is None) + (half_life is None))
+    walk = walk_forward(
+        results,
+        prior_sd=PRIOR_SD if prior_sd is None else prior_sd,
+        half_life=half_life,
+        progress=next(parts),
+    )
+    usual_walk, choice = walk, None
+    dated = results.select(~np.isnat(np.asarray(results.date)))
+    if prior_sd is None:
+        choice = best_prior(dated, half_life=half_life, progress=next(parts))
+        shown = next(parts)
+        if choice.prior_sd != PRIOR_SD:
+            walk = walk_forward(
+                results, prior_sd=choice.prior_sd, half_life=half_life, progress=shown
+            )
     rng = np.random.default_rng(seed)
-    progress("Comparing the season with seasons that chance plays")
-    spread = dispersion(used, rng)
-    of_all = tuple(dict.fromkeys(of for of, _ in found))
-    scored = tuple(_scored(best, cluster, rng) for best in found.values())
-    return Validation(
-        forecasts=used,
-        prior_sd=used.prior_sd,
-        priors=tuple(
-            (walk.prior_sd, _mean_loss(walk, "game", "integrated"))
-            for walk in sorted({*walks, used}, key=lambda walk: walk.prior_sd)
-        ),
-        scored=scored,
-        usual=() if prior_sd is not None else _usual(walks, of_all, cluster, seed),
-        gain=_gains(found, cluster, rng),
-        skill=_skill(used, cluster, rng),
-        games=_calibrated(used, "game", "integrated", spread),
-        matches=_calibrated(used, "match", "integrated", None),
-        matches_plug_in=_calibrated(used, "match", "plug-in", None),
-        toss_ups={of: _toss_ups(used, of) for of in of_all},
-        dispersion=spread,
-        streaks=streaks(used),
-        side=side_advantage(used),
-        breaker=break_advantage(used),
-        first_breaks=first_breaks(used),
-        spots=tuple(spot_fairness(used)),
-        drawn=drawn,
-    )
-
-
-class _Best(NamedTuple):
-    """The walk whose prior suits one kind of prediction best."""
-
-    of: str
-    how: str
-    walk: Forecasts
-    as_it_went: float | None
-
-
-def _best(
-    walks: list[Forecasts], of: str, how: str, results: Results, half_life: float | None
-) -> _Best:
-    if len(walks) == 1:
-        return _Best(of, how, walks[0], None)
-    losses = [_mean_loss(walk, of, how) for walk in walks]
-    least = int(np.argmin(losses))
-    walk = walks[least]
-    if 0 < least < len(walks) - 1:
-        walk = walk_forward(results, prior_sd=_vertex(losses, least), half_life=half_life)
-        if _mean_loss(walk, of, how) > losses[least]:
-            walk = walks[least]
-    return _Best(of, how, walk, _as_it_went(walks, of, how))
-
-
-def _vertex(losses: list[float], least: int) -> float:
-    """Return where the parabola through the least loss and its neighbours is lowest."""
-    x = np.log(PRIORS)
-    before, at, after = losses[least - 1 : least + 2]
-    shift = 0.5 * (before - after) / (before - 2.0 * at + after)
-    return float(np.exp(x[least] + shift * (x[1] - x[0])))
-
-
-def _as_it_went(walks: list[Forecasts], of: str, how: str) -> float:
-    """Return the log-loss where each date has the prior that did best on earlier dates."""
-    date_of = walks[0].date_of
-    many = int(date_of[-1]) + 1
-    by_date = np.array(
-        [np.bincount(date_of, log_loss(*_predictions(walk, of, how)), many) for walk in walks]
-    )
-    before = np.cumsum(by_date, axis=1) - by_date
-    # Without a date to judge by all are equal up to rounding: then the default speaks.
-    equal = np.ptp(before, axis=0) < 1e-9
-    chosen = np.where(equal, PRIORS.index(PRIOR_SD), before.argmin(0))
-    return float(by_date[chosen, np.arange(many)].sum() / _predictions(walks[0], of, how)[2].sum())
-
-
-def _predictions(walk: Forecasts, of: str, how: str) -> tuple[Floats, Floats, Floats]:
-    """Return the chances, wins and trials of all matches; none where there is no race."""
-    plain = how == "plug-in"
-    if of == "game":
-        p = walk.p_game if plain else walk.p_game_integrated
-        won, trials = walk.results.score_a.astype(float), walk.games.astype(float)
-    else:
-        raced = walk.race_a > 0
-        p = np.where(raced, walk.p_match if plain else walk.p_match_integrated, 0.5)
-        won, trials = np.where(raced, walk.won, 0.0), raced.astype(float)
-    # Nothing is certain: a chance that rounds to 1 would cost more than can be counted.
-    return np.clip(p, SUREST, 1.0 - SUREST), won, trials
-
-
-def _mean_loss(walk: Forecasts, of: str, how: str) -> float:
-    p, won, trials = _predictions(walk, of, how)
-    return float(log_loss(p, won, trials).sum() / trials.sum())
-
-
-def _scored(best: _Best, cluster: NDArray[np.int64], rng: np.random.Generator) -> Scored:
-    p, won, trials = _predictions(best.walk, best.of, best.how)
-    slope = logistic_coefficient(np.log(p) - np.log1p(-p), won, trials, cluster)
-    favourites = int((trials > 0).sum()) - no_favourites(p, trials)
-    if favourites < FEWEST_MATCHES or (slope and slope.high - slope.low > WIDEST_SLOPE):
-        slope = None
-    return Scored(
-        best.of,  # type: ignore[arg-type]
-        best.how,  # type: ignore[arg-type]
-        best.walk.prior_sd,
-        bootstrap_ratio(log_loss(p, won, trials), trials, cluster, rng),
-        bootstrap_ratio(brier(p, won, trials), trials, cluster, rng),
-        slope,
-        best.as_it_went,
-    )
-
-
-def _usual(
-    walks: list[Forecasts], of_all: tuple[str, ...], cluster: NDArray[np.int64], seed: int
-) -> tuple[Scored, ...]:
-    """Return how good the predictions are with the prior that is used unless told otherwise."""
-    rng = np.random.default_rng(seed)
-    walk = walks[PRIORS.index(PRIOR_SD)]
-    return tuple(_scored(_Best(of, "integrated", walk, None), cluster, rng) for of in of_all)
-
-
-def _toss_ups(walk: Forecasts, of: str) -> int:
-    p, _, trials = _predictions(walk, of, "integrated")
-    return no_favourites(p, trials)
-
-
-def _gains(
-    found: dict[tuple[str, str], _Best], cluster: NDArray[np.int64], rng: np.random.Generator
-) -> dict[str, Estimate]:
-    gains = {}
-    for of in dict.fromkeys(of for of, _ in found):
-        plain, whole = (
-            _predictions(found[of, how].walk, of, how) for how in ("plug-in", "integrated")
+    half_lives: tuple[HalfLifeGain, ...] = ()
+    if half_life is None:
+        half_lives = half_life_gains(dated, walk.prior_sd, rng, progress=next(parts))
+    raced = bool(walk.race_a.any())
+    of_all: tuple[Of, ...] = ("game", "match") if raced else ("game",)
+    hows: tuple[How, ...] = ("plug-in", "integrated")
+    made = {(of, how): Predictions.of_walk(walk, of, how) for of in of_all for how in hows}
+    used = made["game", "integrated"]
+    by_dates = int(walk.date_of[-1]) + 1 >= FEWEST_DATES
+    cluster = walk.date_of if by_dates else np.arange(len(walk))
+    spread = dispersion(walk, rng)
+    usual: tuple[Scored, ...] = ()
+    if prior_sd is None:
+        own_rng = np.random.default_rng(seed)
+        usual = tuple(
+            Predictions.of_walk(usual_walk, of, "integrated").scored(cluster, own_rng)
+            for of in of_all
         )
-        gain = log_loss(*plain) - log_loss(*whole)
-        gains[of] = bootstrap_ratio(gain, plain[2], cluster, rng)
-    return gains
+    return Validation(
+        forecasts=walk,
+        prior_sd=walk.prior_sd,
+        choice=choice,
+        scored=tuple(one.scored(cluster, rng) for one in made.values()),
+        usual=usual,
+        gain={
+            of: bootstrap_ratio(
+                made[of, "plug-in"].losses - made[of, "integrated"].losses,
+                made[of, "plug-in"].trials,
+                cluster,
+                rng,
+            )
+            for of in of_all
+        },
+        half_lives=half_lives,
+        skill=bootstrap_ratio(np.log(2.0) * used.trials - used.losses, used.trials, cluster, rng),
+        games=_calibrated(used, spread),
+        matches=_calibrated(Predictions.of_walk(walk, "match", "integrated")),
+        matches_plug_in=_calibrated(Predictions.of_walk(walk, "match", "plug-in")),
+        toss_ups={of: made[of, "integrated"].toss_ups for of in of_all},
+        dispersion=spread,
+        streaks=streaks(walk),
+        side=side_advantage(walk),
+        first_column=first_column(walk),
+        breaker=break_advantage(walk),
+        first_breaks=first_breaks(walk),
+        spots=tuple(handicap_fairness(walk)),
+        lengths=tuple(race_lengths(walk)),
+        drawn="dates" if by_dates else "matches",
+    )
 
 
-def _skill(walk: Forecasts, cluster: NDArray[np.int64], rng: np.random.Generator) -> Estimate:
-    p, won, games = _predictions(walk, "game", "integrated")
-    return bootstrap_ratio(np.log(2.0) * games - log_loss(p, won, games), games, cluster, rng)
+def _parts(progress: Callable[[int, int], None], many: int) -> Iterator[Callable[[int, int], None]]:
+    """Yield for each part of the work what shows its progress, as hundredths of a part."""
+
+    def show(part: int, done: int, total: int) -> None:
+        progress(100 * part + 100 * done // total, 100 * many)
+
+    for part in range(many):
+        yield partial(show, part)
 
 
 def _calibrated(
-    walk: Forecasts, of: str, how: str, spread: Dispersion | None
+    predictions: Predictions, spread: Dispersion | None = None
 ) -> tuple[CalibrationBin, ...]:
-    p, won, trials = _predictions(walk, of, how)
-    # Games of a match share what the ratings do not know, so they are worth fewer.
+    # Games of a match share what the ratings do not know, so each is worth less than one.
     worth = 1.0 if spread is None else min(1.0, 1.0 / spread.seen)
-    return tuple(calibration(p, won, trials, bins=BINS, worth=worth))
+    return tuple(
+        calibration(predictions.p, predictions.won, predictions.trials, bins=BINS, worth=worth)
+    )

@@ -1,29 +1,28 @@
-"""Walk forward through a season: each date is predicted before it is learnt from.
+"""Walk forward through a season: each date is predicted before its results are used.
 
-What a rating is worth shows in matches that it has not seen. So the season is walked
-through date by date: the ratings from all earlier dates predict every match of a date,
-and only then are they refitted with its results.
+What ratings are worth shows in matches that they have not seen. So the ratings from all
+earlier dates predict every match of a date, and only then are refitted with its results.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import expit
 
+from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.daily_refit import GrowingLeague
-from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.daily_refit import DailyRefit
+from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.fit import PRIOR_SD, checked_prior
 from evenbreak.ratings.results import Results
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 NODES = 31
 """Nodes of the Gauss-Hermite rule that integrates a prediction over a rating difference."""
@@ -31,7 +30,7 @@ NODES = 31
 
 @dataclass(frozen=True, eq=False)
 class Forecasts:
-    """What the ratings said of each match before its date, beside what came of it.
+    """The chances that the ratings gave for each match before its date, and its result.
 
     One entry a match, in the order of the dates; all chances are those of player a, given
     the results of earlier dates, the model and the prior.
@@ -41,15 +40,15 @@ class Forecasts:
     results
         the matches that were predicted: played, with a date.
     date_of
-        the number of each match's date, from 0 on.
+        the number of each match's date, from 0 up.
     difference, sd
         skill a - skill b in natural log-odds: the posterior mode before the date, and
         its standard deviation (Laplace).
     known_a, known_b
-        games that each had played before that date.
+        games that each player had played before that date.
     p_game, p_game_integrated
-        P(a wins a game): of the mode alone (plug-in), and with the posterior of the
-        difference integrated out (Gauss-Hermite).
+        P(a wins a game): from the mode alone (plug-in), and averaged over the posterior of
+        the difference (integrated; Gauss-Hermite).
     race_a, race_b
         the race: as stated, or else an even race to the winner's games (see
         `even_races`); 0 where there is none.
@@ -60,8 +59,8 @@ class Forecasts:
     prior_sd, half_life
         what the ratings were fitted with.
     undated, forfeits, empty, unscored
-        rows left out because they have no date, were given away, stand at 0-0, or tell
-        only who won.
+        rows left out because they have no date, are forfeits, stand at 0-0, or state only
+        the winner.
     """
 
     results: Results
@@ -87,30 +86,39 @@ class Forecasts:
     def __len__(self) -> int:
         return len(self.results)
 
+    def __repr__(self) -> str:
+        return f"<Forecasts of {len(self):,} matches between {len(self.results.players):,} players>"
+
     @property
     def games(self) -> Ints:
         """The games of each match."""
         return self.results.score_a + self.results.score_b
 
     @property
-    def new(self) -> NDArray[np.bool_]:
-        """Whether one of the two had not played before, so that the prior speaks for him."""
+    def new(self) -> Bools:
+        """Whether one of the two players had not played before."""
         return np.asarray((self.known_a == 0) | (self.known_b == 0))
 
 
 def walk_forward(
-    results: Results, *, prior_sd: float = PRIOR_SD, half_life: float | None = None
+    results: Results,
+    *,
+    prior_sd: float = PRIOR_SD,
+    half_life: float | None = None,
+    progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Forecasts:
     """Predict every dated match of `results` from the matches of earlier dates alone.
 
     Parameters
     ----------
     results
-        the matches. All of one date are predicted before any of it is learnt from.
+        the matches. All matches of a date are predicted before any of them is used.
     prior_sd
         standard deviation of the prior in natural log-odds.
     half_life
         days after which a game counts half; None: games never age.
+    progress
+        called with how many dates are done, and of how many.
 
     Raises
     ------
@@ -126,22 +134,24 @@ def walk_forward(
 
     >>> season = Results.from_names(["Ann", "Ann"], ["Bo", "Bo"], [7, 7], [2, 4],
     ...     date=["2024-09-03", "2024-09-10"])
-    >>> told = walk_forward(season)
-    >>> told.p_game.round(3), told.p_game_integrated.round(3)
+    >>> forecasts = walk_forward(season)
+    >>> forecasts.p_game.round(3), forecasts.p_game_integrated.round(3)
     (array([0.5  , 0.687]), array([0.5  , 0.675]))
     """
-    precision = _between(prior_sd, "prior_sd", 1e-3, 100.0, "in log-odds") ** -2
+    check_results(results)
+    precision = checked_prior(prior_sd) ** -2
     if half_life is not None:
-        half_life = _between(half_life, "half_life", 0.01, 1e6, "in days")
+        wanted = "a number from 0.01 to 1,000,000, in days"
+        half_life = number(half_life, "half_life", low=0.01, high=1e6, wanted=wanted)
     season, left_out = _in_order(results)
     days, date_of = np.unique(np.asarray(season.date), return_inverse=True)
     if len(days) < 2:
         raise InputError(
-            f"results hold games of {len(days)} date{'s' * (len(days) != 1)}; give two dates or "
-            "more in the column date, so that the earlier can predict the later"
+            f"the results have games on {len(days)} date{'s' * (len(days) != 1)}; give two or more "
+            "in the column date, so that earlier dates can predict later ones"
         )
     a, b = season.player_a, season.player_b
-    league = GrowingLeague(len(season.players), a, b, precision)
+    league = DailyRefit(len(season.players), a, b, precision)
     difference, variance = np.zeros(len(season)), np.zeros(len(season))
     starts = np.searchsorted(date_of, np.arange(len(days) + 1))
     for day, (start, end) in enumerate(pairwise(starts)):
@@ -152,6 +162,7 @@ def walk_forward(
         difference[rows] = league.skill[a[rows]] - league.skill[b[rows]]
         variance[rows] = league.difference_variance(a[rows], b[rows])
         league.learn(rows, season.score_a[rows], season.score_b[rows])
+        progress(day + 1, len(days))
     return _forecasts(
         season,
         date_of,
@@ -167,25 +178,23 @@ def even_races(results: Results) -> tuple[Ints, Ints, Floats]:
     """Return the race of each match and whether a won it: race_a, race_b, won.
 
     A match without a stated race is read as an even race to the winner's games, unless
-    such matches end in draws: then they are not races, and none of them has one. Where
-    there is no race its games are 0 and `won` is NaN.
+    some such match ended in a draw: then none of them was a race. Where there is no race
+    its games are 0 and `won` is NaN.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Ann"], [7, 4], [5, 6])
     >>> even_races(season)
     (array([7, 6]), array([7, 6]), array([1., 0.]))
     """
     score_a, score_b = results.score_a, results.score_b
-    zeros = np.zeros(len(results), dtype=np.int64)
-    race_a = zeros if results.race_a is None else results.race_a
-    race_b = zeros if results.race_b is None else results.race_b
+    race_a, race_b = results.races
     stated = (race_a > 0) & (race_b > 0)
     drawn = bool((~stated & (score_a == score_b)).any())
-    most = zeros if drawn else np.maximum(score_a, score_b)
+    most = np.zeros_like(score_a) if drawn else np.maximum(score_a, score_b)
     race_a, race_b = np.where(stated, race_a, most), np.where(stated, race_b, most)
     won_a, won_b = score_a >= race_a, score_b >= race_b
-    told = (race_a > 0) & (won_a ^ won_b)
-    won = np.where(told, won_a.astype(float), np.nan)
-    return np.where(told, race_a, 0), np.where(told, race_b, 0), won
+    raced = (race_a > 0) & (won_a ^ won_b)
+    won = np.where(raced, won_a.astype(float), np.nan)
+    return np.where(raced, race_a, 0), np.where(raced, race_b, 0), won
 
 
 def _in_order(results: Results) -> tuple[Results, dict[str, int]]:
@@ -193,7 +202,7 @@ def _in_order(results: Results) -> tuple[Results, dict[str, int]]:
     played, forfeits, empty = results.played()
     dates = played.date
     if dates is None:
-        raise InputError("results have no dates; add a column date, so that time has an order")
+        raise InputError("the results have no dates; add the column date")
     dated = ~np.isnat(dates)
     season = played.select(dated)
     season = season.select(np.argsort(dates[dated], kind="stable"))
@@ -206,12 +215,12 @@ def _in_order(results: Results) -> tuple[Results, dict[str, int]]:
 
 
 def _forecasts(
-    season: Results, date_of: Ints, difference: Floats, sd: Floats, **told: Any
+    season: Results, date_of: Ints, difference: Floats, sd: Floats, **rest: Any
 ) -> Forecasts:
     race_a, race_b, won = even_races(season)
     raced = race_a > 0
     p_game = expit(difference)
-    # Any race will do where there is none: the answer is thrown away.
+    # Where there is no race any will do: the result is not used.
     needs = np.maximum(race_a, 1), np.maximum(race_b, 1)
     p_match = np.where(raced, race_win_probability(p_game, *needs), np.nan)
     p_game_integrated, p_match_integrated = np.zeros(len(season)), np.zeros(len(season))
@@ -233,10 +242,10 @@ def _forecasts(
         race_a=race_a,
         race_b=race_b,
         p_match=p_match,
-        # Rounding of the weights may bring a sum above 1.
+        # Rounding of the weights may take a sum above 1.
         p_match_integrated=np.where(raced, np.minimum(p_match_integrated, 1.0), np.nan),
         won=won,
-        **told,
+        **rest,
     )
 
 
@@ -253,13 +262,3 @@ def _known_before(season: Results, date_of: Ints) -> tuple[Floats, Floats]:
         for players in (season.player_a[rows], season.player_b[rows]):
             known += np.bincount(players, games[rows], len(known))
     return before[0], before[1]
-
-
-def _between(value: Any, name: str, least: float, most: float, unit: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not least <= number <= most:
-        raise InputError(f"{name} is {value!r}; give a number from {least:g} to {most:,g}, {unit}")
-    return number

@@ -1,7 +1,7 @@
-"""Who broke each rack, as far as the results tell.
+"""Who broke each rack, as far as the results say.
 
-The first rack was broken by `first_break`; who broke the next follows from the break
-format and, for winner and loser breaks, from who won the rack before.
+`first_break` broke the first rack; who broke the next follows from the break format and,
+for winner and loser breaks, from who won the rack before.
 """
 
 from __future__ import annotations
@@ -11,33 +11,35 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.errors import InputError
-from evenbreak.ratings.own_break_wins import Splits, split_of, stacked
-from evenbreak.ratings.results import FORMATS, Results
+from evenbreak.ratings.own_break_wins import BreakWinsTerms, break_wins
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.results_frame import FORMATS
 
 _A, _B = FORMATS.index("a"), FORMATS.index("b")
 
 
 class Broken(NamedTuple):
-    """Games by who broke, match by match: shape (3, rows), in the order nobody known, a, b.
+    """Games by who broke, match by match: shape (3, rows), in the order not known, a, b.
 
     `won` by player a, `lost` by player a. Where the score alone is known, `pattern` says
-    which of `splits` applies, else -1; won and lost are then the middle of what may be.
+    which row of `own_breaks` applies, else -1; won and lost then hold its middle.
     """
 
-    won: NDArray[np.float64]
-    lost: NDArray[np.float64]
-    pattern: NDArray[np.int64]
-    splits: Splits
+    won: Floats
+    lost: Floats
+    pattern: Ints
+    own_breaks: BreakWinsTerms
 
 
 def count_broken(results: Results) -> Broken:
-    """Return how many games each match had in which it is not known who broke, a broke, b broke.
+    """Return how many games of each match a broke, b broke, or somebody unknown.
 
-    Known it is in matches that one player broke throughout (break format a or b); rack by
-    rack where `racks` and the break format are given, and for alternate breaks, and the
-    first rack of all others, `first_break`; and in number where break format, `first_break`
-    and a race are given that one of the players reached (see `evenbreak.ratings.own_break_wins`).
+    It is known who broke in matches where one player broke throughout (break format a or
+    b); rack by rack where `racks`, the break format and `first_break` are given, for the
+    first rack `first_break` alone; and in number where break format, `first_break` and a
+    race are given that one of the players reached (see `evenbreak.ratings.own_break_wins`).
 
     Parameters
     ----------
@@ -63,69 +65,84 @@ def count_broken(results: Results) -> Broken:
         same = form == code
         won[side, same] = results.score_a[same]
         lost[side, same] = results.score_b[same]
+    one_breaks = (form == _A) | (form == _B)
     stated = np.zeros(rows, dtype=bool)
     if results.racks is not None:
         stated = np.array([bool(text) for text in results.racks], dtype=bool)
-        told = stated & (form != _A) & (form != _B) & ((form > 0) | (first > 0))
-        for row in np.flatnonzero(told):
+        for row in np.flatnonzero(stated & ~one_breaks & ((form > 0) | (first > 0))):
             text = results.racks[row]
-            breakers = _breakers(text, FORMATS[form[row]], int(first[row]))
-            for winner, breaker in zip(text, breakers, strict=True):
+            for winner, breaker in zip(
+                text, breakers(text, FORMATS[form[row]], int(first[row])), strict=True
+            ):
                 (won if winner == "a" else lost)[breaker, row] += 1
             won[0, row] = lost[0, row] = 0
     last = _last_winner(results)
-    scores = (form > 0) & (form != _A) & (form != _B) & (first > 0) & ~stated & (last > 0)
-    pattern, splits = _by_score(results, np.flatnonzero(scores), form, first, last, won, lost)
+    scores = (form > 0) & ~one_breaks & (first > 0) & ~stated & (last > 0)
+    pattern, own_breaks = _by_score(results, np.flatnonzero(scores), form, first, last, won, lost)
     won[0] = results.score_a - won[1:].sum(axis=0)
     lost[0] = results.score_b - lost[1:].sum(axis=0)
     if (won[0] < 0).any() or (lost[0] < 0).any():
-        raise InputError("racks hold more games than the score; correct what find_problems tells")
-    return Broken(won, lost, pattern, splits)
+        raise InputError("racks hold more games than the score; correct what find_problems lists")
+    return Broken(won, lost, pattern, own_breaks)
+
+
+def breakers(racks: str, form: str, first: int) -> list[int]:
+    """Return who broke each rack: 1 for a, 2 for b, 0 where it is not known.
+
+    Parameters
+    ----------
+    racks
+        who won each rack, a or b.
+    form, first
+        the break format, one of `FORMATS`, and who broke first: 1, 2 or 0 where not known.
+
+    >>> breakers("abb", "winner", 2), breakers("abb", "alternate", 1), breakers("abb", "", 1)
+    ([2, 1, 2], [1, 2, 1], [1, 0, 0])
+    """
+    after = [1 if letter == "a" else 2 for letter in racks]  # under winner breaks
+    match form:
+        case "loser":
+            after = [3 - winner for winner in after]
+        case "alternate":
+            second = 3 - first if first else 0
+            after = [second if k % 2 == 0 else first for k in range(len(racks))]
+        case "a" | "b":
+            after = ["ab".index(form) + 1] * len(racks)
+        case "":
+            after = [0] * len(racks)
+    return [first, *after][: len(racks)]
 
 
 def _last_winner(results: Results) -> NDArray[np.int8]:
-    """Return who won the last rack, 0 where no race says so: who alone reached the race."""
-    if results.race_a is None or results.race_b is None:
-        return np.zeros(len(results), np.int8)
-    raced = (results.race_a > 0) & (results.race_b > 0)
-    a, b = results.score_a == results.race_a, results.score_b == results.race_b
-    a_short, b_short = results.score_a < results.race_a, results.score_b < results.race_b
-    return np.where(raced & a & b_short, 1, np.where(raced & b & a_short, 2, 0)).astype(np.int8)
+    """Return who won the last rack: the only one to reach the race; 0 where no race says so."""
+    race_a, race_b = results.races
+    raced = (race_a > 0) & (race_b > 0)
+    a = raced & (results.score_a == race_a) & (results.score_b < race_b)
+    b = raced & (results.score_b == race_b) & (results.score_a < race_a)
+    return np.where(a, 1, np.where(b, 2, 0)).astype(np.int8)
 
 
 def _by_score(
     results: Results,
-    rows: NDArray[np.intp],
+    rows: Places,
     form: NDArray[np.int8],
     first: NDArray[np.int8],
     last: NDArray[np.int8],
-    won: NDArray[np.float64],
-    lost: NDArray[np.float64],
-) -> tuple[NDArray[np.int64], Splits]:
-    """Fill in the games of matches known by their score, and return how they may have split."""
+    won: Floats,
+    lost: Floats,
+) -> tuple[Ints, BreakWinsTerms]:
+    """Fill in the games of matches known by their score, and return how they may be divided."""
     pattern = np.full(len(results), -1)
     keys = np.column_stack([form, first, last, results.score_a, results.score_b])[rows]
     distinct, place = np.unique(keys, axis=0, return_inverse=True)
-    splits = []
-    for f, breaker, winner, i, j in distinct.tolist():
-        splits.append(split_of(FORMATS[f], breaker, (i, j), winner))
-    middle = np.array([(split.won[0] + split.won[-1]) / 2 for split in splits])[place]
-    broke_a = np.array([split.broke_a for split in splits])[place]
+    wins = [
+        break_wins(FORMATS[f], breaker, (i, j), winner)
+        for f, breaker, winner, i, j in distinct.tolist()
+    ]
+    middle = np.array([(one.won[0] + one.won[-1]) / 2 for one in wins])[place]
+    broke_a = np.array([one.broke_a for one in wins])[place]
     score_a, score_b = results.score_a[rows], results.score_b[rows]
     pattern[rows] = place
     won[1, rows], lost[1, rows] = middle, broke_a - middle
     won[2, rows], lost[2, rows] = score_a - middle, score_b - (broke_a - middle)
-    return pattern, stacked(splits)
-
-
-def _breakers(racks: str, form: str, first: int) -> list[int]:
-    """Return who broke each rack: 1 for a, 2 for b, 0 where it is not known."""
-    if form == "alternate":
-        other = 3 - first if first else 0
-        return [first if k % 2 == 0 else other for k in range(len(racks))]
-    winners = [1 if letter == "a" else 2 for letter in racks]
-    if form == "winner":
-        return [first, *winners][: len(racks)]
-    if form == "loser":
-        return [first, *(3 - winner for winner in winners)][: len(racks)]
-    return [first, *[0] * len(racks)][: len(racks)]
+    return pattern, BreakWinsTerms.of(wins)

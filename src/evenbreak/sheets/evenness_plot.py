@@ -1,15 +1,13 @@
 """The small plot on the sheet's page: how even the races are, by rating difference."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from evenbreak.answers.chart_bands import Band
 from evenbreak.answers.sure_pairs import SurePair
-from evenbreak.matches.win import race_win_probability
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from evenbreak.ratings.scale import Scale
-from evenbreak.sheets.rating_bars import Tick
+from evenbreak.sheets.rating_bars import Tick, round_numbers
 
 WIDTH, HEIGHT = 360, 230
 _LEFT, _RIGHT, _TOP, _BOTTOM = 40, 350, 12, 188
@@ -44,10 +42,13 @@ class Plot(NamedTuple):
     bottom: int = _BOTTOM
 
 
-def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale) -> Plot:
-    """Return P(the stronger wins) against the rating difference: the chart, and each pair."""
-    from matplotlib.ticker import MaxNLocator
+def evenness_plot(
+    bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale, error: float = 0.0
+) -> Plot:
+    """Return P(the stronger wins) against the rating difference: the chart, and each pair.
 
+    `error` is the standard error of a difference over which the chart's chances are averaged.
+    """
     chances = [p for band in bands for p in (band.p_first, band.p_after)]
     chances += [pair.p_win for pair in pairs]
     away = max(0.2, *(abs(p - 0.5) for p in chances)) + 0.02
@@ -62,20 +63,18 @@ def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale
     curves, names = [], []
     for band in bands:
         places = [band.first + (band.after - band.first) * k / _STEPS for k in range(_STEPS + 1)]
-        curve = race_win_probability(
-            [scale.win_probability(d) for d in places], band.stronger, band.weaker
-        )
+        curve = win_given_ratings(places, error, band.stronger, band.weaker, scale=scale)
         points = zip(places, curve.tolist(), strict=True)
         curves.append(" ".join(f"{x(d):g},{y(p):g}" for d, p in points))
         if x(band.after) - x(band.first) >= _NAME:
             middle = (x(band.first) + x(band.after)) / 2
             names.append((round(middle, 2), _BOTTOM - 6.0, f"{band.stronger}:{band.weaker}"))
-    across = MaxNLocator(nbins=6, steps=[1, 2, 5, 10]).tick_values(0.0, furthest)
-    up = MaxNLocator(nbins=5, steps=[1, 2, 5, 10]).tick_values(0.5 - away, 0.5 + away)
+    across = round_numbers(0.0, furthest, most=6, steps=[1, 2, 5, 10])
+    up = round_numbers(0.5 - away, 0.5 + away, most=5, steps=[1, 2, 5, 10])
     return Plot(
         curves,
         names,
         [(x(pair.difference), y(pair.p_win)) for pair in pairs],
-        [Tick(x(float(d)), f"{d:g}") for d in across if 0 <= d <= furthest],
-        [Tick(y(float(p)), f"{p:.1f}") for p in up if abs(p - 0.5) <= away],
+        [Tick(x(d), f"{d:g}") for d in across if 0 <= d <= furthest],
+        [Tick(y(p), f"{p:.1f}") for p in up if abs(p - 0.5) <= away],
     )

@@ -1,7 +1,5 @@
 """How large everything on the paper sheet is, so that the table fills the page."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,20 +21,24 @@ HEADING, TICKS = 1.08, 0.45
 """Heights of what is above the slanted names and below the table."""
 
 SLANT = 45
+GROUP, NOTE = "group", 8.0
+"""What stands above the column of groups, and the size of notes, in points."""
 
 
 @dataclass(frozen=True)
-class Layout:
+class PageSizes:
     """Sizes that all pages share: inches, and points for letters.
 
-    `place`, `name` and `rating` are the widths of those columns, `cell` and `row` the size of
-    a race's cell; `top` is where the table begins; `columns` is how many opponents a page has.
+    `place`, `name`, `rating` and `group` are the widths of those columns, the last 0 if all
+    players are of one group; `cell` and `row` are the size of a race's cell; `top` is where the
+    table begins; `columns` is how many opponents a page has.
     """
 
     columns: int
     place: float
     name: float
     rating: float
+    group: float
     cell: float
     row: float
     top: float
@@ -56,10 +58,10 @@ class Layout:
     def bars(self, across: int) -> tuple[float, float]:
         """Where the axis of the bars begins and ends."""
         start = self.right(across) + 3 * GAP + self.rating
-        return start, min(start + WIDEST_BARS, WIDTH - MARGIN)
+        return start, min(start + WIDEST_BARS, WIDTH - MARGIN - self.group)
 
 
-def layout_of(lines: Sequence[PlayerLine], races: Races, room: float) -> Layout:
+def page_sizes(lines: Sequence[PlayerLine], races: Races, room: float) -> PageSizes:
     """Return how large all can be, so that names, table and ticks have the height `room`."""
     rows = len(parts_of(lines, MOST_ON_A_PAGE)[0])
     size = min(LARGEST, 0.64 * POINTS * (room - 1.2) / rows)
@@ -70,7 +72,10 @@ def layout_of(lines: Sequence[PlayerLine], races: Races, room: float) -> Layout:
     place = widest([str(line.place) for line in lines], size)
     name = min(LONGEST_NAME, widest([line.name for line in lines], size))
     rating = min(LONGEST_RATING, widest([rating_text(line) for line in lines], size))
-    fixed = 2 * MARGIN + place + name + rating + NARROWEST_BARS + 5 * GAP
+    grouped = any(line.group is not None for line in lines)
+    group = GAP + max(width_of(GROUP, NOTE), widest(list(map(group_text, lines)), size))
+    group = group if grouped else 0.0
+    fixed = 2 * MARGIN + place + name + rating + group + NARROWEST_BARS + 5 * GAP
     letter = widest([NO_RACE, *set(races.values())], 1.0)
     fitting = int((WIDTH - fixed) / (letter * SMALLEST + CELL_EDGE))
     columns = len(parts_of(lines, min(MOST_ON_A_PAGE, fitting))[0])
@@ -78,11 +83,12 @@ def layout_of(lines: Sequence[PlayerLine], races: Races, room: float) -> Layout:
     slant_size = min(size, 0.6 * cell * POINTS)
     slanted = widest([slanted_name(line, slant_size) for line in lines], slant_size) + 0.15
     height = slanted * math.sin(math.radians(SLANT))
-    return Layout(
+    return PageSizes(
         columns=columns,
         place=place,
         name=name,
         rating=rating,
+        group=group,
         cell=cell,
         row=min(HIGHEST_ROW, (room - height - TICKS) / rows),
         top=MARGIN + HEADING + height,
@@ -95,6 +101,11 @@ def layout_of(lines: Sequence[PlayerLine], races: Races, room: float) -> Layout:
 def rating_text(line: PlayerLine) -> str:
     """Return a rating with its standard error."""
     return f"{line.rating} ± {line.error}"
+
+
+def group_text(line: PlayerLine) -> str:
+    """Return the group that a player's rating compares in; empty if that is not to be said."""
+    return str(line.group or "")
 
 
 def slanted_name(line: PlayerLine, size: float) -> str:

@@ -1,18 +1,20 @@
 """A landscape A4 page for text and lines, in inches from its top left corner."""
 
-from __future__ import annotations
-
 import io
 import unicodedata
 from bisect import bisect_right
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-    from matplotlib.font_manager import FontProperties
+import matplotlib as mpl
+from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.ft2font import FT2Font
+from matplotlib.patches import Rectangle
+from matplotlib.textpath import text_to_path
 
 WIDTH, HEIGHT = 11.69, 8.27
 """A4, landscape."""
@@ -39,8 +41,6 @@ class Paper:
     """
 
     def __init__(self) -> None:
-        from matplotlib.figure import Figure
-
         self.figure: Figure = Figure(figsize=(WIDTH, HEIGHT), facecolor="white")
         self._axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
         self._axes.set(xlim=(0.0, WIDTH), ylim=(HEIGHT, 0.0))
@@ -71,8 +71,6 @@ class Paper:
 
     def band(self, left: float, top: float, width: float, height: float, *, grey: str) -> None:
         """Fill a rectangle with a grey from 0 (black) to 1 (white)."""
-        from matplotlib.patches import Rectangle
-
         self._axes.add_patch(Rectangle((left, top), width, height, fc=grey, lw=0, zorder=0))
 
 
@@ -82,9 +80,6 @@ def pdf_bytes(pages: Sequence[Figure], title: str) -> bytes:
     >>> pdf_bytes([Paper().figure], "Empty")[:5]
     b'%PDF-'
     """
-    import matplotlib as mpl
-    from matplotlib.backends.backend_pdf import PdfPages
-
     out = io.BytesIO()
     # No date, no version of matplotlib, and nothing from a matplotlibrc.
     metadata: Any = {"Title": title, "Creator": None, "Producer": None, "CreationDate": None}
@@ -118,8 +113,6 @@ def width_of(text: str, size: float) -> float:
     >>> round(width_of("7:4", 72), 1)
     1.6
     """
-    from matplotlib.textpath import text_to_path
-
     font = _font(False).copy()
     font.set_size(size)
     width, _, _ = text_to_path.get_text_width_height_descent(drawable(text), font, ismath=False)
@@ -141,22 +134,16 @@ def shortened(text: str, size: float, width: float) -> str:
 
 
 def _file(bold: bool) -> Path:
-    import matplotlib as mpl
-
     # The font that comes with matplotlib: another of the same name could look different.
     return Path(mpl.get_data_path(), "fonts", "ttf", f"DejaVuSans{'-Bold' if bold else ''}.ttf")
 
 
 @cache
 def _font(bold: bool) -> FontProperties:
-    from matplotlib.font_manager import FontProperties
-
     return FontProperties(fname=_file(bold))
 
 
 @cache
 def _letters() -> frozenset[int]:
-    from matplotlib.ft2font import FT2Font
-
     font = FT2Font(str(_file(bold=False)))
     return frozenset(code for code in font.get_charmap() if chr(code).isprintable())

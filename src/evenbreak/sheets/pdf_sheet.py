@@ -1,15 +1,15 @@
 """The fair-race sheet on paper: the race against each opponent, and each rating, to pin up."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.figure import Figure
 
 from evenbreak.answers.left_out import left_out
-from evenbreak.answers.report_frames import file_name
-from evenbreak.answers.sheet import Sheet
+from evenbreak.answers.report_frames import count_groups, file_name
+from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
 from evenbreak.answers.sheet_words import (
     about_ratings,
     how_even,
@@ -19,14 +19,18 @@ from evenbreak.answers.sheet_words import (
     source_and_dates,
     version_and_source,
 )
+from evenbreak.plots.picture import our_look
 from evenbreak.sheets.pdf_layout import (
     GAP,
+    GROUP,
     HEADING,
     LARGEST,
     MOST_ON_A_PAGE,
+    NOTE,
     SLANT,
-    Layout,
-    layout_of,
+    PageSizes,
+    group_text,
+    page_sizes,
     rating_text,
     slanted_name,
 )
@@ -44,19 +48,14 @@ from evenbreak.sheets.pdf_page import (
 from evenbreak.sheets.race_blocks import Block, parts_of, race_blocks
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, Tick, player_lines
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-MOST_PAIRED = 48
-"""Players that are put on paper; the files hold all."""
-
-SMALL, LEADING = 8.0, 1.45
-"""The size of notes, in points, and the height of a line of text for each point."""
+LEADING = 1.45
+"""The height of a line of text, for each point of its size."""
 
 
 def sheet_pdf(sheet: Sheet) -> bytes:
     """Return the sheet as a PDF document, the same bytes every time."""
-    return pdf_bytes(sheet_pages(sheet), f"Fair races from {file_name(sheet.file)}")
+    with our_look():
+        return pdf_bytes(sheet_pages(sheet), f"Fair races from {file_name(sheet.file)}")
 
 
 def sheet_pages(sheet: Sheet) -> list[Figure]:
@@ -64,8 +63,8 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
 
     Each line is a player: the fairest race against each opponent, the rating, and a bar of
     two standard errors of it either way. A league too large for a page is cut into blocks,
-    each a page; of more than 48 paired players the 48 strongest are on paper. White squares
-    stand for letters that the font lacks.
+    each a page; of more than `MOST_ON_SHEET` paired players the strongest are on paper. White
+    squares stand for letters that the font lacks.
 
     >>> from evenbreak.answers.offered_races import OfferedRaces
     >>> from evenbreak.files.results import ResultsFile
@@ -75,28 +74,29 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
     >>> len(sheet_pages(Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2])))
     1
     """
-    shown = sheet.strongest(MOST_PAIRED)
+    shown = sheet.strongest(MOST_ON_SHEET)
     bars = Bars(shown.listed)
-    lines = player_lines(shown.listed, sheet.ratings.scale, bars, grouped=False)
+    grouped = count_groups(sheet.ratings) > 1
+    lines = player_lines(shown.listed, sheet.ratings.scale, bars, grouped=grouped)
     notes = _broken(
         [*_notes(sheet, shown), *_about_names(lines, len(sheet.rated)), version_and_source(sheet)]
     )
-    room = HEIGHT - 2 * MARGIN - HEADING - len(notes) * LEADING * SMALL / POINTS
-    layout = layout_of(lines, shown.races, room)
+    room = HEIGHT - 2 * MARGIN - HEADING - len(notes) * LEADING * NOTE / POINTS
+    sizes = page_sizes(lines, shown.races, room)
     blocks = [
         (down, block)
         for down in parts_of(lines, MOST_ON_A_PAGE)
-        for block in race_blocks(lines, shown.races, layout.columns)
+        for block in race_blocks(lines, shown.races, sizes.columns)
     ]
     pages = []
     for number, (down, block) in enumerate(blocks, 1):
         page = Paper()
         _heading(page, sheet, shown)
-        bottom = _Table(page, layout, down, block, bars.ticks()).draw()
+        bottom = _Table(page, sizes, down, block, bars.ticks()).draw()
         _lines(page, bottom + 0.42, notes)
         if len(blocks) > 1:
             text = f"page {number} of {len(blocks)}"
-            page.text(WIDTH - MARGIN, HEIGHT - MARGIN, text, size=SMALL, ha="right")
+            page.text(WIDTH - MARGIN, HEIGHT - MARGIN, text, size=NOTE, ha="right")
         pages.append(page.figure)
     return pages
 
@@ -129,13 +129,13 @@ def _about_names(lines: Sequence[PlayerLine], rated: int) -> Iterator[str]:
 
 def _broken(notes: Sequence[str]) -> list[str]:
     """Return notes as lines, those that are wider than the page broken."""
-    letters = int((WIDTH - 2 * MARGIN) * POINTS / SMALL / 0.58)
+    letters = int((WIDTH - 2 * MARGIN) * POINTS / NOTE / 0.58)
     return [part for note in notes for part in textwrap.wrap(note, letters)]
 
 
 def _lines(page: Paper, y: float, lines: Sequence[str]) -> None:
     for k, line in enumerate(lines):
-        page.text(MARGIN, y + k * LEADING * SMALL / POINTS, line, size=SMALL)
+        page.text(MARGIN, y + k * LEADING * NOTE / POINTS, line, size=NOTE)
 
 
 @dataclass(frozen=True)
@@ -143,17 +143,17 @@ class _Table:
     """The part of the sheet that is on one page: some players against some others."""
 
     page: Paper
-    layout: Layout
+    sizes: PageSizes
     down: Sequence[PlayerLine]
     block: Block
     ticks: Sequence[Tick]
 
     def draw(self) -> float:
         """Draw it all, and return where the table ends."""
-        layout, end = self.layout, self._bars[1]
+        sizes, end = self.sizes, self._bars[1]
         for k in range(0, len(self.down), 2):
-            top = layout.top + k * layout.row
-            self.page.band(MARGIN, top, end - MARGIN, layout.row, grey="0.945")
+            top = sizes.top + k * sizes.row
+            self.page.band(MARGIN, top, end + sizes.group - MARGIN, sizes.row, grey="0.945")
         self._draw_names()
         self._draw_races()
         self._draw_ratings()
@@ -161,63 +161,66 @@ class _Table:
 
     @property
     def _bottom(self) -> float:
-        return self.layout.top + self.layout.row * len(self.down)
+        return self.sizes.top + self.sizes.row * len(self.down)
 
     @property
     def _bars(self) -> tuple[float, float]:
-        return self.layout.bars(len(self.block.across))
+        return self.sizes.bars(len(self.block.across))
 
     def _middles(self) -> Iterator[tuple[float, PlayerLine]]:
         for k, line in enumerate(self.down):
-            yield self.layout.top + (k + 0.5) * self.layout.row, line
+            yield self.sizes.top + (k + 0.5) * self.sizes.row, line
 
     def _draw_names(self) -> None:
-        layout, page = self.layout, self.page
-        look: dict[str, Any] = {"size": layout.text_size}
+        sizes, page = self.sizes, self.page
+        look: dict[str, Any] = {"size": sizes.text_size}
         for y, line in self._middles():
-            x = MARGIN + layout.place
+            x = MARGIN + sizes.place
             page.centred(x, y, str(line.place), ha="right", color="0.35", **look)
-            name = shortened(line.name, layout.text_size, layout.name)
+            name = shortened(line.name, sizes.text_size, sizes.name)
             page.centred(x + GAP, y, name, ha="left", **look)
         for column, line in enumerate(self.block.across):
-            x = layout.left + (column + 0.5) * layout.cell + 0.03
-            size = layout.slant_size
-            page.slanted(x, layout.top - 0.06, slanted_name(line, size), size=size, angle=SLANT)
+            x = sizes.left + (column + 0.5) * sizes.cell + 0.03
+            size = sizes.slant_size
+            page.slanted(x, sizes.top - 0.06, slanted_name(line, size), size=size, angle=SLANT)
 
     def _draw_races(self) -> None:
-        layout, page = self.layout, self.page
+        sizes, page = self.sizes, self.page
         races = dict(self.block.rows)
         for y, line in self._middles():
             for column, race in enumerate(races[line]):
-                x = layout.left + column * layout.cell
+                x = sizes.left + column * sizes.cell
                 if race is None:
-                    page.band(x, y - layout.row / 2, layout.cell, layout.row, grey="0.78")
+                    page.band(x, y - sizes.row / 2, sizes.cell, sizes.row, grey="0.78")
                 else:
-                    page.centred(x + layout.cell / 2, y, race, size=layout.race_size)
-        right = layout.right(len(self.block.across))
+                    page.centred(x + sizes.cell / 2, y, race, size=sizes.race_size)
+        right = sizes.right(len(self.block.across))
         for k in range(len(self.down) + 1):
-            y = layout.top + k * layout.row
-            page.line([layout.left, right], [y, y], color="0.55", lw=0.4)
+            y = sizes.top + k * sizes.row
+            page.line([sizes.left, right], [y, y], color="0.55", lw=0.4)
         for column in range(len(self.block.across) + 1):
-            x = layout.left + column * layout.cell
-            page.line([x, x], [layout.top, self._bottom], color="0.55", lw=0.4)
+            x = sizes.left + column * sizes.cell
+            page.line([x, x], [sizes.top, self._bottom], color="0.55", lw=0.4)
 
     def _draw_ratings(self) -> None:
-        layout, page = self.layout, self.page
+        sizes, page = self.sizes, self.page
         start, end = self._bars
 
         def place(at: float) -> float:
             return start + (end - start) * at / 100
 
         for tick in self.ticks:
-            page.line([place(tick.at)] * 2, [layout.top, self._bottom], color="0.75")
-            page.centred(place(tick.at), self._bottom + 0.1, tick.label, size=SMALL)
+            page.line([place(tick.at)] * 2, [sizes.top, self._bottom], color="0.75")
+            page.centred(place(tick.at), self._bottom + 0.1, tick.label, size=NOTE)
         for y, line in self._middles():
-            size = layout.text_size
-            text = shortened(rating_text(line), size, layout.rating)
+            size = sizes.text_size
+            text = shortened(rating_text(line), size, sizes.rating)
             page.centred(start - GAP, y, text, size=size, ha="right")
             ends = [place(line.low), place(line.high)]
             page.line(ends, [y, y], color="0.45", lw=2.2, solid_capstyle="butt")
             page.line([place(line.middle)], [y], marker="o", ms=4.5)
+            page.centred(end + sizes.group, y, group_text(line), size=size, ha="right")
+        if sizes.group:
+            page.text(end + sizes.group, sizes.top - 0.06, GROUP, size=NOTE, ha="right")
         for k, text in enumerate(("bar: two of them either way", "rating ± standard error")):
-            page.text(end, layout.top - 0.06 - 0.15 * k, text, size=SMALL, ha="right")
+            page.text(end, sizes.top - 0.06 - 0.15 * k, text, size=NOTE, ha="right")

@@ -1,16 +1,13 @@
 """The table of races cut into blocks of columns, and each player's races by themselves."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import pandas as pd
 
 from evenbreak.answers.sheet import NO_RACE
 from evenbreak.sheets.rating_bars import PlayerLine
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 Races = Mapping[tuple[str, str], str]
 """The race of each two players, from the side of the first."""

@@ -1,15 +1,14 @@
 """Ratings with their bars, on an axis from 0 to 100 per cent, for pages and for paper."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import matplotlib as mpl
+import pandas as pd
+from matplotlib.ticker import MaxNLocator
 
 from evenbreak.answers.scale_words import decimals_of
 from evenbreak.ratings.scale import Scale
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 NOT_OVER_THE_EDGE = (4, 96)
 """A label nearer to an end of the axis would hang over it."""
@@ -68,12 +67,20 @@ class Bars:
 
     def ticks(self) -> list[Tick]:
         """Return the marks on the axis."""
-        from matplotlib.ticker import MaxNLocator
-
-        found = MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]).tick_values(self.low, self.high)
-        ticks = [Tick(self.place(float(tick)), f"{tick:g}") for tick in found]
+        found = round_numbers(self.low, self.high, most=6, steps=[1, 2, 2.5, 5, 10])
+        ticks = [Tick(self.place(tick), f"{tick:g}") for tick in found]
         least, most = NOT_OVER_THE_EDGE
         return [tick for tick in ticks if least < tick.at < most]
+
+
+def round_numbers(low: float, high: float, *, most: int, steps: list[float]) -> list[float]:
+    """Return the round numbers that mark an axis, about `most` of them.
+
+    >>> round_numbers(0.0, 100.0, most=5, steps=[1, 2, 5, 10])
+    [0.0, 20.0, 40.0, 60.0, 80.0, 100.0]
+    """
+    with mpl.rc_context({"axes.autolimit_mode": "data"}):  # whatever the reader's own settings
+        return list(map(float, MaxNLocator(nbins=most, steps=steps).tick_values(low, high)))
 
 
 def player_lines(

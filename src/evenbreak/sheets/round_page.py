@@ -1,36 +1,24 @@
 """The races of a round as one HTML file: for the wall, a phone and a screen reader."""
 
-from __future__ import annotations
-
+from collections import defaultdict
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 import numpy as np
+import pandas as pd
 
-from evenbreak.answers.remarks import warnings_of
-from evenbreak.answers.report_frames import file_name
+from evenbreak.answers.matchups import matchups_answer
 from evenbreak.answers.round import Round
-from evenbreak.answers.round_words import (
-    about_method,
-    about_model,
-    about_pairs,
-    about_players,
-    evening_words,
-    races_of,
-    which_races,
-)
-from evenbreak.answers.scale_words import scale_words
+from evenbreak.answers.round_words import races_of
 from evenbreak.answers.sheet import NO_RACE, races_by_name
 from evenbreak.answers.sheet_words import how_even, how_to_read
 from evenbreak.answers.wording import race
 from evenbreak.errors import InputError
 from evenbreak.files.csv_writer import rows_of
-from evenbreak.sheets.html_page import html_page
-from evenbreak.sheets.race_blocks import Block, RaceCard, race_blocks, race_cards
+from evenbreak.sheets.answer_page import Section, drawn_page
+from evenbreak.sheets.html_page import drawn
+from evenbreak.sheets.race_blocks import race_blocks, race_cards
 from evenbreak.sheets.rating_bars import Bars, PlayerLine, player_lines
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MOST_ACROSS = 48
 """The most players whose races against each other stand on a page."""
@@ -39,41 +27,19 @@ MOST_MATCHES = 500
 """The most matches of a list on a page."""
 
 
-class MatchLine(NamedTuple):
-    """A match as the page shows it; the numbers of one without a race are empty."""
-
-    a: PlayerLine
-    b: PlayerLine
-    needs_a: str
-    needs_b: str
-    chance: str = ""
-    chance_b: str = ""
-    games: str = ""
-    games_p90: str = ""
-    minutes: str = ""
-    minutes_p90: str = ""
-    fairest: str = ""
-    fairest_chance: str = ""
-
-
-class Kind(NamedTuple):
-    """All races of one kind: by the chart, or the fairest."""
-
-    id: str
-    title: str
-    which_races: str
-    how_to_read: str
-    blocks: Sequence[Block]
-    cards: Sequence[RaceCard]
-    remarks: Sequence[str]
-
-
-def round_html(tonight: Round) -> bytes:
+def round_html(tonight: Round, *, warnings: Sequence[str] = ()) -> bytes:
     """Return the races of a round as one HTML file that asks no other host for anything.
 
     A list of matches becomes a table with the races in large letters and room for the
     scores; all pairs of a roster become a table with names on both sides, on a narrow page
-    each player's races, and the ratings below it.
+    each player's races, and the ratings below it. All else is what `matchups_answer` says.
+
+    Parameters
+    ----------
+    tonight
+        the round.
+    warnings
+        as for `matchups_answer`.
 
     Returns
     -------
@@ -103,30 +69,17 @@ def round_html(tonight: Round) -> bytes:
     bars = Bars(rated)
     grouped = bool(rated["component"].max() > 1)
     lines = player_lines(rated, tonight.scale, bars, grouped=grouped)
-    kinds = [] if tonight.listed else [_kind(tonight, prefix, lines) for prefix in tonight.kinds]
-    links = [(kind.id, kind.title) for kind in kinds]
-    links += [("ratings", "Ratings")] if kinds else [("matches", "Matches")]
-    return html_page(
-        "round.html",
-        title=f"Races of the round from {file_name(tonight.file)}",
-        source=file_name(tonight.file),
-        links=[*links, ("assumed", "What was assumed")],
-        evening=list(map(evening_words, tonight.evening)),
-        which_races=[which_races(tonight, prefix) for prefix in tonight.kinds],
-        matches=_matches(tonight, lines) if tonight.listed else [],
-        both=len(tonight.kinds) > 1,
-        minutes=tonight.minutes_per_game is not None,
-        about_pairs=list(about_pairs(tonight.matchups.frame)),
-        kinds=kinds,
-        about_ratings=[f"Ratings {scale_words(tonight.scale)}."],
-        lines=lines,
-        ticks=bars.ticks(),
-        assumed=[
-            *about_players(tonight),
-            *about_method(tonight),
-            *warnings_of(tonight.file),
-        ],
-        model=about_model(tonight),
+    if tonight.listed:
+        minutes, both = tonight.pace is not None, len(tonight.kinds) > 1
+        drawing = drawn("matches", _matches(tonight, lines), minutes, both)
+        sections = [Section("matches", "Matches", drawing)]
+    else:
+        sections = [_races(tonight, prefix, lines) for prefix in tonight.kinds]
+        sections.append(Section("ratings", "Ratings", drawn("ratings", lines, bars.ticks())))
+    return drawn_page(
+        matchups_answer(tonight, warnings=warnings),
+        [sections],
+        notes=("assumed", "What was assumed", ""),
         made_of="a list of players",
         file=tonight.file,
     )
@@ -135,15 +88,19 @@ def round_html(tonight: Round) -> bytes:
 def _check(tonight: Round, players: int) -> None:
     matches = len(tonight.pairs)
     if tonight.listed and matches > MOST_MATCHES:
-        raise InputError(f"there are {matches:,} matches; give {MOST_MATCHES:,} at most")
+        raise InputError(
+            f"{matches:,} matches are too many for a page, which holds {MOST_MATCHES} at most; "
+            "make a list and a page for each part of the round"
+        )
     if not tonight.listed and players > MOST_ACROSS:
-        raise InputError(f"there are {players:,} players; give {MOST_ACROSS} at most, or a list")
+        raise InputError(
+            f"{players:,} players are too many for a page, which holds all pairs of {MOST_ACROSS} "
+            "at most; name those who meet with --pairs PAIRS.csv"
+        )
 
 
 def _rated(tonight: Round) -> pd.DataFrame:
     """Return the players who are on the page, the strongest first."""
-    import pandas as pd
-
     roster = tonight.roster
     here = np.unique(tonight.pairs)
     order = here[np.argsort(-roster.rating[here], kind="stable")]
@@ -156,22 +113,20 @@ def _rated(tonight: Round) -> pd.DataFrame:
     )
 
 
-def _kind(tonight: Round, prefix: str, lines: Sequence[PlayerLine]) -> Kind:
+def _races(tonight: Round, prefix: str, lines: Sequence[PlayerLine]) -> Section:
     paired = races_of(tonight.matchups.frame, prefix)
     races = races_by_name(paired)
+    blocks, cards = race_blocks(lines, races), race_cards(lines, races, paired)
+    table = drawn("races", blocks, cards, how_to_read(paired))
     first = prefix == next(iter(tonight.kinds))
-    return Kind(
+    return Section(
         "races" if first else "fairest",
         "The races" if first else "The fairest races",
-        which_races(tonight, prefix),
-        how_to_read(paired),
-        race_blocks(lines, races),
-        race_cards(lines, races, paired),
-        list(how_even(paired)),
+        table + drawn("sentences", list(how_even(paired))),
     )
 
 
-def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[MatchLine]:
+def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[dict[str, Any]]:
     by_name = {line.name: line for line in lines}
     main, *others = tonight.kinds
     frame = tonight.matchups.frame
@@ -179,28 +134,21 @@ def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[MatchLine]:
     for values in rows_of(frame):
         row: dict[str, Any] = dict(zip(frame.columns, values, strict=True))
         a, b = by_name[row["player_a"]], by_name[row["player_b"]]
+        # What is not set is empty on the page.
+        match: dict[str, Any] = defaultdict(str, a=a, b=b, needs_a=NO_RACE, needs_b=NO_RACE)
+        matches.append(match)
         if row["difference"] is None:
-            matches.append(MatchLine(a, b, NO_RACE, NO_RACE))
             continue
         # Rounded first, so that the two chances are 1 together.
         chance = round(row[f"{main}p_win_a"], 2)
-        match = MatchLine(
-            a,
-            b,
-            f"{row[f'{main}race_a']}",
-            f"{row[f'{main}race_b']}",
-            f"{chance:.2f}",
-            f"{1.0 - chance:.2f}",
-            f"{row[f'{main}mean_games']:.1f}",
-            f"{row[f'{main}games_p90']}",
-        )
-        if tonight.minutes_per_game is not None:
-            match = match._replace(
-                minutes=f"{row[f'{main}mean_minutes']:.0f}",
-                minutes_p90=f"{row[f'{main}minutes_p90']:.0f}",
-            )
+        match |= {f"needs_{side}": str(row[f"{main}race_{side}"]) for side in "ab"}
+        match |= {"chance": f"{chance:.2f}", "chance_b": f"{1.0 - chance:.2f}"}
+        match["games"] = f"{row[f'{main}mean_games']:.1f}"
+        match["games_p90"] = str(row[f"{main}games_p90"])
+        if tonight.pace is not None:
+            match["minutes"] = f"{row[f'{main}mean_minutes']:.0f}"
+            match["minutes_p90"] = f"{row[f'{main}minutes_p90']:.0f}"
         if others:
-            fairest = race((row["race_a"], row["race_b"]))
-            match = match._replace(fairest=fairest, fairest_chance=f"{row['p_win_a']:.2f}")
-        matches.append(match)
+            match["fairest"] = race((row["race_a"], row["race_b"]))
+            match["fairest_chance"] = f"{row['p_win_a']:.2f}"
     return matches

@@ -1,37 +1,31 @@
 """The fair-race sheet as one HTML file: for a phone, a screen, a printer and a screen reader."""
 
-from __future__ import annotations
+from dataclasses import replace
 
-from evenbreak.answers.left_out import left_out
-from evenbreak.answers.remarks import warnings_of
-from evenbreak.answers.report_frames import count_groups, file_name
+from evenbreak.answers.left_out import NOTHING_LEFT_OUT
+from evenbreak.answers.report import report_answer
+from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.scale_words import decimals_of
-from evenbreak.answers.sheet import Sheet
-from evenbreak.answers.sheet_words import (
-    about_model,
-    about_ratings,
-    how_even,
-    how_rated,
-    how_to_read,
-    played,
-    source_and_dates,
-)
+from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
+from evenbreak.answers.sheet_words import how_even, how_to_read
 from evenbreak.answers.sure_pairs import how_sure, three_pairs
+from evenbreak.sheets.answer_page import Section, drawn_page
 from evenbreak.sheets.evenness_plot import HEIGHT, WIDTH, evenness_plot
-from evenbreak.sheets.html_page import html_page
+from evenbreak.sheets.html_page import drawn
 from evenbreak.sheets.race_blocks import race_blocks, race_cards
 from evenbreak.sheets.rating_bars import Bars, player_lines
 
-MOST_LISTED, MOST_IN_TABLE = 500, 48
-"""Players in the list of ratings and in the table of races; the CSV files hold all."""
+MOST_LISTED = 500
+"""Players in the list of ratings; the CSV files hold all."""
 
 
 def sheet_html(sheet: Sheet) -> bytes:
     """Return the sheet as one HTML file that asks no other host for anything.
 
-    It has no script, and its Content-Security-Policy allows nothing but its own style. A
-    wide page and paper show the table of races, a narrow one each player's races. The 500
-    strongest players are listed, and the races of the 48 strongest of those who are paired.
+    Its Content-Security-Policy allows its own style, the script of its search box, and nothing
+    else. A wide page and paper show the table of races, a narrow one each player's races. The 500
+    strongest players are listed, and the races of the `MOST_ON_SHEET` strongest of those who are
+    paired. All else is what `report_answer` says.
 
     Returns
     -------
@@ -49,39 +43,27 @@ def sheet_html(sheet: Sheet) -> bytes:
     >>> page[:15], "Fair races from season.csv" in page, "://" in page
     ('<!doctype html>', True, False)
     """
-    shown, scale = sheet.strongest(MOST_IN_TABLE), sheet.ratings.scale
+    shown, scale = sheet.strongest(MOST_ON_SHEET), sheet.ratings.scale
     bars = Bars(sheet.rated)
     grouped = count_groups(sheet.ratings) > 1
     lines = player_lines(sheet.rated, scale, bars, grouped=grouped)
     across = [lines[place] for place in shown.listed.index]
     listed = lines[:MOST_LISTED]
-    links = [("races", "Races"), ("ratings", "Ratings")]
-    links += [("chart", "How even")] if shown.sure else []
-    return html_page(
-        "sheet.html",
-        links=[*links, ("sure", "How sure"), ("left-out", "Left out")],
-        title=f"Fair races from {file_name(sheet.file)}",
-        source=source_and_dates(sheet),
-        played=played(sheet),
-        which_races=sheet.offered.in_words,
-        how_to_read=how_to_read(shown.paired),
-        remarks=list(how_even(shown.paired)),
-        blocks=race_blocks(across, shown.races),
-        cards=race_cards(across, shown.races, shown.paired),
-        about_ratings=[*about_ratings(sheet), how_rated(sheet)],
-        lines=listed,
-        ticks=bars.ticks(),
-        bands=shown.bands,
-        decimals=decimals_of(scale),
-        plot=evenness_plot(shown.bands, shown.sure, scale) if shown.sure else None,
-        size=(WIDTH, HEIGHT),
-        how_sure=list(how_sure(scale, shown.sure)),
-        sure=three_pairs(shown.sure),
-        left_out=[
-            *left_out(sheet, listed=len(listed), in_table=len(across)),
-            *warnings_of(sheet.file),
-        ],
-        model=about_model(sheet),
+    blocks, cards = race_blocks(across, shown.races), race_cards(across, shown.races, shown.paired)
+    races = Section("races", "The races", drawn("races", blocks, cards, how_to_read(shown.paired)))
+    ratings = [Section("ratings", "Ratings", drawn("ratings", listed, bars.ticks()))]
+    if shown.sure:
+        plot = evenness_plot(shown.bands, shown.sure, scale, shown.typical_error)
+        first, *_ = how_even(shown.paired)
+        chart = drawn("chart", plot, (WIDTH, HEIGHT), shown.bands, decimals_of(scale), first)
+        ratings.append(Section("chart", "How even the races are", chart))
+    sure = drawn("sure", list(how_sure(scale, shown.sure)), three_pairs(shown.sure))
+    ratings.append(Section("sure", "How sure this is", sure))
+    answer = report_answer(sheet, across=MOST_ON_SHEET, listed=len(listed))
+    return drawn_page(
+        replace(answer, warnings=[*sheet.file.warnings, *answer.warnings]),
+        [[races], ratings],
+        notes=("left-out", "What was left out, and why", NOTHING_LEFT_OUT),
         made_of="results",
         file=sheet.file,
     )

@@ -3,21 +3,18 @@
 Needs XlsxWriter, which the extra `excel` installs.
 """
 
-from __future__ import annotations
-
 import datetime as dt
 import io
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import pandas as pd
+
+from evenbreak.answers.file_warnings import warnings_of
 from evenbreak.answers.left_out import left_out
-from evenbreak.answers.remarks import warnings_of
 from evenbreak.answers.sheet import NO_RACE, Sheet
 from evenbreak.errors import InputError
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MOST_ROWS, MOST_COLUMNS = 1_048_576, 16_384
 """What a sheet of a workbook can hold, the header included."""
@@ -133,8 +130,6 @@ def report_tables(sheet: Sheet) -> dict[str, pd.DataFrame]:
         Ratings; Races, a row and a column for each player; Pairs, a row for each two
         players; Chart, where the races make one; Left out; About.
     """
-    import pandas as pd
-
     tables = {"Ratings": sheet.rated, "Races": race_table(sheet), "Pairs": _with_errors(sheet)}
     if sheet.bands:
         tables["Chart"] = pd.DataFrame(
@@ -159,8 +154,6 @@ def race_table(sheet: Sheet) -> pd.DataFrame:
     The player of the row comes first, then the race against each opponent as text, the games
     of the row's player first; '-' where there is none, empty against oneself.
     """
-    import pandas as pd
-
     names = sheet.listed["player"].tolist()
     rows = [
         (row, *("" if row == other else sheet.races.get((row, other), NO_RACE) for other in names))
@@ -172,14 +165,10 @@ def race_table(sheet: Sheet) -> pd.DataFrame:
 
 def _with_errors(sheet: Sheet) -> pd.DataFrame:
     """Return the pairs with what two standard errors of the difference do to the chance."""
-    import pandas as pd
-
     found = {(pair.player_a, pair.player_b): pair for pair in sheet.sure}
     paired = sheet.paired
     pairs = [found.get(key) for key in zip(paired["player_a"], paired["player_b"], strict=True)]
     more = {
-        "difference": [pair.difference if pair else None for pair in pairs],
-        "difference_error": [pair.error if pair else None for pair in pairs],
         "p_win_a_low": [pair.low if pair else None for pair in pairs],
         "p_win_a_high": [pair.high if pair else None for pair in pairs],
     }

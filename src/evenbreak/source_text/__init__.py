@@ -1,4 +1,4 @@
-"""The source text's tables, figures and numbers, computed anew."""
+"""The tables, figures and numbers of the source text, computed anew."""
 
 import lazy_loader
 

@@ -1,8 +1,6 @@
 from .published import Erratum as Erratum
 from .published import PublishedNumber as PublishedNumber
 from .published import errata as errata
-from .published import further_numbers as further_numbers
-from .published import p5_6_tables as p5_6_tables
 from .published import physics_errata as physics_errata
 from .published import physics_numbers as physics_numbers
 from .published import published_numbers as published_numbers

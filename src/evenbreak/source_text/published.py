@@ -1,38 +1,41 @@
-"""What the source text prints: its numbers, the tables of P5.6 and its slips.
+"""What the source text prints: its numbers and its errata.
 
-The rows come with the package, so that a reader can lay what is computed beside them.
+The rows come with the package, for comparison with what it computes.
 """
 
 from __future__ import annotations
 
-import csv
 from decimal import Decimal
-from importlib.resources import files
 from typing import NamedTuple
+
+from evenbreak.source_text.cells import packaged_rows
 
 
 class PublishedNumber(NamedTuple):
-    """One number of the text, and how near to it a computed one should come.
+    """One number of the text, and how close a computed number should come to it.
 
     Parameters
     ----------
     problem
-        where it stands: a problem such as P5.13, a table, or NPL for the ladder.
+        where it is printed: a problem such as P5.13, a table, or NPL for the ladder.
     quantity, inputs
-        what it is and for what, as text such as `p=0.5 m=8`; together with the problem
-        they name it.
+        what it is, and for which inputs, such as `p=0.5 m=8`; with the problem they identify it.
     printed
-        the number with the digits that are printed; None where nothing is.
+        the number with its printed digits; None if nothing is printed.
     tolerance
-        how far a computed number may be from it. Of an erratum, how far what is computed
-        may be from what is known to be wrong: it does not make the number right.
+        how far a computed number may be from it. An erratum may be within its tolerance and
+        is wrong all the same.
     verdict
-        'agrees'; 'erratum' where the text is off by more than half its last place, see
-        the note; 'derived' where it prints nothing, or nothing that can be read. Sections 1
-        to 4 have two more: 'formula' where the text prints a formula, and `printed` is what
-        it gives for the inputs; 'given' for what the text takes from elsewhere.
+        'agrees'; 'erratum' if the text is off by more than half its last place, see the note;
+        'derived' if it prints nothing, or nothing legible. Sections 1 to 4 have two more:
+        'formula' if the text prints a formula, and `printed` is its value for the inputs;
+        'given' for numbers that the text takes from elsewhere.
     note
-        what there is to say; '' for nothing.
+        a comment, or ''.
+    value_is
+        what `printed` is: 'printed' if the text prints the number; in sections 1 to 4 also
+        'formula' for the value of a printed formula, and 'words' for what the text says without
+        a number; '' if there is no value.
     """
 
     problem: str
@@ -42,26 +45,27 @@ class PublishedNumber(NamedTuple):
     tolerance: Decimal
     verdict: str
     note: str
+    value_is: str = "printed"
 
 
 class Erratum(NamedTuple):
-    """A place where the text is wrong, where there is more to say, or where the copy is lacking.
+    """An error of the text, a remark on it, or a gap in the copy that was read.
 
     Parameters
     ----------
     where
         the problem, table or passage.
     class_
-        'slip' where the text is wrong; 'remark' where it is right, and a reader may still
-        go astray; 'copy' for what is lost in the copy that was read.
+        'slip' if the text is wrong; 'remark' if it is right but easy to misread; 'copy' for
+        what is missing from the copy that was read.
     printed
         what it says, in short.
     correct
-        what it should say, or for a remark what holds; '' where nothing can be said.
+        what it should say, or for a remark what is true; '' if there is nothing to say.
     kind
-        what kind of slip or remark it is, such as 'cut off' for digits that were not rounded.
+        the kind of slip or remark, such as 'cut off' for truncated digits.
     why
-        how it is known.
+        how this is known.
     """
 
     where: str
@@ -73,41 +77,23 @@ class Erratum(NamedTuple):
 
 
 def published_numbers() -> list[PublishedNumber]:
-    """Return the numbers of the problems and tables of section 5, in the order of the text.
+    """Return the numbers of section 5 in the order of the text, a table after its problem.
 
     >>> [number] = [row for row in published_numbers() if row.quantity == "P(run>=100)"]
     >>> number.problem, number.inputs, number.printed
     ('P5.13', 'p=.96', Decimal('0.017'))
     """
-    return _numbers("section5_numbers.csv")
-
-
-def further_numbers() -> list[PublishedNumber]:
-    """Return the numbers that stand in passing in the answers of section 5.
-
-    >>> {row.verdict for row in further_numbers()} <= {"agrees", "erratum", "derived"}
-    True
-    """
-    return _numbers("section5_further.csv")
-
-
-def p5_6_tables() -> list[PublishedNumber]:
-    """Return the cells of the four tables of P5.6: P and W for p = 1/2 and p = 2/3.
-
-    >>> p5_6_tables()[11].inputs, p5_6_tables()[11].printed
-    ('p=1/2 m=1 n=1', Decimal('0.500'))
-    """
-    return _numbers("p5_6_tables.csv")
+    return _numbers("published/section5_numbers.csv")
 
 
 def physics_numbers() -> list[PublishedNumber]:
     """Return the numbers of sections 1 to 4, the physics of the table, in the order of the text.
 
     >>> [number] = [row for row in physics_numbers() if row.quantity == "alpha_crit, deg"]
-    >>> number.problem, number.printed, number.verdict
-    ('P4.19', Decimal('14.963'), 'agrees')
+    >>> number.problem, number.printed, number.value_is, number.verdict
+    ('P4.19', Decimal('14.963'), 'printed', 'agrees')
     """
-    return _numbers("physics_numbers.csv")
+    return _numbers("published/physics_numbers.csv")
 
 
 def physics_errata() -> list[Erratum]:
@@ -116,19 +102,19 @@ def physics_errata() -> list[Erratum]:
     >>> [slip.correct for slip in physics_errata() if slip.where == "P4.15"]
     ['28.126']
     """
-    return [Erratum(*row) for row in _rows("physics_errata.csv")]
+    return [Erratum(*row) for row in packaged_rows("published/physics_errata.csv")]
 
 
 def errata() -> list[Erratum]:
     """Return the slips of section 5, with remarks, in the order of the text.
 
-    >>> errata()[1].where, errata()[1].class_, errata()[1].kind
-    ('P5.7', 'slip', 'last digit')
+    >>> [(slip.class_, slip.kind) for slip in errata() if slip.where == "P5.7"]
+    [('slip', 'last digit')]
     """
-    return [Erratum(*row) for row in _rows("section5_errata.csv")]
+    return [Erratum(*row) for row in packaged_rows("published/section5_errata.csv")]
 
 
-def _numbers(name: str) -> list[PublishedNumber]:
+def _numbers(path: str) -> list[PublishedNumber]:
     return [
         PublishedNumber(
             problem,
@@ -136,14 +122,7 @@ def _numbers(name: str) -> list[PublishedNumber]:
             inputs,
             Decimal(printed) if printed else None,
             Decimal(tolerance),
-            verdict,
-            note,
+            *rest,
         )
-        for problem, quantity, inputs, printed, tolerance, verdict, note in _rows(name)
+        for problem, quantity, inputs, printed, tolerance, *rest in packaged_rows(path)
     ]
-
-
-def _rows(name: str) -> list[list[str]]:
-    """Return the rows of a file of the package below its header."""
-    text = files("evenbreak.source_text").joinpath("published", name).read_text("utf-8")
-    return list(csv.reader(text.splitlines()))[1:]

@@ -1,34 +1,28 @@
-"""The source text as files: tables, problems, printed numbers, figures and the page on top."""
+"""The source text as files: tables, problems, printed numbers, figures and two pages."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Mapping
 
-from evenbreak.files.csv_writer import to_csv
-from evenbreak.plots.diagram import image_bytes
-from evenbreak.source_text.physics.figure_frames import figure_frames as physics_figure_frames
-from evenbreak.source_text.physics.figures import figures as physics_figures
-from evenbreak.source_text.physics.frames import published_physics_frame
-from evenbreak.source_text.physics.numbers import PhysicsFinding, physics_findings
+from evenbreak.plots.picture import image_bytes
+from evenbreak.source_text.answers import physics_findings, section_5_findings
+from evenbreak.source_text.cells import Rows, Tables, csv_bytes
+from evenbreak.source_text.figures import figures
+from evenbreak.source_text.findings import Finding, physics_row_of, row_of
+from evenbreak.source_text.physics.figure_tables import figure_tables as physics_figure_tables
 from evenbreak.source_text.physics.page import physics_page
-from evenbreak.source_text.published import errata, physics_errata
-from evenbreak.source_text.section5.diagrams import diagrams
-from evenbreak.source_text.section5.figures import figures
-from evenbreak.source_text.section5.index import index_page
-from evenbreak.source_text.section5.numbers import Finding, findings
-from evenbreak.source_text.section5.problems import problem_frames, published_frame
+from evenbreak.source_text.published import Erratum, errata, physics_errata
+from evenbreak.source_text.section5.figure_tables import figure_tables
+from evenbreak.source_text.section5.page import section_5_page
+from evenbreak.source_text.section5.problems import problem_tables
 from evenbreak.source_text.section5.tables import (
-    charts_frame,
-    figure_frames,
-    ladder_frame,
-    score_frames,
-    table_frame,
+    chart_rows,
+    eight_ball_rows,
+    ladder_rows,
+    off_rule_rows,
+    score_tables,
+    table_rows,
 )
-
-if TYPE_CHECKING:
-    import pandas as pd
-    from matplotlib.figure import Figure
 
 
 def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, bytes]:
@@ -37,67 +31,53 @@ def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, by
     Parameters
     ----------
     say
-        is told what is being done.
+        is called with a line about each step.
     """
     say("Computing the tables and problems")
-    found = findings()
-    frames = section_frames(found)
-    table_side = physics_frames()
+    statistics, physics = section_5_tables(), physics_tables()
     files = {
-        "index.md": index_page(found, frames).encode(),
-        "physics.md": physics_page(physics_findings(), table_side).encode(),
+        "index.md": section_5_page(section_5_findings(), statistics).encode(),
+        "physics.md": physics_page(physics_findings(), physics).encode(),
     }
-    files |= {f"{name}.csv": to_csv(frame) for name, frame in {**frames, **table_side}.items()}
-    drawn = {**figures(), **diagrams(), **physics_figures()}
+    files |= {f"{name}.csv": csv_bytes(rows) for name, rows in {**statistics, **physics}.items()}
+    drawn = figures()
     say(f"Drawing {len(drawn)} figures")
-    for name, figure in drawn.items():
-        files |= _images(name, figure())
+    for name, draw in drawn.items():
+        figure = draw()
+        files |= {f"{name}.{kind}": image_bytes(figure, kind) for kind in ("png", "svg")}
     return files
 
 
-def section_frames(found: Iterable[Finding]) -> Mapping[str, pd.DataFrame]:
-    """Return every table that is written, by the name of its file without `.csv`."""
-    import pandas as pd
-
-    found = list(found)
+def section_5_tables() -> Tables:
+    """Return the tables of section 5."""
+    found = section_5_findings()
     return {
-        **{f"table_5_{n}": table_frame(found, f"Table 5.{n}") for n in range(1, 6)},
-        "table_5_6": charts_frame(),
-        **problem_frames(found),
-        **score_frames(),
-        "npl_ladder": ladder_frame(found),
-        **figure_frames(),
-        "published": published_frame(found),
-        "errata": pd.DataFrame(errata(), dtype=object).rename(columns={"class_": "class"}),
+        **{f"table_5_{n}": table_rows(found, f"Table 5.{n}") for n in range(1, 6)},
+        "table_5_6": chart_rows(),
+        "table_5_6_off_rule": off_rule_rows(),
+        "drill_8_ball": eight_ball_rows(),
+        **problem_tables(found),
+        **score_tables(),
+        "npl_ladder": ladder_rows(found),
+        **figure_tables(),
+        "published": list(map(row_of, found)),
+        "errata": _errata_rows(errata()),
     }
 
 
-def physics_frames() -> Mapping[str, pd.DataFrame]:
-    """Return the tables of sections 1 to 4, by the name of their file without `.csv`."""
-    import pandas as pd
-
-    slips = pd.DataFrame(physics_errata(), dtype=object)
+def physics_tables() -> Tables:
+    """Return the tables of sections 1 to 4."""
     return {
-        "published_physics": published_physics_frame(physics_findings()),
-        "errata_physics": slips.rename(columns={"class_": "class"}),
-        **physics_figure_frames(),
+        "published_physics": list(map(physics_row_of, physics_findings())),
+        "errata_physics": _errata_rows(physics_errata()),
+        **physics_figure_tables(),
     }
 
 
-def differing(found: Iterable[Finding | PhysicsFinding]) -> Iterator[str]:
-    """Yield a line for each number whose verdict is not the one that is expected.
-
-    >>> list(differing([*physics_findings(), *findings()]))
-    []
-    """
-    for row, computed, verdict in found:
-        if verdict != row.verdict:
-            number = "nothing" if computed is None else f"{computed:.10g}"
-            yield (
-                f"{row.problem}: {row.quantity} ({row.inputs}): printed {row.printed}, "
-                f"computed {number}: {verdict}, not {row.verdict}"
-            )
+def all_findings() -> tuple[Finding, ...]:
+    """Return every number of the text with the computed one."""
+    return (*physics_findings(), *section_5_findings())
 
 
-def _images(name: str, figure: Figure) -> Mapping[str, bytes]:
-    return {f"{name}.{kind}": image_bytes(figure, kind) for kind in ("png", "svg")}
+def _errata_rows(slips: Iterable[Erratum]) -> Rows:
+    return [{name.rstrip("_"): value for name, value in slip._asdict().items()} for slip in slips]

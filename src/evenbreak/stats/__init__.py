@@ -1,6 +1,6 @@
-"""Statistics of scores: what to expect of games won, runs and innings, and what scores tell.
+"""Statistics of scores: games won, runs, innings; intervals, trends and comparisons.
 
-This room knows numbers only: no game, no chain, no file.
+This package knows only numbers: no games, no chains, no files.
 """
 
 import lazy_loader

@@ -1,4 +1,4 @@
-"""Scores after a number of games: the binomial law, exactly and by its normal approximation."""
+"""Games won out of a number of games: the binomial distribution, exact and approximated."""
 
 from __future__ import annotations
 
@@ -6,25 +6,46 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
-from evenbreak.checks import number_probability, probability, whole
+from evenbreak.checks import (
+    floats,
+    number_probability,
+    plain,
+    probability,
+    together,
+    whole,
+    whole_numbers,
+)
 from evenbreak.errors import InputError
-from evenbreak.stats.counts import CountLaw, whole_counts
+from evenbreak.stats.beta_tail import beta_tail
+from evenbreak.stats.counts import CountLaw
 from evenbreak.stats.exact import exact
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from evenbreak.arrays import Floats
+
+
 _NEAR = 1e-9
-"""A range that comes nearer to a coverage than this leaves the decision to what is outside
-it, and that, where it comes as near relatively, to fractions."""
+"""If a range comes nearer than this to the coverage wanted, the chance of the scores outside it
+decides; if that comes as near, relatively, it is decided in fractions."""
 
 
+@overload
+def score_probability(p: Fraction, m: int, n: int) -> Fraction: ...
+@overload
+def score_probability(p: float, m: float, n: float) -> float: ...
+@overload
+def score_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Floats: ...
 def score_probability(p: Any, m: Any, n: Any) -> Any:
-    """Return P(p; m, n), the chance that the score stands m:n after m + n games.
+    """Return P(p; m, n), the chance that the score is m:n after m + n games.
 
     Parameters
     ----------
     p
-        P(player 1 wins a game), the same for every game, whoever won the others.
+        P(player 1 wins a game), the same for every game and independent of the others.
     m, n
         games won by player 1 and by player 2: whole numbers, or arrays of them. p, m and n
         are broadcast together.
@@ -32,18 +53,19 @@ def score_probability(p: Any, m: Any, n: Any) -> Any:
     Returns
     -------
     float, fractions.Fraction or numpy.ndarray
-        a Fraction for a Fraction p and plain m and n, a float for other plain numbers,
+        a Fraction for a Fraction p with plain m and n, a float for other plain numbers,
         otherwise an array.
 
     Raises
     ------
     InputError
-        if p is not a probability, m or n not a whole number, 0 or more, or their shapes do
+        if p is not a probability, m or n is not a whole number from 0 up, or their shapes do
         not broadcast.
 
     Notes
     -----
-    All m + n games are played; no race ends before. Source: problems P5.4 and P5.6.
+    All m + n games are played; there is no race to end earlier. Source: problems P5.3 (in
+    how many orders), P5.4 and P5.6.
 
     >>> score_probability(Fraction(2, 3), 3, 1)
     Fraction(32, 81)
@@ -55,24 +77,16 @@ def score_probability(p: Any, m: Any, n: Any) -> Any:
     if isinstance(p, Fraction) and not hasattr(m, "__len__") and not hasattr(n, "__len__"):
         p, m, n = exact(p), whole(m, "m"), whole(n, "n")
         return math.comb(m + n, m) * p**m * (1 - p) ** n
-    import numpy as np
     from scipy.stats import binom
 
     p = probability(p, "p")
-    m, n = (whole_counts(many, name, at_least=0) for many, name in ((m, "m"), (n, "n")))
-    try:
-        np.broadcast_shapes(np.shape(p), m.shape, n.shape)
-    except ValueError:
-        raise InputError(
-            f"p, m and n have shapes {np.shape(p)}, {m.shape} and {n.shape}; "
-            "give shapes that broadcast together"
-        ) from None
-    found = binom.pmf(m, m + n, p)
-    return found if found.ndim else float(found)
+    m, n = whole_numbers(m, "m", at_least=0), whole_numbers(n, "n", at_least=0)
+    together(p=p, m=m, n=n)
+    return plain(binom.pmf(m, m + n, p))
 
 
 class ScoreRange(NamedTuple):
-    """The scores from `low` to `high`, both included, and P(low <= score <= high)."""
+    """The scores from `low` to `high`, both included, with P(low <= score <= high)."""
 
     low: int
     high: int
@@ -88,18 +102,18 @@ class GamesWon(CountLaw):
     games
         how many games are played, whatever the score.
     p
-        P(player 1 wins a game), the same for every game, whoever won the others. A float
-        means the decimal that it prints as; a `fractions.Fraction` is taken as it is.
+        P(player 1 wins a game), the same for every game and independent of the others. A
+        float means the decimal that it prints as; a `fractions.Fraction` is taken as it is.
 
     Raises
     ------
     InputError
-        if games is not a whole number, 0 or more, or p is not a number from 0 to 1.
+        if games is not a whole number from 0 up, or p is not a number from 0 to 1.
 
     Notes
     -----
-    Source: problems P5.9 and P5.10. Of two modes the text's formula gives the smaller, its
-    words, read strictly, the larger; `modes` has both.
+    Source: problems P5.9 and P5.10. Where there are two modes, the text's formula gives the
+    smaller one; its words, read strictly, give the larger. `modes` has both.
 
     >>> law = GamesWon(120, 0.52)
     >>> law.mean, round(law.sd, 2), law.mode, law.median
@@ -129,12 +143,12 @@ class GamesWon(CountLaw):
 
     @property
     def mode(self) -> int:
-        """The most probable score, the smaller where two are: games p - (1 - p) rounded up."""
+        """The most probable score, games p - (1 - p) rounded up; the smaller one of two."""
         return self.modes[0]
 
     @property
     def modes(self) -> tuple[int, ...]:
-        """The most probable scores: one, or two neighbours of equal probability."""
+        """The most probable scores: one, or two consecutive ones of equal probability."""
         p = exact(self.p)
         # P(score = n) >= P(score = n - 1) as long as n <= (games + 1) p.
         peak = (self.games + 1) * p
@@ -143,49 +157,43 @@ class GamesWon(CountLaw):
 
     @property
     def most(self) -> int:
-        """The largest score that can occur: all games, or none if p is 0."""
+        """The largest possible score: all games, or none if p is 0."""
         return self.games if self.p > 0 else 0
 
-    def probability(self, n: Any) -> Any:
-        """Return P(score = n); a float for a number, an array for an array."""
+    def _probability(self, n: Floats) -> Floats:
         from scipy.stats import binom
 
-        found = binom.pmf(whole_counts(n), self.games, float(self.p))
-        return found if found.ndim else float(found)
+        return binom.pmf(n, self.games, float(self.p))
 
-    def cumulative(self, n: Any) -> Any:
-        """Return P(score <= n); a float for a number, an array for an array."""
-        # The games that are not won are a score too, won with 1 - p each.
-        return self._upper_tail(self.games - whole_counts(n), 1 - exact(self.p))
+    def _cumulative(self, n: Floats) -> Floats:
+        # The games that are lost are a score too: each is lost with chance 1 - p.
+        return self._upper_tail(self.games - n, 1 - exact(self.p))
 
-    def at_least(self, n: Any) -> Any:
-        """Return P(score >= n); a float for a number, an array for an array."""
-        return self._upper_tail(whole_counts(n), exact(self.p))
+    def _at_least(self, n: Floats) -> Floats:
+        return self._upper_tail(n, exact(self.p))
 
-    def _upper_tail(self, n: Any, p: Fraction) -> Any:
+    def _upper_tail(self, n: Floats, p: Fraction) -> Floats:
         import numpy as np
-        from scipy.special import betainc
 
         inside = np.clip(n, 1, max(self.games, 1))
-        tail = betainc(inside, self.games - inside + 1.0, float(p))
-        found = np.where(n <= 0, 1.0, np.where(n > self.games, 0.0, tail))
-        return found if found.ndim else float(found)
+        tail = beta_tail(inside, self.games - inside + 1.0, float(p))
+        return np.where(n <= 0, 1.0, np.where(n > self.games, 0.0, tail))
 
     def exact_cumulative(self, n: int) -> Fraction:
-        """Return P(score <= n) without rounding."""
+        """Return P(score <= n) as a fraction, without rounding."""
         if n >= self.games:
             return Fraction(1)
         if n < 0:
             return Fraction(0)
         p = exact(self.p)
         if 2 * n + 1 == self.games and p == Fraction(1, 2):
-            return p  # at any number of games, where the sum would be long
+            return p  # for any number of games, where the sum would be long
         if 2 * n >= self.games:
             return 1 - _lower_sum(self.games, self.games - n - 1, 1 - p)
         return _lower_sum(self.games, n, p)
 
     def normal_range(self, coverage: float) -> ScoreRange:
-        """Return the scores that a normal law of the same mean and sd expects.
+        """Return the range of scores by the normal distribution of the same mean and sd.
 
         The ends mean -+ z sd, with z = `critical_value(coverage)`, are rounded to the
         nearest score and kept within 0 and `games`.
@@ -193,12 +201,12 @@ class GamesWon(CountLaw):
         Parameters
         ----------
         coverage
-            P(the score is in the range), as the normal law has it: from 0 to below 1.
+            P(the score is in the range), by the normal distribution: from 0 to below 1.
 
         Returns
         -------
         ScoreRange
-            its `probability` is the exact one of the range.
+            its `probability` is the exact probability of the range.
 
         Raises
         ------
@@ -207,8 +215,8 @@ class GamesWon(CountLaw):
 
         Notes
         -----
-        Source: problem P5.10. For 95 % the text starts its range at 51, from 51.67; the
-        nearest score is 52.
+        Source: problem P5.10. For 95% the text starts its range at 51, the whole part of
+        51.67; the nearest score is 52.
 
         >>> GamesWon(120, 0.52).normal_range(0.5)
         ScoreRange(low=59, high=66, probability=0.5349508426730065)
@@ -221,15 +229,15 @@ class GamesWon(CountLaw):
         return ScoreRange(low, high, float(self.between(low, high)))
 
     def exact_range(self, coverage: float) -> ScoreRange:
-        """Return the shortest range of scores that has at least a probability.
+        """Return the shortest range of scores that has at least a given probability.
 
-        Where several ranges are equally short it is the most probable of them, and the
+        Where several ranges are equally short, it is the most probable of them, and the
         lowest of those. Whether a range has the probability is decided without rounding.
 
         Parameters
         ----------
         coverage
-            the probability wanted, from 0 to 1.
+            the least probability of the range, from 0 to 1.
 
         Raises
         ------
@@ -250,12 +258,12 @@ class GamesWon(CountLaw):
     def _widening(self) -> Iterator[tuple[int, int, float]]:
         """Yield ranges that start at the mode and take in the more probable neighbour each time.
 
-        The law has one peak, so each is the most probable range of its length.
+        The distribution has one peak, so each is the most probable range of its length.
         """
         import numpy as np
 
         low = high = self.mode
-        # Farther from the mode than this (Bernstein's inequality) a float chance is 0.
+        # Beyond this distance from the mode (Bernstein's inequality) a float chance is 0.
         reach = 500 + math.ceil(40 * self.sd)
         near = np.arange(max(low - reach, 0), min(low + reach, self.games) + 1)
         chance = dict(zip(near.tolist(), self.probability(near).tolist(), strict=True))
@@ -263,7 +271,7 @@ class GamesWon(CountLaw):
         yield low, high, inside
         while high - low < self.games:
             below, above = chance.get(low - 1, 0.0), chance.get(high + 1, 0.0)
-            # Equal chances, of p = 1/2 above all, differ in floats by their rounding only.
+            # Equal chances, as with p = 1/2, differ only by rounding.
             if low > 0 and (high == self.games or below >= above * (1 - 1e-12)):
                 low -= 1
                 inside += below
@@ -273,16 +281,20 @@ class GamesWon(CountLaw):
             yield low, high, inside
 
     def _holds(self, low: int, high: int, inside: float, wanted: Fraction) -> bool:
-        """Whether P(low <= score <= high), about `inside`, is at least the one wanted."""
+        """Return whether P(low <= score <= high), about `inside`, is at least `wanted`."""
         distance = inside - float(wanted)
         if abs(distance) > _NEAR:
             return distance > 0
         outside, rest = self.cumulative(low - 1) + self.at_least(high + 1), float(1 - wanted)
         if abs(outside - rest) > _NEAR * rest:
-            return bool(outside < rest)
+            return outside < rest
         return self.exact_cumulative(high) - self.exact_cumulative(low - 1) >= wanted
 
 
+@overload
+def critical_value(coverage: float) -> float: ...
+@overload
+def critical_value(coverage: ArrayLike) -> Floats: ...
 def critical_value(coverage: Any) -> Any:
     """Return the z with P(-z <= Z <= z) = coverage, for Z standard normal.
 
@@ -308,13 +320,16 @@ def critical_value(coverage: Any) -> Any:
 
     checked = probability(coverage, "coverage")
     if np.any(np.equal(checked, 1.0)):
-        raise InputError("coverage is 1, and no z is that large; give a number below 1")
-    found = math.sqrt(2) * erfinv(checked)
-    return found if found.ndim else float(found)
+        raise InputError("coverage is 1, which no z reaches; give a number below 1")
+    return plain(math.sqrt(2) * erfinv(checked))
 
 
+@overload
+def coverage_within(z: float) -> float: ...
+@overload
+def coverage_within(z: ArrayLike) -> Floats: ...
 def coverage_within(z: Any) -> Any:
-    """Return P(-z <= Z <= z) for Z standard normal: how much lies within z standard units.
+    """Return P(-z <= Z <= z) for Z standard normal: how much lies within z standard deviations.
 
     Parameters
     ----------
@@ -324,26 +339,19 @@ def coverage_within(z: Any) -> Any:
     Raises
     ------
     InputError
-        if a z is negative or not a number.
+        if z is negative or not a number.
 
     >>> coverage_within([1, 2, 3]).round(4)
     array([0.6827, 0.9545, 0.9973])
     """
-    import numpy as np
     from scipy.special import erf
 
-    try:
-        checked = np.asarray(z, dtype=float)
-    except (TypeError, ValueError):
-        checked = np.asarray(math.nan)
-    if not np.all(checked >= 0):
-        raise InputError(f"z is {z!r}; give a number of standard deviations, 0 or more")
-    found = erf(checked / math.sqrt(2))
-    return found if found.ndim else float(found)
+    checked = floats(z, "z", low=0.0, wanted="a number of standard deviations, 0 or more")
+    return plain(erf(checked / math.sqrt(2)))
 
 
 def _lower_sum(games: int, n: int, p: Fraction) -> Fraction:
-    """Return P(score <= n) by Horner's rule in whole numbers."""
+    """Return P(score <= n), by Horner's rule in whole numbers."""
     won, lost = p.numerator, p.denominator - p.numerator
     total, ways, power = 0, 1, 1
     for k in range(n + 1):

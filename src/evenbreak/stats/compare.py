@@ -1,27 +1,25 @@
 """Whether scores have changed: two lists of them, before and after.
 
-One test was chosen beforehand and carries the answer: Welch's t test, which compares two
-means without taking the two spreads for equal. The others are shown beside it because
-they ask other questions or are often asked for; to pick the one that pleases most would
-be to fool oneself.
+The answer rests on one test, chosen beforehand: Welch's t test, which compares two means
+without assuming equal spreads. The others are there because they answer other questions or
+are often asked for; nobody should pick the most pleasing one afterwards.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from evenbreak.stats.compare_sentence import sentence_of, warnings_of
+import numpy as np
+
+from evenbreak.arrays import Floats
+from evenbreak.stats.binomial import critical_value
 from evenbreak.stats.confidence import checked_scores, open_share, sd_of
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 
 class Scores(NamedTuple):
-    """One list: number, mean and standard deviation (the sample's, n - 1) of its scores."""
+    """One list of scores: their number, mean and sample standard deviation (n - 1)."""
 
     n: int
     mean: float
@@ -31,8 +29,8 @@ class Scores(NamedTuple):
 class Significance(NamedTuple):
     """A test: its statistic, its degrees of freedom, and its two-sided p-value.
 
-    `p_value` is the chance of a statistic at least so far out if both lists come from one
-    law. `freedom` is empty where the test has none.
+    `p_value` is the chance of a statistic at least this extreme if nothing has changed.
+    `freedom` is empty where the test has none.
     """
 
     statistic: float
@@ -43,11 +41,10 @@ class Significance(NamedTuple):
 class Effect(NamedTuple):
     """How large the difference is, whether or not chance explains it.
 
-    `g` is Hedges' g, the difference of the means in units of the pooled standard
-    deviation, freed of the bias that few scores give it, with its interval from `low` to
-    `high`; all three are None where neither list has a spread. `p_after_higher` is the
-    share of all pairs, one score before and one after, in which the later one is higher;
-    equal ones count half.
+    `g` is Hedges' g: the difference of the means in pooled standard deviations, corrected for
+    the bias of few scores, with its interval from `low` to `high`; all three are None where
+    neither list has a spread. `p_after_higher` is the share of all pairs, one score before
+    and one after, in which the later one is higher; ties count half.
     """
 
     g: float | None
@@ -58,40 +55,41 @@ class Effect(NamedTuple):
 
 @dataclass(frozen=True)
 class Comparison:
-    """What two lists of scores say of a change.
+    """What two lists of scores say about a change.
 
     Parameters
     ----------
     before, after
-        the two lists in short.
+        summaries of the two lists.
     difference, low, high
-        mean after less mean before, and its interval by Welch; low and high are None
-        where neither list has a spread.
+        mean after minus mean before, and its interval by Welch; low and high are None where
+        neither list has a spread.
     confidence
         of every interval here.
     welch
         are the two means equal? The test that was chosen; the spreads may differ.
     student
-        are the two means equal, given that the spreads are?
+        are the two means equal, if the spreads are?
     anova
-        the same by analysis of variance: F = t squared, and the same p-value.
+        the same by analysis of variance: F = t squared, with the same p-value.
     variances
-        are the two variances equal? F is that after over that before.
+        are the two variances equal? F is the variance after over the variance before.
     mann_whitney
-        is a score after as often above one before as below it? By ranks, whatever the law.
+        is a score after as often above a score before as below it? By ranks, for scores of
+        any distribution; approximate where there are `ties`.
     chi_squared
-        is one list more often above the median of all scores than the other? Scores equal
-        to that median are left out; without Yates' correction.
+        is one list more often above the median of all scores than the other? Scores equal to
+        that median are left out; without Yates' correction.
     counts
         what chi-squared rests on: (below, above) before, (below, above) after.
+    ties
+        whether any two of the scores are equal.
     effect
         how large the difference is.
-    warnings
-        what to keep in mind, a line each.
 
     Notes
     -----
-    A test that a list cannot bear (no spread, all scores the same) is None.
+    A test is None where the lists do not allow it (no spread, all scores the same).
     """
 
     before: Scores
@@ -107,68 +105,53 @@ class Comparison:
     mann_whitney: Significance | None
     chi_squared: Significance | None
     counts: tuple[tuple[int, int], tuple[int, int]]
+    ties: bool
     effect: Effect
-    warnings: tuple[str, ...]
-
-    @property
-    def sentence(self) -> str:
-        """The answer in words: which way, how much, how sure, and by which test."""
-        return sentence_of(self)
 
 
 def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
-    """Return what two lists of scores say of a change between them.
+    """Return what two lists of scores say about a change between them.
 
     Parameters
     ----------
     before, after
-        two finite numbers or more each: independent scores of one drill, none left out
-        for being bad. For one score after, see `was_it_luck`.
+        two finite numbers or more each: independent scores of one drill, with none left out
+        for being bad. For a single score after, see `was_it_luck`.
     confidence
         of the intervals, between 0 and 1.
-
-    Returns
-    -------
-    Comparison
-        whose `sentence` says it in words; it rests on Welch's test. No test can tell what
-        made the change: a new stroke, more practice or another table.
 
     Raises
     ------
     InputError
-        if a list is no list of two finite numbers or more, or confidence is not between
-        0 and 1.
+        if a list does not hold two finite numbers or more, or confidence is not between 0
+        and 1.
 
     Notes
     -----
-    The end of P5.19 names these tests. Welch (1947); Mann & Whitney (1947), exact where
-    the lists are short and without ties; Mood's median test; Hedges & Olkin (1985) for g
-    and its interval, g +- z sqrt((m + n)/(m n) + g^2 / (2 (m + n))) for m and n scores.
+    No test can say what made the change: a new stroke, more practice or another table. The
+    end of P5.19 names these tests. Welch (1947); Mann & Whitney (1947), exact for short lists
+    without ties; Mood's median test; Hedges & Olkin (1985) for g and its interval,
+    g +- z sqrt((m + n)/(m n) + g^2 / (2 (m + n))) for m and n scores.
 
     >>> found = compare([50, 44, 46, 52, 47, 51, 49, 45, 48, 50], [53, 49, 52, 54, 50, 51])
     >>> round(found.difference, 2), round(found.low, 2), round(found.high, 2)
     (3.3, 0.85, 5.75)
-    >>> print(found.sentence)
-    The mean is 3.30 higher after (95 % interval +0.85 to +5.75). By Welch's t test this is
-    evidence of a change; if nothing had changed, a difference so large, up or down, would come
-    about 1 time in 84. In 84 of 100 pairs of these scores the one after is higher, a tie
-    counting half.
+    >>> round(found.welch.p_value, 4), round(found.effect.p_after_higher, 2)
+    (0.0119, 0.84)
     """
     old, new = checked_scores(before, "before"), checked_scores(after, "after")
     share = open_share(confidence)
-    first, second = _in_short(old), _in_short(new)
+    first, second = _summary(old), _summary(new)
     difference = second.mean - first.mean
-    counts = _about_the_median(old, new)
-    tests: dict[str, Significance | None] = dict.fromkeys(
-        ("welch", "student", "anova", "variances")
-    )
-    low = high = None
+    every = np.concatenate([old, new])
+    middle = np.median(every)
+    sides = [(int(np.sum(scores < middle)), int(np.sum(scores > middle))) for scores in (old, new)]
+    counts = sides[0], sides[1]
+    low = high = welch = student = anova = None
     if first.sd or second.sd:
-        tests["welch"], half = _welch(first, second, share)
+        welch, half = _welch(first, second, share)
         low, high = difference - half, difference + half
-        tests["student"], tests["anova"] = _equal_spreads(first, second)
-    if first.sd and second.sd:
-        tests["variances"] = _variances(first, second)
+        student, anova = _equal_spreads(first, second)
     wins, rank_test = _ranks(old, new)
     return Comparison(
         before=first,
@@ -177,18 +160,19 @@ def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
         low=low,
         high=high,
         confidence=share,
-        **tests,
+        welch=welch,
+        student=student,
+        anova=anova,
+        variances=_variances(first, second) if first.sd and second.sd else None,
         mann_whitney=rank_test,
         chi_squared=_chi_squared(counts),
         counts=counts,
+        ties=np.unique(every).size < every.size,
         effect=_effect(first, second, share, wins),
-        warnings=warnings_of(
-            first, second, counts, ties=rank_test is not None and _any_equal(old, new)
-        ),
     )
 
 
-def _in_short(scores: NDArray[np.float64]) -> Scores:
+def _summary(scores: Floats) -> Scores:
     sd = sd_of(scores)
     return Scores(scores.size, float(scores.mean() if sd else scores[0]), sd)
 
@@ -214,7 +198,7 @@ def _equal_spreads(before: Scores, after: Scores) -> tuple[Significance, Signifi
 
     freedom = float(before.n + after.n - 2)
     t = ttest_ind_from_stats(after.mean, after.sd, after.n, before.mean, before.sd, before.n)
-    # scipy's f_oneway takes sums of squares from one another, and of equal means makes NaN.
+    # scipy's f_oneway subtracts sums of squares, which makes NaN of equal means.
     ratio = float(t.statistic) ** 2
     return (
         Significance(float(t.statistic), (freedom,), float(t.pvalue)),
@@ -231,8 +215,8 @@ def _variances(before: Scores, after: Scores) -> Significance:
     return Significance(ratio, freedom, min(1.0, 2.0 * float(smaller)))
 
 
-def _ranks(old: NDArray[np.float64], new: NDArray[np.float64]) -> tuple[float, Significance | None]:
-    """Return the share of pairs that the later score wins, and the test by ranks."""
+def _ranks(old: Floats, new: Floats) -> tuple[float, Significance | None]:
+    """Return the share of pairs in which the later score is higher, and the test by ranks."""
     from scipy.stats import mannwhitneyu
 
     found = mannwhitneyu(new, old, alternative="two-sided")
@@ -240,24 +224,6 @@ def _ranks(old: NDArray[np.float64], new: NDArray[np.float64]) -> tuple[float, S
     if min(old.min(), new.min()) == max(old.max(), new.max()):
         return wins, None
     return wins, Significance(float(found.statistic), (), float(found.pvalue))
-
-
-def _any_equal(old: NDArray[np.float64], new: NDArray[np.float64]) -> bool:
-    import numpy as np
-
-    return np.unique(np.concatenate([old, new])).size < old.size + new.size
-
-
-def _about_the_median(
-    old: NDArray[np.float64], new: NDArray[np.float64]
-) -> tuple[tuple[int, int], tuple[int, int]]:
-    import numpy as np
-
-    middle = np.median(np.concatenate([old, new]))
-    before, after = (
-        (int(np.sum(scores < middle)), int(np.sum(scores > middle))) for scores in (old, new)
-    )
-    return before, after
 
 
 def _chi_squared(counts: tuple[tuple[int, int], tuple[int, int]]) -> Significance | None:
@@ -272,8 +238,6 @@ def _chi_squared(counts: tuple[tuple[int, int], tuple[int, int]]) -> Significanc
 
 def _effect(before: Scores, after: Scores, confidence: float, wins: float) -> Effect:
     from scipy.special import gammaln
-
-    from evenbreak.stats.binomial import critical_value
 
     m, n = before.n, after.n
     freedom = m + n - 2

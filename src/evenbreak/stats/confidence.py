@@ -1,8 +1,8 @@
-"""What a list of scores tells: of the true mean behind it, and of one score more.
+"""What a list of scores says about the true mean, and about one more score.
 
-Two laws are at hand for both questions. The normal law takes the spread of the scores
-(their population standard deviation) for the true one; Student's t allows for the spread
-being estimated from the same few scores. With 10 scores the difference is worth having.
+Two distributions can answer both questions. The normal distribution takes the spread of the
+scores (their population standard deviation) for the true one; Student's t allows for the
+spread being estimated from the same few scores. With 10 scores the difference matters.
 """
 
 from __future__ import annotations
@@ -10,20 +10,18 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from evenbreak.checks import number_probability, one_of, whole
+from evenbreak.checks import floats, number, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.stats.binomial import critical_value
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from evenbreak.arrays import Floats
 
 LARGEST = 1e9
-"""The largest score, up or down: beyond it a slip of the pen is likelier than a score."""
-
+"""The largest score allowed, positive or negative; beyond it a typing error is more likely."""
 
 SMALLEST_SPREAD = 1e-60
-"""Scores that differ by less count as equal: the square of a square of it still is a number."""
+"""Scores that differ by less count as equal: its fourth power is still a float."""
 
 
 def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
@@ -36,27 +34,25 @@ def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
     n
         how many are drawn.
     population
-        how many values there are, each of which is drawn once at most (without
-        replacement); None where each draw is from all of them (with replacement, or
-        from so many that it makes no difference).
+        how many values there are, if each is drawn at most once (without replacement);
+        None if every draw is from all of them (with replacement, or from so many that it
+        makes no difference).
 
     Raises
     ------
     InputError
-        if sd is not a number from 0 on, n not a whole number from 1 on, or population
-        less than n.
+        if sd is not a number from 0 up, n is not a whole number from 1 up, or population
+        is less than n.
 
     Notes
     -----
-    P5.18: sd / sqrt(n), times sqrt((N - n) / (N - 1)) where N values are drawn from
-    without replacement; a mean of all of them is certain.
+    P5.18: sd / sqrt(n), times sqrt((N - n) / (N - 1)) for a draw without replacement from N
+    values; the mean of all of them is certain.
 
     >>> round(sd_of_mean(2.5**0.5, 2), 4), round(sd_of_mean(2.5**0.5, 2, population=4), 4)
     (1.118, 0.9129)
     """
-    spread = _number(sd, "sd")
-    if spread < 0.0:
-        raise InputError(f"sd is {sd!r}; give a number from 0 on")
+    spread = number(sd, "sd", low=0.0)
     n = whole(n, "n", at_least=1)
     if population is None:
         return spread / math.sqrt(n)
@@ -69,9 +65,9 @@ def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
 class MeanInterval(NamedTuple):
     """An interval for the true mean of scores, and what it was made from.
 
-    `low` to `high` is made so that, of many lists of scores, the share `confidence` of
-    their intervals cover the true mean. `sd` is the sample's (n - 1) for "t", the
-    population's (n) for "normal"; `sd_of_mean` is that over sqrt(n).
+    Over many lists of scores, the share `confidence` of the intervals `low` to `high` contain
+    the true mean. `sd` is the sample's (n - 1) for "t" and the population's (n) for "normal";
+    `sd_of_mean` is that divided by sqrt(n).
     """
 
     low: float
@@ -87,29 +83,28 @@ class MeanInterval(NamedTuple):
 def mean_interval(
     scores: Any, confidence: float = 0.95, *, method: Literal["t", "normal"] = "t"
 ) -> MeanInterval:
-    """Return the interval in which the true mean of scores lies, with a given confidence.
+    """Return an interval for the true mean of scores, with a given confidence.
 
     Parameters
     ----------
     scores
-        two numbers or more that differ, drawn independently from one law: no trend, no
-        learning. The law is taken to be near normal.
+        two scores or more that differ, independent and nearly normal, without a trend.
     confidence
-        share of such intervals that cover the true mean, between 0 and 1.
+        the share of such intervals that contain the true mean, between 0 and 1.
     method
-        "t", Student's, which allows for a spread estimated from the scores, is exact for
-        normal scores and the better choice; "normal" takes the spread of the scores for
-        the true one, and is too narrow where they are few.
+        "t" allows for the spread being estimated from the same scores, is exact for normal
+        scores and is the better choice; "normal" takes the spread of the scores for the true
+        one, and is too narrow where they are few.
 
     Raises
     ------
     InputError
         if there are fewer than two scores, one is not a finite number, all are the same,
-        confidence is not between 0 and 1 or method is unknown.
+        confidence is not between 0 and 1, or method is unknown.
 
     Notes
     -----
-    P5.19 takes the normal law.
+    P5.19 uses the normal distribution.
 
     >>> scores = [50, 44, 46, 52, 47, 51, 49, 45, 48, 50]
     >>> text = mean_interval(scores, 0.8, method="normal")
@@ -124,12 +119,11 @@ def mean_interval(
 
 
 class Reading(NamedTuple):
-    """How far out a score is, and how often chance alone puts one there.
+    """How unusual a score is: how often chance alone gives one like it.
 
-    `units` is the distance from the mean in standard deviations. If nothing but chance
-    has changed, a score at least so far from the mean, on either side, comes with
-    probability `as_far`; one at least so high with `as_high`, at most so low with
-    `as_low`.
+    `units` is the distance from the mean in standard deviations. If nothing has changed,
+    `as_far` is the probability of a score at least this far from the mean on either side,
+    `as_high` of one at least this high, `as_low` of one at most this low.
     """
 
     units: float
@@ -139,25 +133,25 @@ class Reading(NamedTuple):
 
 
 class Luck(NamedTuple):
-    """Three readings of one new score beside earlier ones, and its rank among them.
+    """How unusual one new score is beside earlier ones, read in three ways and by its rank.
 
     Parameters
     ----------
     score, n, mean
         the new score; number and mean of the earlier ones.
     normal
-        by the normal law, with mean and population standard deviation of the earlier
-        scores taken for the true ones.
+        by the normal distribution, with mean and population standard deviation of the
+        earlier scores taken for the true ones.
     t
         by Student's t with n - 1 degrees of freedom and the standard deviation
         s sqrt(1 + 1/n) of a new score about an estimated mean: the better choice.
     cautious
-        by the normal law, counted not from the mean but from the end of its normal
-        interval that is nearer to the score; `units` is 0 where the score lies in it.
+        by the normal distribution, counted not from the mean but from the nearer end of
+        its normal interval; `units` is 0 where the score lies inside it.
     as_high_by_rank, as_low_by_rank
-        chance that the new one of n + 1 scores ranks at least so high (or so low) among
-        them, whatever law they come from: 1 / (n + 1) for a score that beats all. It
-        cannot be smaller than that.
+        chance that the new one of n + 1 scores ranks at least this high (or this low) among
+        them, whatever distribution they come from: 1 / (n + 1) for a score that beats all
+        others, and never less.
     """
 
     score: float
@@ -171,17 +165,17 @@ class Luck(NamedTuple):
 
 
 def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
-    """Return how often a score such as a new one would come by chance alone.
+    """Return how often chance alone gives a score like a new one.
 
     Parameters
     ----------
     scores
-        two earlier scores or more that differ, independent and near normal.
+        two earlier scores or more that differ, independent and nearly normal.
     score
-        one new score that was not chosen for being good: the best of several new scores
-        is high more often than these chances say.
+        one new score that was not picked for being good: the best of several new scores is
+        high more often than these chances say.
     confidence
-        of the interval of the mean that the cautious reading counts from.
+        of the interval for the mean that the cautious reading counts from.
 
     Raises
     ------
@@ -190,11 +184,11 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
 
     Notes
     -----
-    P5.19: 53 after ten scores is 1.90 units out by the normal law, and 1.51 over the upper
-    end of the 80 % interval (3.8 / 2.52, both rounded; 1.4981 unrounded). `P(|z| < 1.51)` is
-    .87, so a score so far out comes by chance 13 % of the time; the text reads the two
-    numbers the other way round. A single list of scores cannot say more than how rare
-    such a score is: `compare` asks whether the scores have changed.
+    P5.19: 53 after ten scores is 1.90 units out by the normal distribution, and 1.51 above the
+    upper end of the 80% interval (3.8 / 2.52, both rounded; 1.4981 unrounded).
+    `P(|z| < 1.51)` is .87, so chance gives a score this far out 13% of the time; the text has
+    these two numbers the other way round. A single list of scores can only say how rare such a
+    score is: `compare` answers whether the scores have changed.
 
     >>> luck = was_it_luck([50, 44, 46, 52, 47, 51, 49, 45, 48, 50], 53, confidence=0.8)
     >>> round(luck.normal.units, 2), round(luck.normal.as_far, 3), round(luck.t.as_far, 3)
@@ -205,7 +199,7 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
     import numpy as np
 
     earlier = _differing(scores)
-    new = _number(score, "score")
+    new = number(score, "score")
     text = _interval(earlier, open_share(confidence), "normal")
     own = _interval(earlier, text.confidence, "t")
     nearest = min(max(new, text.low), text.high)
@@ -222,87 +216,60 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
     )
 
 
-def checked_scores(scores: Any, name: str) -> NDArray[np.float64]:
-    """Return scores as an array if they are finite numbers, two or more.
+def checked_scores(scores: Any, name: str) -> Floats:
+    """Return scores as an array if there are two or more and all are finite numbers.
 
     >>> checked_scores([48], "scores")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: scores holds 1 score; give two or more, or the spread is unknown
+    evenbreak.errors.InputError: scores holds 1 score; give two or more, to show a spread
     """
-    import numpy as np
-
-    try:
-        array = np.asarray(scores, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} is {scores!r}; give a list of numbers") from None
+    wanted = f"a list of finite numbers, {LARGEST:g} at most"
+    array = floats(scores, name, low=-LARGEST, high=LARGEST, wanted=wanted)
     if array.ndim != 1:
         raise InputError(f"{name} has {array.ndim} dimensions; give one list of numbers")
-    wrong = np.flatnonzero(~(np.abs(array) <= LARGEST))
-    if wrong.size:
-        place = int(wrong[0])
-        raise InputError(
-            f"{name} holds {float(array[place])!r} (number {place + 1}); "
-            f"give finite numbers, {LARGEST:g} at most"
-        )
     if array.size < 2:
         count = "1 score" if array.size else "no scores"
-        raise InputError(f"{name} holds {count}; give two or more, or the spread is unknown")
+        raise InputError(f"{name} holds {count}; give two or more, to show a spread")
     return array
 
 
-def sd_of(scores: NDArray[np.float64], *, degrees_used: int = 1) -> float:
-    """Return the standard deviation over n - degrees_used; 0 exactly where no spread shows.
+def sd_of(scores: Floats, *, degrees_used: int = 1) -> float:
+    """Return the standard deviation over n - degrees_used; exactly 0 for equal scores.
 
     >>> import numpy as np
     >>> sd_of(np.array([0.1, 0.1, 0.1])), sd_of(np.array([1.0, 3.0]), degrees_used=0)
     (0.0, 1.0)
     """
-    # Equal decimals have a mean that is not quite theirs, and a spread of rounding.
+    # The mean of equal decimals is off by rounding, which would look like a spread.
     if scores.max() - scores.min() <= max(1e-12 * abs(scores).max(), SMALLEST_SPREAD):
         return 0.0
     return float(scores.std(ddof=degrees_used))
 
 
 def open_share(confidence: float) -> float:
-    """Return a confidence if it is a number between 0 and 1, neither of them.
+    """Return a confidence if it is a number strictly between 0 and 1.
 
     >>> open_share(1)
     Traceback (most recent call last):
     ...
     evenbreak.errors.InputError: confidence is 1; give a number between 0 and 1, such as 0.95
     """
-    share = number_probability(confidence, "confidence")
-    if not 0.0 < share < 1.0:
-        raise InputError(
-            f"confidence is {confidence!r}; give a number between 0 and 1, such as 0.95"
-        )
-    return share
+    wanted = "a number between 0 and 1, such as 0.95"
+    return number(confidence, "confidence", above=0.0, below=1.0, wanted=wanted)
 
 
-def _number(value: Any, name: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not math.isfinite(number):
-        raise InputError(f"{name} is {value!r}; give a finite number")
-    return number
-
-
-def _differing(scores: Any) -> NDArray[np.float64]:
+def _differing(scores: Any) -> Floats:
     """Return checked scores that are not all the same."""
     array = checked_scores(scores, "scores")
     if sd_of(array) == 0.0:
         raise InputError(
-            f"scores are all {float(array[0]):g}; give scores that differ, or the spread is unknown"
+            f"scores are all {float(array[0]):g}; give scores that differ, to show a spread"
         )
     return array
 
 
-def _interval(
-    scores: NDArray[np.float64], confidence: float, method: Literal["t", "normal"]
-) -> MeanInterval:
+def _interval(scores: Floats, confidence: float, method: Literal["t", "normal"]) -> MeanInterval:
     from scipy.special import stdtrit
 
     n, mean = scores.size, float(scores.mean())
@@ -317,7 +284,7 @@ def _interval(
 
 
 def _reading(units: float, freedom: int | None = None) -> Reading:
-    """Read a distance by the normal law, or by Student's t with degrees of freedom."""
+    """Read a distance by the normal distribution, or by Student's t with degrees of freedom."""
     from scipy.special import ndtr, stdtr
 
     def below(x: float) -> float:

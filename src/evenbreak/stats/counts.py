@@ -1,30 +1,49 @@
-"""Laws on the whole numbers 0, 1, 2, ...: games won, balls run, points scored."""
+"""Distributions on the whole numbers 0, 1, 2, ...: games won, balls run, points scored."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
+from evenbreak.checks import plain, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.stats.exact import exact
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike
+
+    from evenbreak.arrays import Floats
+
 
 _HALF = Fraction(1, 2)
 
 _NEAR = 1e-9
-"""Tails that come nearer to the one wanted than this, relatively, leave the decision to
-fractions."""
+"""If a tail comes nearer than this, relatively, to the level wanted, fractions decide."""
+
+
+class FairLine(NamedTuple):
+    """The line at which a bet on a score is fair, for three kinds of bet.
+
+    `mean`: the bet pays an amount for every point above the line and costs as much for every
+    point below it.
+    `median`: the bet wins if the score is over the line and loses otherwise; the median is the
+    smallest number that the score does not exceed at least half of the time.
+    `mode`: everybody names a score, and whoever names it exactly wins; the mode is the best
+    score to name.
+    """
+
+    mean: float
+    median: int
+    mode: int
 
 
 class CountLaw(ABC):
-    """A probability law on 0, 1, 2, ...; its median and quantiles are decided exactly.
+    """A probability distribution on 0, 1, 2, ... whose median and quantiles are exact.
 
-    A law says its `mean`, `sd` and `mode`, its `probability` of a count and the two sums
-    `cumulative` and `at_least`, each with a small relative error where it is small. The rest
-    follows.
+    A subclass has `mean`, `sd` and `mode`, the exact sum `exact_cumulative`, and three
+    functions of arrays of counts: `_probability`, `_cumulative` and `_at_least`, each with a
+    small relative error where it is small. Everything else follows from these.
     """
 
     @property
@@ -40,24 +59,52 @@ class CountLaw(ABC):
     @property
     @abstractmethod
     def mode(self) -> int:
-        """The most probable count, the smallest of them where several are."""
-
-    @abstractmethod
-    def probability(self, n: Any) -> Any:
-        """Return P(count = n); a float for a number, an array for an array."""
-
-    @abstractmethod
-    def cumulative(self, n: Any) -> Any:
-        """Return P(count <= n); a float for a number, an array for an array."""
-
-    @abstractmethod
-    def at_least(self, n: Any) -> Any:
-        """Return P(count >= n); a float for a number, an array for an array."""
+        """The most probable count; the smallest one where several are equally probable."""
 
     @abstractmethod
     def exact_cumulative(self, n: int) -> Fraction:
-        """Return P(count <= n) without rounding."""
+        """Return P(count <= n) as a fraction, without rounding."""
 
+    @abstractmethod
+    def _probability(self, n: Floats) -> Floats:
+        """Return P(count = n), elementwise."""
+
+    @abstractmethod
+    def _cumulative(self, n: Floats) -> Floats:
+        """Return P(count <= n), elementwise."""
+
+    @abstractmethod
+    def _at_least(self, n: Floats) -> Floats:
+        """Return P(count >= n), elementwise."""
+
+    @overload
+    def probability(self, n: float) -> float: ...
+    @overload
+    def probability(self, n: ArrayLike) -> Floats: ...
+    def probability(self, n: Any) -> Any:
+        """Return P(count = n); a float for a number, an array for an array."""
+        return plain(self._probability(whole_numbers(n, "n")))
+
+    @overload
+    def cumulative(self, n: float) -> float: ...
+    @overload
+    def cumulative(self, n: ArrayLike) -> Floats: ...
+    def cumulative(self, n: Any) -> Any:
+        """Return P(count <= n); a float for a number, an array for an array."""
+        return plain(self._cumulative(whole_numbers(n, "n")))
+
+    @overload
+    def at_least(self, n: float) -> float: ...
+    @overload
+    def at_least(self, n: ArrayLike) -> Floats: ...
+    def at_least(self, n: Any) -> Any:
+        """Return P(count >= n); a float for a number, an array for an array."""
+        return plain(self._at_least(whole_numbers(n, "n")))
+
+    @overload
+    def between(self, low: float, high: float) -> float: ...
+    @overload
+    def between(self, low: ArrayLike, high: ArrayLike) -> Floats: ...
     def between(self, low: Any, high: Any) -> Any:
         """Return P(low <= count <= high), both ends included; 0 where high is below low.
 
@@ -70,13 +117,12 @@ class CountLaw(ABC):
         """
         import numpy as np
 
-        # Two sums of the smaller tail are subtracted, so that a rare span keeps its digits.
-        low, high = whole_counts(low, "low"), whole_counts(high, "high")
-        below = self.cumulative(high) - self.cumulative(low - 1)
-        above = self.at_least(low) - self.at_least(high + 1)
-        inside = np.where(self.cumulative(high) < 0.5, below, above)
-        found = np.where(high < low, 0.0, np.maximum(inside, 0.0))
-        return found if found.ndim else float(found)
+        # The smaller tails are subtracted, so that an unlikely range keeps its digits.
+        low, high = whole_numbers(low, "low"), whole_numbers(high, "high")
+        below = self._cumulative(high) - self._cumulative(low - 1)
+        above = self._at_least(low) - self._at_least(high + 1)
+        inside = np.where(self._cumulative(high) < 0.5, below, above)
+        return plain(np.where(high < low, 0.0, np.maximum(inside, 0.0)))
 
     def quantile(self, q: Any) -> int:
         """Return the smallest count n with P(count <= n) >= q, decided without rounding.
@@ -84,7 +130,7 @@ class CountLaw(ABC):
         Raises
         ------
         InputError
-            if q is not a number from 0 to 1, or is 1 and no count is the largest.
+            if q is not a number from 0 to 1, or is 1 and there is no largest count.
         """
         wanted = exact(q, "q")
         most = self.most
@@ -92,7 +138,7 @@ class CountLaw(ABC):
             return 0
         if wanted == 1:
             if most is None:
-                raise InputError("q is 1, and no count is the largest; give a q below 1")
+                raise InputError("q is 1, and there is no largest count; give a q below 1")
             return most
         low, high = -1, 1
         while not self._reaches(high, wanted):
@@ -104,7 +150,7 @@ class CountLaw(ABC):
 
     @property
     def most(self) -> int | None:
-        """The largest count that can occur; None where there is none."""
+        """The largest possible count; None where there is none."""
         return None
 
     @property
@@ -112,8 +158,18 @@ class CountLaw(ABC):
         """The smallest count n with P(count <= n) >= 1/2."""
         return self.quantile(_HALF)
 
+    @property
+    def relative_sd(self) -> float | None:
+        """The standard deviation over the mean; None where the mean is 0."""
+        return self.sd / self.mean if self.mean else None
+
+    @property
+    def fair_line(self) -> FairLine:
+        """The lines of fair bets on the count (P5.14, P5.17)."""
+        return FairLine(self.mean, self.median, self.mode)
+
     def _reaches(self, n: int, wanted: Fraction) -> bool:
-        """Whether P(count <= n) >= wanted; the smaller tail knows best."""
+        """Return whether P(count <= n) >= wanted; the smaller tail has the better digits."""
         if wanted < _HALF:
             found, tail = self.cumulative(n), float(wanted)
         else:
@@ -121,39 +177,3 @@ class CountLaw(ABC):
         if abs(found - tail) > _NEAR * abs(tail):
             return bool(found > tail)
         return self.exact_cumulative(n) >= wanted
-
-
-def whole_counts(n: Any, name: str = "n", *, at_least: int | None = None) -> NDArray[Any]:
-    """Return counts as a float array of whole numbers, of no dimension for a number.
-
-    Parameters
-    ----------
-    n
-        a whole number or an array of them.
-    name
-        what the value is called where the caller wrote it.
-    at_least
-        the smallest that is allowed; None: negative ones ask for a probability of 0 or 1.
-
-    Raises
-    ------
-    InputError
-        if one is not a whole number, or is too small.
-
-    >>> whole_counts([1, 2.0])
-    array([1., 2.])
-    """
-    import numpy as np
-
-    try:
-        counts = np.asarray(n)
-        if counts.dtype.kind in "SUc":
-            raise ValueError
-        counts = counts.astype(float)
-        right = bool(np.all(counts == np.floor(counts)) and np.all(np.isfinite(counts)))
-    except (TypeError, ValueError):
-        right = False
-    if not right or (at_least is not None and bool(np.any(counts < at_least))):
-        smallest = "" if at_least is None else f", {at_least} or more"
-        raise InputError(f"{name} is {n!r}; give whole numbers{smallest}")
-    return counts

@@ -1,29 +1,28 @@
 """Probabilities as the decimals that people write: .9 is nine tenths.
 
-Ties are real: with p = .5 the chance of a score of 7 or less after 8 innings is one half
-exactly, and ceil((2 x .9 - 1) / (1 - .9)) is 8 but 9 in floats. So modes, medians and
-quantiles are decided in rational arithmetic wherever floats come near a tie.
+Ties are real. With p = .5 the chance of a score of 7 or less after 8 innings is exactly one
+half, and ceil((2 x .9 - 1) / (1 - .9)) is 8, but 9 in floats. So wherever floats come near a
+tie, modes, medians and quantiles are decided in rational arithmetic.
 """
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
 from typing import Any
 
-from evenbreak.errors import InputError
+from evenbreak.checks import number_probability
 
 
 def exact(p: Any, name: str = "p") -> Fraction:
-    """Return a probability as the fraction that was meant.
+    """Return a probability as the fraction that its decimal means.
 
     Parameters
     ----------
     p
-        a number from 0 to 1: a `Fraction` or an int as it stands, a float as the shortest
-        decimal that reads back as it, so that .9 is 9/10.
+        a number from 0 to 1: a `Fraction` or an int is taken as it is, a float as the
+        shortest decimal that reads back as the same float, so that .9 is 9/10.
     name
-        what the value is called where the caller wrote it.
+        what to call the value in a message.
 
     Raises
     ------
@@ -33,12 +32,6 @@ def exact(p: Any, name: str = "p") -> Fraction:
     >>> exact(0.9), exact(Fraction(24, 25)), exact(1)
     (Fraction(9, 10), Fraction(24, 25), Fraction(1, 1))
     """
-    try:
-        if isinstance(p, str | bytes) or getattr(p, "ndim", False):
-            raise TypeError
-        number = p if isinstance(p, Fraction) else float(p)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not 0 <= number <= 1:
-        raise InputError(f"{name} is {p!r}, not a probability; give a number from 0 to 1")
-    return number if isinstance(number, Fraction) else Fraction(repr(number))
+    if isinstance(p, Fraction) and 0 <= p <= 1:
+        return p
+    return Fraction(repr(number_probability(p, name)))

@@ -1,10 +1,10 @@
 """What a player scores in a number of innings.
 
 The score is the sum of as many runs. An inning is blank with chance 1 - alpha p, so the
-innings that score are binomial; k innings that score bring k balls and as many more as are
-made before the k-th miss. Two binomial counts compare in place of a sum: the score after m
-innings is n or less exactly if, of n shots each missed with 1 - p, at least as many are
-missed as innings score.
+number of innings that score is binomial. If k innings score, they bring k balls plus the
+balls made before the k-th miss. Comparing two binomial counts avoids the sum: the score after
+m innings is n or less exactly if, of n shots each missed with chance 1 - p, at least as many
+are missed as innings score.
 """
 
 from __future__ import annotations
@@ -17,17 +17,19 @@ from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import whole
+from evenbreak.stats.beta_tail import beta_tail
 from evenbreak.stats.binomial import GamesWon, score_probability
-from evenbreak.stats.counts import CountLaw, whole_counts
+from evenbreak.stats.counts import CountLaw
 from evenbreak.stats.exact import exact
-from evenbreak.stats.runs import FairLine, checked_shots
+from evenbreak.stats.runs import checked_shots
 
 _NEAR = 1e-9
-"""Chances that differ by less than this part of them leave the decision to fractions."""
+"""Where two chances differ by less than this, relatively, fractions decide."""
 
 _CELLS = 1_000_000
-"""The most chances that stand in memory at once."""
+"""The most chances held in memory at once."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ class InningsScore(CountLaw):
         P(the player makes a shot), the same for every shot but the first of an inning;
         below 1. A float means the decimal that it prints as.
     innings
-        how many innings are played to their end, 1 or more.
+        how many complete innings are played, 1 or more.
     safety
         alpha: P(the first shot of an inning is made) = alpha p. 1 is no safety play.
 
@@ -51,8 +53,8 @@ class InningsScore(CountLaw):
 
     Notes
     -----
-    Penalty points are left out. Source: problems P5.16 and P5.17, Table 5.3; P5.15 for the
-    safety play.
+    Penalty points are ignored. Source: problems P5.16 and P5.17, Table 5.3; P5.15 for safety
+    play.
 
     >>> law = InningsScore(0.96, 5)
     >>> law.mean, law.median, law.mode, round(law.sd, 1)
@@ -77,18 +79,13 @@ class InningsScore(CountLaw):
 
     @property
     def sd(self) -> float:
-        """The standard deviation; without safety play the root of innings times p, over 1 - p."""
+        """The standard deviation; without safety play sqrt(innings p) / (1 - p)."""
         p, alpha = exact(self.p), exact(self.safety)
         return math.sqrt(self.innings * alpha * p * (1 + p - alpha * p)) / float(1 - p)
 
     @property
-    def relative_sd(self) -> float | None:
-        """The standard deviation over the mean; None where the mean is 0."""
-        return self.sd / self.mean if self.mean else None
-
-    @property
     def mode(self) -> int:
-        """The most probable score, the smallest of them where several are."""
+        """The most probable score; the smallest one where several are equally probable."""
         p, alpha = exact(self.p), exact(self.safety)
         if alpha == 1:
             # P(score = n + 1) / P(score = n) = (n + innings) p / (n + 1)
@@ -102,42 +99,28 @@ class InningsScore(CountLaw):
     def median_estimate(self) -> float:
         """The text's estimate of the median, (2 mean + mode) / 3.
 
-        Without safety play it is good from 4 innings on. With it the mode may be 0, of blank
-        innings alone, and says nothing about the median.
+        Without safety play it is good from 4 innings on. With safety play the mode may be 0
+        (blank innings only) and then says nothing about the median.
         """
         return (2.0 * self.mean + self.mode) / 3.0
 
-    @property
-    def fair_line(self) -> FairLine:
-        """The lines of fair wagers on the score (P5.17)."""
-        return FairLine(self.mean, self.median, self.mode)
+    def _probability(self, n: Floats) -> Floats:
+        return np.where(n < 0, 0.0, self._mixed(np.maximum(n, 0), self._exactly))
 
-    def probability(self, n: Any) -> Any:
-        """Return P(score = n); a float for a number, an array for an array."""
-        n = whole_counts(n)
-        found = np.where(n < 0, 0.0, self._mixed(np.maximum(n, 0), self._exactly))
-        return found if found.ndim else float(found)
+    def _cumulative(self, n: Floats) -> Floats:
+        return np.where(n < 0, 0.0, self._mixed(np.maximum(n, 0), self._at_most))
 
-    def cumulative(self, n: Any) -> Any:
-        """Return P(score <= n); a float for a number, an array for an array."""
-        n = whole_counts(n)
-        found = np.where(n < 0, 0.0, self._mixed(np.maximum(n, 0), self._at_most))
-        return found if found.ndim else float(found)
-
-    def at_least(self, n: Any) -> Any:
-        """Return P(score >= n); a float for a number, an array for an array."""
-        n = whole_counts(n)
-        found = np.where(n <= 0, 1.0, self._mixed(np.maximum(n, 1), self._reached))
-        return found if found.ndim else float(found)
+    def _at_least(self, n: Floats) -> Floats:
+        return np.where(n <= 0, 1.0, self._mixed(np.maximum(n, 1), self._reached))
 
     def exact_cumulative(self, n: int) -> Fraction:
-        """Return P(score <= n) without rounding."""
+        """Return P(score <= n) as a fraction, without rounding."""
         if n < 0:
             return Fraction(0)
         p, alpha = exact(self.p), exact(self.safety)
         if alpha == 1:
             return 1 - GamesWon(n + self.innings, 1 - p).exact_cumulative(self.innings - 1)
-        # Of n shots at least as many are missed as innings score.
+        # Of n shots, at least as many are missed as innings score.
         fewer, total, whole_n = 0, 0, (1 - p).denominator ** n
         most = min(self.innings, n)
         for scoring, missed in zip(
@@ -148,10 +131,10 @@ class InningsScore(CountLaw):
         return Fraction(total, whole_n * (alpha * p).denominator ** self.innings)
 
     def _mixed(self, n: Any, part: Any) -> Any:
-        """Return the mean of `part` over how many innings score, given the scores n >= 0."""
+        """Return the mean of `part` over the number of innings that score, for scores n >= 0."""
         p, alpha = exact(self.p), exact(self.safety)
         if alpha == 1:
-            # All innings alike: the balls made before the last of so many misses.
+            # All innings are alike: count the balls made before the last of so many misses.
             return part(n, self.innings)
         k = np.arange(self.innings + 1)
         weights = _binomial(alpha * p, k, self.innings - k)
@@ -163,7 +146,7 @@ class InningsScore(CountLaw):
         ]
         return np.concatenate([*sums, []]).reshape(n.shape)
 
-    # Below, k innings score, and bring `extra` balls besides the first of each.
+    # In these, k innings score and bring `extra` balls besides the first ball of each.
 
     def _exactly(self, extra: Any, k: Any) -> Any:
         p = exact(self.p)
@@ -179,7 +162,7 @@ class InningsScore(CountLaw):
         return np.where(np.equal(k, 0), 0.0, np.where(extra <= 0, 1.0, inside))
 
     def _peak(self) -> int:
-        """Return the most probable score of 1 or more; from there on the law has one peak."""
+        """Return the most probable score from 1 up, where the distribution has a single peak."""
         low, high = 0, math.ceil(self.mean) + 1
         while self._rises(high, high + 1):
             low, high = high, 2 * high
@@ -200,7 +183,7 @@ class InningsScore(CountLaw):
 
 
 def _binomial(p: Fraction, made: Any, missed: Any) -> Any:
-    """Return P(p; made, missed), from the smaller of p and 1 - p, which keeps its digits."""
+    """Return P(p; made, missed), from the smaller of p and 1 - p, which has the better digits."""
     if p <= Fraction(1, 2):
         return score_probability(float(p), made, missed)
     return score_probability(float(1 - p), missed, made)
@@ -208,10 +191,10 @@ def _binomial(p: Fraction, made: Any, missed: Any) -> Any:
 
 def _beta(a: Any, b: Any, x: Fraction) -> Any:
     """Return the regularised incomplete beta function I_x(a, b), a and b 1 or more."""
-    from scipy.special import betainc, betaincc
+    from scipy.special import betaincc
 
     a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
-    return betainc(a, b, float(x)) if 2 * x <= 1 else betaincc(b, a, float(1 - x))
+    return beta_tail(a, b, float(x)) if 2 * x <= 1 else betaincc(b, a, float(1 - x))
 
 
 def _terms(shots: int, p: Fraction, most: int) -> Iterator[int]:

@@ -1,9 +1,9 @@
 """How many balls a player runs in one inning, with and without safety play.
 
-Every shot is made with the same chance p, whatever went before, so a run of n balls has
-the chance p^n (1 - p). Where the opponent plays safe, the first shot of the inning is
-harder, alpha p instead of p: then P(run >= n) = alpha p^n for n >= 1. Fouls and their
-penalty points are left out.
+Every shot is made with the same chance p, independently of the others, so a run of n balls
+has chance p^n (1 - p). Where the opponent plays safe, the first shot of the inning is
+harder: it is made with chance alpha p, and P(run >= n) = alpha p^n for n >= 1. Fouls and
+their penalty points are ignored.
 """
 
 from __future__ import annotations
@@ -11,31 +11,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
-from evenbreak.stats.counts import CountLaw, whole_counts
+from evenbreak.stats.counts import CountLaw
 from evenbreak.stats.exact import exact
 
 _MOST = 100_000
-"""The largest mean that is counted with; exact medians beyond would take minutes."""
-
-
-class FairLine(NamedTuple):
-    """The numbers at which a wager on a score is fair, by what is wagered on.
-
-    `mean`: an amount is paid for every point above the line and lost for every point below.
-    `median`: an amount is won if the score is over the line, else lost; the line is the
-    median, the smallest number that is not passed in at least half of the cases.
-    `mode`: everybody names a score and the one who names it exactly wins; the mode is the
-    best to name.
-    """
-
-    mean: float
-    median: int
-    mode: int
+"""The largest mean allowed; exact medians beyond it would take minutes."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +44,7 @@ class RunLength(CountLaw):
 
     Notes
     -----
-    `sd`, and the far tails p^n, keep nearly all digits. Source: problems P5.11, P5.13 and
+    `sd` and the far tails p^n keep nearly all their digits. Source: problems P5.11, P5.13 and
     P5.15, Table 5.2.
 
     >>> law = RunLength(0.96)
@@ -76,19 +62,19 @@ class RunLength(CountLaw):
 
     @classmethod
     def of_mean(cls, mean: Any, safety: Any = 1) -> RunLength:
-        """Return the law of a player who runs `mean` balls an inning on average.
+        """Return the distribution for a player who runs `mean` balls an inning on average.
 
         Parameters
         ----------
         mean
-            balls an inning, 0 or more; counted with the safety play that `safety` says.
+            balls an inning, 0 or more, against the safety play that `safety` describes.
         safety
-            as above; above 0.
+            as above, but not 0.
 
         Raises
         ------
         InputError
-            if there is no such law.
+            if no player has such an average.
 
         >>> RunLength.of_mean(24)
         RunLength(p=Fraction(24, 25), safety=1)
@@ -103,35 +89,29 @@ class RunLength(CountLaw):
 
     @property
     def sd(self) -> float:
-        """The standard deviation; without safety play the root of p, over 1 - p."""
+        """The standard deviation; without safety play sqrt(p) / (1 - p)."""
         p, safety = exact(self.p), exact(self.safety)
         return math.sqrt(safety * p * (1 + p - safety * p)) / float(1 - p)
 
     @property
     def mode(self) -> int:
-        """The most probable run: none, whatever p; p (2 - p) is never above 1."""
+        """The most probable run: always 0."""
         return 0
 
-    def probability(self, n: Any) -> Any:
-        """Return P(run = n); a float for a number, an array for an array."""
-        n = whole_counts(n)
+    def _probability(self, n: Floats) -> Floats:
         p, safety = exact(self.p), exact(self.safety)
         one_or_more = np.exp(self._log_at_least(np.maximum(n, 1))) * float(1 - p)
-        return _plain(np.where(n < 0, 0.0, np.where(n == 0, float(1 - safety * p), one_or_more)))
+        return np.where(n < 0, 0.0, np.where(n == 0, float(1 - safety * p), one_or_more))
 
-    def cumulative(self, n: Any) -> Any:
-        """Return P(run <= n); a float for a number, an array for an array."""
-        n = whole_counts(n)
+    def _cumulative(self, n: Floats) -> Floats:
         found = -np.expm1(self._log_at_least(np.maximum(n, 0) + 1))
-        return _plain(np.where(n < 0, 0.0, found))
+        return np.where(n < 0, 0.0, found)
 
-    def at_least(self, n: Any) -> Any:
-        """Return P(run >= n); a float for a number, an array for an array."""
-        n = whole_counts(n)
-        return _plain(np.where(n <= 0, 1.0, np.exp(self._log_at_least(np.maximum(n, 1)))))
+    def _at_least(self, n: Floats) -> Floats:
+        return np.where(n <= 0, 1.0, np.exp(self._log_at_least(np.maximum(n, 1))))
 
     def exact_cumulative(self, n: int) -> Fraction:
-        """Return P(run <= n) without rounding, 1 - alpha p^(n + 1)."""
+        """Return P(run <= n) = 1 - alpha p^(n + 1) as a fraction, without rounding."""
         if n < 0:
             return Fraction(0)
         return 1 - exact(self.safety) * exact(self.p) ** (n + 1)
@@ -140,7 +120,7 @@ class RunLength(CountLaw):
     def median_bound(self) -> float:
         """The bound -(log(2 alpha) / log p + 1) on the median.
 
-        The median is the first whole number that is not below it, 0 where it is negative.
+        The median is the first whole number not below it, or 0 where it is negative.
         """
         p, safety = exact(self.p), exact(self.safety)
         if safety == 0:
@@ -159,29 +139,19 @@ class RunLength(CountLaw):
         """The text's estimate of the median, the mean times `median_ratio_limit`."""
         return self.mean * median_ratio_limit(self.safety)
 
-    @property
-    def relative_sd(self) -> float | None:
-        """The standard deviation over the mean; None where the mean is 0."""
-        return self.sd / self.mean if self.mean else None
-
-    @property
-    def fair_line(self) -> FairLine:
-        """The lines of fair wagers on the run (P5.14)."""
-        return FairLine(self.mean, self.median, self.mode)
-
-    def _log_at_least(self, n: Any) -> Any:
+    def _log_at_least(self, n: Floats) -> Floats:
         """Return log P(run >= n) for n >= 1."""
         p, safety = exact(self.p), exact(self.safety)
         return n * _log(p) + _log(safety)
 
 
 def median_ratio_limit(safety: Any = 1) -> float:
-    """Return what the median over the mean comes to for long runs: ln(2 alpha) / alpha.
+    """Return the limit of median / mean for long runs, ln(2 alpha) / alpha.
 
     Parameters
     ----------
     safety
-        alpha, as in `RunLength`. Up to 1/2 the median is 0, however long the mean.
+        alpha, as in `RunLength`. Up to 1/2 the median is 0, however large the mean.
 
     Raises
     ------
@@ -200,19 +170,19 @@ def median_ratio_limit(safety: Any = 1) -> float:
 
 
 def shot_chance(mean: Any, safety: Any = 1) -> Fraction:
-    """Return the p of a player who runs `mean` balls an inning on average, mean / (mean + alpha).
+    """Return the p of a player who averages `mean` balls an inning, mean / (mean + alpha).
 
     Parameters
     ----------
     mean
         balls an inning, 0 or more. A float means the decimal that it prints as.
     safety
-        alpha, as in `RunLength`; above 0.
+        alpha, as in `RunLength`, but not 0.
 
     Raises
     ------
     InputError
-        if mean is not such a number, or safety not a number above 0 up to 1.
+        if mean is not a number from 0 up, or safety is not above 0 and at most 1.
 
     Notes
     -----
@@ -223,7 +193,7 @@ def shot_chance(mean: Any, safety: Any = 1) -> Fraction:
     """
     alpha = exact(safety, "safety")
     if alpha == 0:
-        raise InputError("safety is 0, and so is every run; give a number above 0")
+        raise InputError("safety is 0, which makes every run 0; give a number above 0")
     try:
         balls = mean if isinstance(mean, Fraction) else Fraction(repr(float(mean)))
     except (TypeError, ValueError, OverflowError):
@@ -234,21 +204,21 @@ def shot_chance(mean: Any, safety: Any = 1) -> Fraction:
 
 
 def checked_shots(p: Any, safety: Any, innings: int = 1) -> tuple[Fraction, Fraction]:
-    """Return p and safety without rounding, if scores of so many innings can be counted with.
+    """Return p and safety as fractions, if the mean score of so many innings is not too large.
 
     >>> checked_shots(1, 1)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: p is 1: such a run never ends; give a number below 1
+    evenbreak.errors.InputError: p is 1, and such a run never ends; give a number below 1
     """
     chance, alpha = exact(p, "p"), exact(safety, "safety")
     if chance == 1:
-        raise InputError(f"p is {p}: such a run never ends; give a number below 1")
+        raise InputError(f"p is {p}, and such a run never ends; give a number below 1")
     mean = innings * alpha * chance / (1 - chance)
     if mean > _MOST:
         raise InputError(
-            f"p is {p}: the mean is {float(mean):,.0f} balls and {_MOST:,} is the most that is "
-            "counted with; give a smaller p or fewer innings"
+            f"p is {p}, which makes the mean {float(mean):,.0f} balls; the most allowed is "
+            f"{_MOST:,}, so give a smaller p or fewer innings"
         )
     return chance, alpha
 
@@ -256,9 +226,5 @@ def checked_shots(p: Any, safety: Any, innings: int = 1) -> tuple[Fraction, Frac
 def _log(x: Fraction) -> float:
     if x == 0:
         return -math.inf
-    # Near 1 what is missing to 1 is rounded, not x: else the tails lose their digits.
+    # Near 1 the logarithm is taken from 1 - x, or the tails would lose their digits.
     return math.log1p(-float(1 - x)) if x > Fraction(1, 2) else math.log(x)
-
-
-def _plain(found: Any) -> Any:
-    return found if found.ndim else float(found)

@@ -1,4 +1,4 @@
-"""What a set of values or a law of values says: mean, median, mode, spread, quantiles."""
+"""Summaries of values or of a distribution: mean, median, mode, spread, quantiles."""
 
 from __future__ import annotations
 
@@ -10,45 +10,45 @@ from fractions import Fraction
 from itertools import accumulate, pairwise
 from typing import Any
 
-from evenbreak.checks import whole
+from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.stats.exact import exact
 
 Number = float | Fraction
 
 _EQUAL = 1e-12
-"""Sums of float probabilities, and float probabilities relative to the largest, that come
-nearer to each other than this count as equal."""
+"""Sums of float probabilities count as equal within this, and so do float probabilities,
+relative to the largest."""
 
 _SUM = 1e-9
-"""How far float probabilities may sum from 1."""
+"""How far from 1 float probabilities may sum."""
 
 
 @dataclass(frozen=True)
 class Distribution:
-    """Values that increase, each with its probability.
+    """Values in increasing order, each with its probability.
 
     Parameters
     ----------
     values
         finite numbers, each larger than the one before it.
     probability
-        the probability of each; they sum to 1. Fractions sum to 1 exactly and decide
-        median, mode and quantiles exactly. Floats sum to 1 within 1e-9; a cumulative
-        float probability within 1e-12 below q counts as having reached q, and float
-        probabilities within 1e-12 of the largest, relatively, count as equally large.
+        the probability of each; they sum to 1. With fractions the sum is exactly 1, and
+        median, mode and quantiles are exact. Floats sum to 1 within 1e-9; a cumulative float
+        probability within 1e-12 below q counts as having reached q, and float probabilities
+        within 1e-12 of the largest, relatively, count as equally large.
 
     Raises
     ------
     InputError
-        if there is no value, a value is not a finite number, they do not increase, or
-        the probabilities are not as many, are not from 0 to 1 or do not sum to 1.
+        if there is no value, a value is not a finite number, the values do not increase, or
+        the probabilities are not one for each value, from 0 to 1, with sum 1.
 
     Notes
     -----
-    The mean, median, mode and standard deviation of section 5 of the source text, with
-    its convention for the median: the smallest value whose cumulative probability reaches
-    1/2, a value of the set also where the set is even.
+    Source: P5.1, the mean, median, mode and standard deviation of section 5, with its
+    convention for the median: the smallest value whose cumulative probability reaches 1/2,
+    which is one of the values even if their number is even.
 
     >>> law = Distribution((0, 1, 4, 5), (0.2, 0.4, 0.2, 0.2))
     >>> round(law.mean, 3), law.median, law.mode, round(law.sd, 3)
@@ -56,12 +56,10 @@ class Distribution:
     """
 
     values: tuple[Number, ...]
-    probability: tuple[float | Fraction, ...]
+    probability: tuple[Number, ...]
 
     def __post_init__(self) -> None:
         values = _numbers(self.values, "values")
-        if not values:
-            raise InputError("values is empty; give one number or more")
         if any(second <= first for first, second in pairwise(values)):
             raise InputError("values do not increase; sort them, or use Distribution.of")
         object.__setattr__(self, "values", values)
@@ -74,17 +72,17 @@ class Distribution:
         Parameters
         ----------
         values
-            finite numbers in any order; equal ones are taken together.
+            finite numbers in any order; equal ones are combined.
         weights
             the weight of each value, in the same order; whole numbers are counts. None:
             each value counts once. Counts and Fractions give exact probabilities, other
-            weights floats. A value of no weight is left out.
+            weights give floats. A value of weight 0 is left out.
 
         Raises
         ------
         InputError
             if there is no value, a value or weight is not a finite number, a weight is
-            negative, all are 0, or they are not as many as the values.
+            negative, all are 0, or there is not one weight for each value.
 
         >>> Distribution.of([4, 1, 0, 5, 1]).probability[:2]
         (Fraction(1, 5), Fraction(2, 5))
@@ -92,8 +90,6 @@ class Distribution:
         30
         """
         listed = _numbers(values, "values")
-        if not listed:
-            raise InputError("values is empty; give one number or more")
         total: dict[Number, Number] = {}
         for value, weight in zip(listed, _weights(weights, len(listed)), strict=True):
             if weight > 0:
@@ -134,7 +130,7 @@ class Distribution:
         return math.sqrt(self.variance)
 
     @property
-    def cumulative(self) -> tuple[float | Fraction, ...]:
+    def cumulative(self) -> tuple[Number, ...]:
         """P(value <= each of `values`); Fractions where the probabilities are."""
         return tuple(accumulate(self.probability))
 
@@ -151,12 +147,12 @@ class Distribution:
 
     @property
     def mode(self) -> Number:
-        """The most probable value, the smallest of them where several are."""
+        """The most probable value; the smallest one where several are equally probable."""
         return self.modes[0]
 
     @property
     def modes(self) -> tuple[Number, ...]:
-        """All values than which none is more probable."""
+        """All the most probable values."""
         largest = max(self.probability)
         least = largest if self.exact else largest * (1 - _EQUAL)
         pairs = zip(self.values, self.probability, strict=True)
@@ -165,8 +161,8 @@ class Distribution:
     def quantile(self, q: Any) -> Number:
         """Return the smallest value with P(value <= it) >= q.
 
-        q = .9 gives the 90th percentile. q = 0 gives the smallest value that can occur,
-        q = 1 the largest.
+        q = .9 gives the 90th percentile, q = 0 the smallest possible value, q = 1 the
+        largest.
 
         Raises
         ------
@@ -194,7 +190,8 @@ class Distribution:
         if math.isnan(low) or math.isnan(high):
             raise InputError(f"the ends are {low!r} and {high!r}; give two numbers")
         pairs = zip(self.values, self.probability, strict=True)
-        return _sum(probability for value, probability in pairs if low <= value <= high)
+        inside = [probability for value, probability in pairs if low <= value <= high]
+        return float(sum(inside)) if self.exact else math.fsum(inside)
 
     def at_least(self, x: float) -> float:
         """Return P(value >= x)."""
@@ -203,13 +200,13 @@ class Distribution:
 
 @dataclass(frozen=True)
 class Moments:
-    """How many values there are, their mean, and their population standard deviation.
+    """The number of values, their mean, and their population standard deviation.
 
     Raises
     ------
     InputError
-        if n is not a whole number from 1 up, the mean is not finite, or the standard
-        deviation is negative or not finite.
+        if n is not a whole number from 1 up, or the mean or the standard deviation is not
+        finite, or the latter is negative.
 
     >>> Moments.of([0, 1, 1, 4, 5]).mean
     2.2
@@ -221,11 +218,8 @@ class Moments:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "n", whole(self.n, "n", at_least=1))
-        mean, sd = (float(_number(getattr(self, name), name)) for name in ("mean", "sd"))
-        if sd < 0:
-            raise InputError(f"sd is {self.sd!r}; give a standard deviation, 0 or more")
-        object.__setattr__(self, "mean", mean)
-        object.__setattr__(self, "sd", sd)
+        object.__setattr__(self, "mean", number(self.mean, "mean"))
+        object.__setattr__(self, "sd", number(self.sd, "sd", low=0.0))
 
     @classmethod
     def of(cls, values: Iterable[Any]) -> Moments:
@@ -241,10 +235,10 @@ class Moments:
 
 
 def merge(parts: Iterable[Moments]) -> Moments:
-    """Return the number, mean and standard deviation of several sets taken together.
+    """Return the number, mean and standard deviation of several sets combined.
 
-    The values themselves are not needed. The variance of the whole is the mean of the
-    parts' variances plus the variance of the parts' means, each part weighted by its size.
+    The values themselves are not needed. The variance of the whole is the mean of the parts'
+    variances plus the variance of the parts' means, each part weighted by its size.
 
     Raises
     ------
@@ -264,68 +258,54 @@ def merge(parts: Iterable[Moments]) -> Moments:
         raise InputError("parts is empty; give one Moments or more")
     n = sum(part.n for part in parts)
     mean = math.fsum(part.n * part.mean for part in parts) / n
-    # hypot adds squares that would leave the range of a float by themselves.
+    # hypot adds squares that alone would exceed the range of a float.
     spread = (math.sqrt(part.n / n) * math.hypot(part.sd, part.mean - mean) for part in parts)
     return Moments(n, mean, math.hypot(*spread))
 
 
-def _number(value: Any, name: str) -> Number:
-    """Return a finite number as a plain int, float or Fraction."""
-    try:
-        if isinstance(value, str | bytes) or getattr(value, "ndim", False):
-            raise TypeError
-        number = value if isinstance(value, Fraction) else _plain(value)
-        finite = math.isfinite(number)  # an OverflowError where no float is that large
-    except (TypeError, ValueError, OverflowError):
-        finite = False
-    if not finite:
-        raise InputError(f"{name} holds {value!r}; give finite numbers")
-    return number
+def _numbers(
+    values: Any, name: str, *, many: int | None = None, high: float = math.inf
+) -> tuple[Number, ...]:
+    """Return a list of finite numbers as ints, floats and Fractions.
 
-
-def _plain(value: Any) -> float:
-    return int(value) if hasattr(value, "__index__") else float(value)
-
-
-def _numbers(values: Iterable[Any], name: str) -> tuple[Number, ...]:
+    Probabilities and weights, for `many` values, are from 0 to `high`.
+    """
     if not hasattr(values, "__iter__") or isinstance(values, str):
         raise InputError(f"{name} is {values!r}; give a list of numbers")
-    return tuple(_number(value, name) for value in values)
+    low = -math.inf if many is None else 0.0
+    listed = tuple(_plain(value, f"{name}[{i}]", low, high) for i, value in enumerate(values))
+    if not listed:
+        raise InputError(f"{name} is empty; give one number or more")
+    if many not in (None, len(listed)):
+        raise InputError(f"{name} has {len(listed)} entries for {many} values; give one each")
+    return listed
+
+
+def _plain(value: Any, name: str, low: float, high: float) -> Number:
+    if type(value) is float and low <= value <= high and math.isfinite(value):
+        return value  # as `number` would, in a third of the time
+    checked = number(value, name, low=low, high=high)
+    if isinstance(value, Fraction):
+        return value
+    return int(value) if hasattr(value, "__index__") else checked
 
 
 def _weights(weights: Iterable[Any] | None, many: int) -> list[Number]:
     """Return the weights, as Fractions if all of them are whole numbers or Fractions."""
     if weights is None:
         return [Fraction(1)] * many
-    listed = _numbers(weights, "weights")
-    if len(listed) != many:
-        raise InputError(f"weights has {len(listed)} entries for {many} values; give one each")
-    for weight in listed:
-        if weight < 0:
-            raise InputError(f"weights holds {weight!r}; give weights of 0 or more")
+    listed = _numbers(weights, "weights", many=many)
     if all(isinstance(weight, Fraction) or weight == int(weight) for weight in listed):
         return [Fraction(weight) for weight in listed]
     return [float(weight) for weight in listed]
 
 
-def _probabilities(probability: Iterable[Any], many: int) -> tuple[float | Fraction, ...]:
-    """Return as many probabilities that sum to 1, all of them Fractions or all floats."""
-    listed = _numbers(probability, "probability")
-    if len(listed) != many:
-        raise InputError(f"probability has {len(listed)} entries for {many} values; give one each")
-    for one in listed:
-        if not 0 <= one <= 1:
-            raise InputError(f"probability holds {one!r}; give numbers from 0 to 1")
+def _probabilities(probability: Iterable[Any], many: int) -> tuple[Number, ...]:
+    """Return `many` probabilities that sum to 1, all of them Fractions or all floats."""
+    listed = _numbers(probability, "probability", many=many, high=1.0)
     rational = all(isinstance(one, int | Fraction) for one in listed)
     if sum(listed) != 1 if rational else abs(math.fsum(listed) - 1) > _SUM:
         raise InputError(f"probability sums to {math.fsum(listed)!r}; make it sum to 1")
     if rational:
         return tuple(Fraction(one) for one in listed)
     return tuple(float(one) for one in listed)
-
-
-def _sum(terms: Iterable[float | Fraction]) -> float:
-    listed = list(terms)
-    if listed and isinstance(listed[0], Fraction):
-        return float(sum(listed))
-    return math.fsum(listed)

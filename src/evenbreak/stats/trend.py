@@ -1,4 +1,4 @@
-"""Whether scores drift with time: the straight line through them."""
+"""Whether scores change over time: the straight line through them."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from evenbreak.stats.confidence import checked_scores, open_share, sd_of
 
 
 class Trend(NamedTuple):
-    """The slope of the line through scores, in points for each unit of time.
+    """The slope of the line through scores, in points per unit of time.
 
-    `low` to `high` is its interval with the confidence asked for. `p_value` is the chance
-    of a slope at least so steep, up or down, if the true one is 0.
+    `low` to `high` is its interval with the given confidence. `p_value` is the chance of a
+    slope at least this steep, up or down, if the true slope is 0.
     """
 
     slope: float
@@ -22,22 +22,23 @@ class Trend(NamedTuple):
 
 
 def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
-    """Return the straight line that is nearest to scores over time, by least squares.
+    """Return the straight line that fits scores over time best, by least squares.
 
     Parameters
     ----------
     times
-        when each score was made, in any unit; not all at once.
+        when each score was made, in any unit; not all at the same time.
     scores
-        as many numbers, three or more, that differ. About the true line they are taken to be
-        independent and normal, with one spread.
+        as many numbers, three or more, that differ. They are assumed to lie about the true
+        line independently and normally, with the same spread.
     confidence
         of the interval, between 0 and 1.
 
     Raises
     ------
     InputError
-        if there are fewer than three scores, not as many times, or only one time or score.
+        if there are fewer than three scores, another number of times, or only one distinct
+        time or score.
 
     >>> found = trend([0, 1, 2, 3], [50, 52, 51, 53])
     >>> found.slope, round(found.low, 2), round(found.high, 2)

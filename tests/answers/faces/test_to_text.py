@@ -1,7 +1,8 @@
 import pytest
 
-from evenbreak.answers.answer import Answer, Column, Quantities, Quantity, Table
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_text import paragraph, to_text
+from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 
 
 def wide_table(columns):
@@ -45,3 +46,28 @@ def test_details_are_for_those_who_ask():
     assert "model" not in to_text(answer)
     assert "statistics" in to_text(answer, verbose=True)
     assert "model" in to_text(answer, verbose=True)
+
+
+def test_numbers_stand_flush_right_and_names_flush_left():
+    columns = [Column("player", "player", left=True), Column("games", "games")]
+    table = Table("", columns, [("Ann", 7), ("Christopher", 1234), ("Bo", None)])
+    assert to_text(Answer("Heading", [table])).splitlines()[2:] == [
+        "  player       games",
+        "  Ann              7",
+        "  Christopher   1234",
+        "  Bo",
+    ]
+
+
+def test_two_columns_of_long_names_are_folded_and_the_table_stays_whole():
+    names = (
+        "Maximilian Freiherr von Altenburg-Hohenstein",
+        "Constantina Papadimitropoulou-Karagianni",
+    )
+    columns = [Column("a", "A", left=True), Column("b", "B", left=True), Column("p", "A wins")]
+    lines = to_text(Answer("", [Table("", columns, [(*names, 0.5)])])).splitlines()
+    assert sum("A wins" in line for line in lines) == 1
+    assert all(len(line) <= 80 for line in lines)
+    for name in names:
+        for word in name.replace("-", " ").split():
+            assert any(word in line for line in lines)

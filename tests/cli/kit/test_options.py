@@ -6,10 +6,11 @@ from click.testing import CliRunner
 
 from evenbreak.cli.kit.options import (
     PlainCommand,
+    race_limit_options,
     refuse_both,
+    results_options,
     scale_option,
     seed_option,
-    which_races,
 )
 
 
@@ -71,7 +72,7 @@ def test_a_seed() -> None:
 
 def test_races_by_games_or_by_what_the_stronger_player_needs() -> None:
     @click.command()
-    @which_races
+    @race_limit_options
     def command(games, race_to) -> None:
         refuse_both(games, race_to)
         click.echo(f"{games} {race_to}")
@@ -79,3 +80,32 @@ def test_races_by_games_or_by_what_the_stronger_player_needs() -> None:
     assert shown(command, "--games", "7..9") == "(7, 9) None\n"
     assert shown(command, "--race-to", "7") == "None 7\n"
     assert shown(command, "--games", "7..9", "--race-to", "7").startswith("2 ")
+
+
+@click.command()
+@results_options
+def reading(reading: dict[str, object]) -> None:
+    click.echo(f"{reading['columns']} {reading['dates']} {reading['aliases']}")
+
+
+@pytest.mark.parametrize(
+    ("words", "columns"),
+    [
+        ((), {}),
+        (("--columns", "player_a=Home, Player B = Away"), {"player_a": "Home", "player_b": "Away"}),
+        (("--columns", "player_a=Name, first,score=S"), {"player_a": "Name, first", "score": "S"}),
+        (("--columns", "player_a=x", "--columns", "score=y"), {"player_a": "x", "score": "y"}),
+    ],
+)
+def test_columns_by_their_titles(words: tuple[str, ...], columns: dict[str, str]) -> None:
+    assert shown(reading, *words) == f"{columns} None None\n"
+
+
+@pytest.mark.parametrize("text", ["Home", "=Home", "player_a=", "player_a=x,player_a=y", "a=x,b=X"])
+def test_what_names_no_column_is_refused(text: str) -> None:
+    assert shown(reading, "--columns", text).startswith("2 ")
+
+
+def test_the_order_of_dates() -> None:
+    assert shown(reading, "--dates", "mdy") == "{} mdy None\n"
+    assert shown(reading, "--dates", "ymd").startswith("2 ")

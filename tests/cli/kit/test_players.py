@@ -4,18 +4,23 @@ import click
 import pytest
 
 from evenbreak.cli.kit.players import players_of
+from evenbreak.errors import InputError
 from evenbreak.games import Rack, loser_breaks, player_2_breaks
 from evenbreak.ratings.scale import SCALES
 
 
-def players(*ratings: str, scale=None, p=None, p1=None, p2=None, breaks=None, first=None):
-    return players_of(ratings, scale, p, p1, p2, breaks, first)
+def players(
+    *ratings: str, from_file=None, scale=None, p=None, p1=None, p2=None, breaks=None, first=None
+):
+    return players_of(ratings, scale, p, p1, p2, breaks, first, from_file)
 
 
 def test_by_ratings() -> None:
     found = players("612", "512", scale=SCALES["fargo"])
-    assert found.rack == Rack(2 / 3)
-    assert players("110", "80").rack == Rack(2 / 3)  # points of the NPL, if no scale is given
+    assert found.rack == SCALES["npl"].rack(30.0)
+    assert players("110", "80").rack == SCALES["npl"].rack(
+        30.0
+    )  # points of the NPL, if no scale is given
 
 
 def test_by_one_chance() -> None:
@@ -46,6 +51,43 @@ def test_by_a_chance_for_each_breaker(breaks: str, first: str | None, breaker: i
 def test_options_that_contradict_are_refused(given) -> None:
     with pytest.raises(click.UsageError):
         players(**given)
+
+
+@pytest.fixture
+def listed(tmp_path):
+    path = tmp_path / "ratings.csv"
+    path.write_text(
+        "player,rating,standard_error,quasi_error,games,component,scale\n"
+        "Ann Lee,612,90,20,140,1,fargo\nBo Diaz,521,80,15,90,1,fargo\n"
+        "Cy,500,80,30,90,2,fargo\nDi,,,,0,,fargo\n",
+        encoding="utf-8",
+    )
+    return str(path)
+
+
+def test_by_name_with_the_ratings_scale_and_errors_of_a_list(listed) -> None:
+    found = players("ann lee", "Bo Diaz", from_file=listed)
+    assert found.names == ("Ann Lee", "Bo Diaz")
+    assert found.rack == SCALES["fargo"].rack(91.0)
+    assert found.error == pytest.approx(25.0)
+    assert players("Ann Lee", "Bo Diaz", from_file=listed, scale=SCALES["fargo"]) == found
+
+
+@pytest.mark.parametrize(
+    ("names", "more", "named"),
+    [
+        (("Ann Lee",), {}, "1 are named"),
+        (("Ann Lee", "Bo Dias"), {}, "'Bo Diaz'"),
+        (("Ann Lee", "ann lee"), {}, "one player"),
+        (("Ann Lee", "Cy"), {}, "chain of opponents"),
+        (("Ann Lee", "Di"), {}, "no rating"),
+        (("Ann Lee", "Bo Diaz"), {"scale": SCALES["npl"]}, "--scale"),
+        ((), {"p": 0.6}, "--from"),
+    ],
+)
+def test_names_that_cannot_be_used_are_refused(listed, names, more, named) -> None:
+    with pytest.raises((click.UsageError, InputError), match=named):
+        players(*names, from_file=listed, **more)
 
 
 @pytest.mark.parametrize("ratings", [("612",), ("1", "2", "3"), ("1e308", "-1e308")])

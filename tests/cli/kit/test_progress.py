@@ -50,3 +50,8 @@ def test_with_a_known_total_the_time_left_is_shown(monkeypatch):
 def test_nothing_is_shown_for_short_work_or_in_a_file(monkeypatch):
     assert counted(monkeypatch, Screen(), 60.0) == ""
     assert counted(monkeypatch, io.StringIO(), 0.0) == ""
+
+
+def test_long_work_prints_one_plain_line_into_a_file(monkeypatch):
+    monkeypatch.setattr(module, "PATIENCE_IN_A_FILE", 0.0)
+    assert counted(monkeypatch, io.StringIO(), 0.0) == "1 charts designed so far ...\n"

@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from evenbreak.cli.kit.values import CHANCE, PAIR, SCORE, SPAN, Whole, refuse
+from evenbreak.cli.kit.values import CHANCE, PAIR, SCORE, SPAN, Whole, number_of, refuse
 
 
 @pytest.mark.parametrize(
@@ -11,6 +11,10 @@ from evenbreak.cli.kit.values import CHANCE, PAIR, SCORE, SPAN, Whole, refuse
     [
         (PAIR, "7:5", (7, 5)),
         (PAIR, " 7 : 5 ", (7, 5)),
+        (PAIR, "7-5", (7, 5)),
+        (PAIR, "7/5", (7, 5)),
+        (PAIR, "7 – 5", (7, 5)),
+        (SCORE, "0-3", (0, 3)),
         (PAIR, "7", (7, 7)),
         (SCORE, "0:3", (0, 3)),
         (SPAN, "7..13", (7, 13)),
@@ -31,6 +35,10 @@ def test_values(kind: click.ParamType, text: str, value: object) -> None:
         (PAIR, "7:"),
         (PAIR, ":5"),
         (PAIR, "7::5"),
+        (PAIR, "-5"),
+        (PAIR, "7--5"),
+        (PAIR, "7.5"),
+        (SCORE, "7-5-3"),
         (PAIR, "0:5"),
         (PAIR, "1001"),
         (PAIR, "٧"),
@@ -49,6 +57,11 @@ def test_other_texts_are_refused_and_shown(kind: click.ParamType, text: str) -> 
     with pytest.raises(click.BadParameter) as refused:
         kind.convert(text, None, None)
     assert repr(text) in refused.value.message
+
+
+@pytest.mark.parametrize("text", ["-0", "-0.0", "-.0", "-0e5"])
+def test_minus_nothing_is_nothing(text: str) -> None:
+    assert str(number_of(text)) == str(CHANCE.convert(text, None, None)) == "0.0"
 
 
 @pytest.mark.parametrize(("text", "hint"), [("95", "0.95"), ("80%", "0.8"), ("0,5", "0.5")])

@@ -2,68 +2,33 @@ import csv
 import io
 import json
 from dataclasses import replace
-from math import log10
 
 import numpy as np
 import pytest
 
-from evenbreak.cli.ladder.ladder_answer import COLUMNS, LadderAnswer, Question
-from evenbreak.cli.ladder.ladder_compare import COMPARE_COLUMNS, STEPS
-from evenbreak.cli.ladder.ladder_options import say_if_long
-from evenbreak.cli.ladder.ladder_words import of_100
-from evenbreak.errors import AccuracyError
+from evenbreak.cli.ladder.ladder import say_if_long
 from evenbreak.handicaps import chart, system_of
 from evenbreak.handicaps.ladders.ladder import Ladder
-from evenbreak.handicaps.ladders.opponents import EQUAL_SKILL, opponents_of, stretched
+from evenbreak.handicaps.ladders.opponents import EQUAL_SKILL
 from evenbreak.handicaps.ladders.settling import settling
 from evenbreak.handicaps.systems.catalogue import FAMILIES
 from evenbreak.ratings.scale import scale_of
 from places import DATA
 
 ROSTER = DATA / "demo_roster.csv"
-KEYS = [
+COLUMNS = ("error", "probability", "cumulative", "p_win")
+KEYS = {
     *("system", "scale", "points_per_doubling", "chart", "opponents", "day_sd"),
     *("matches_a_night", "match_sd", "drift", "sd", "mean", "distribution", "quantiles"),
-    *(
-        "off_by_quantiles",
-        "off_by_more",
-        "natural_sd",
-        "unfairness",
-        "inflation",
-        "newcomer_leaves",
-        "gap",
-        "mixing_matches",
-    ),
-    *("settling", "schema_version"),
-]
+    *("off_by_quantiles", "off_by_more", "natural_sd", "unfairness", "inflation"),
+    *("newcomer_leaves", "gap", "mixing_matches", "settling", "schema_version"),
+}
 PRINTED = {  # the source's standard deviations: opponents rated rightly, and off as the player
     "npl_8": (4.963, 4.978),
     "npl_10": (4.634, 4.654),
     "npl_12": (4.269, 4.291),
     "npl_20": (3.668, 3.697),
 }
-
-
-@pytest.fixture
-def ladder(run):
-    def ask(*words):
-        result = run("ladder", "--json", *words)
-        assert result.exit_code == 0, result.stderr
-        return json.loads(result.stdout)
-
-    return ask
-
-
-@pytest.fixture
-def terminal(monkeypatch, run):
-    def ask(*words):
-        for module in ("output", "ladder", "ladder_compare"):
-            monkeypatch.setattr(f"evenbreak.cli.{module}.to_terminal", lambda: True)
-        result = run("ladder", *words)
-        assert result.exit_code == 0, result.stderr
-        return result.stdout
-
-    return ask
 
 
 @pytest.mark.parametrize("name", PRINTED)
@@ -74,13 +39,9 @@ def test_the_standard_deviations_of_the_source(ladder, name):
     assert auto["opponents"] == "autocorrelated"
 
 
-def test_opponents_of_equal_skill_who_are_rated_wrongly(ladder):
-    assert round(ladder("--chart", "npl_10", "--equal-skill")["sd"], 3) == 4.417
-
-
 def test_all_keys_and_a_law_that_adds_up(ladder):
     answer = ladder("--chart", "npl_10", "--from", "-30", "--within", "5")
-    assert list(answer) == KEYS
+    assert set(answer) >= KEYS
     law = {row["error"]: row["probability"] for row in answer["distribution"]}
     assert sum(law.values()) == pytest.approx(1.0)
     assert answer["mean"] == pytest.approx(0.0, abs=1e-12)
@@ -162,73 +123,18 @@ def test_a_step_of_one_is_the_rule_of_the_npl(ladder):
     assert ladder("--step", "1")["distribution"] == ladder()["distribution"]
 
 
-def test_opponents_of_a_league(ladder):
-    answer = ladder("--chart", "npl_10", "--league", str(ROSTER), "--skill", "60")
-    with ROSTER.open(encoding="utf-8") as file:
-        ratings = [float(row["rating"]) for row in csv.DictReader(file) if row["rating"]]
-    built = Ladder("npl", chart("npl_10"), opponents=opponents_of(ratings, about=60))
-    assert answer["sd"] == built.law().sd
-    assert answer["opponents"] == "league"
-    median = ladder("--chart", "npl_10", "--league", str(ROSTER))
-    assert median["sd"] != answer["sd"]
-
-
-def test_a_league_without_ratings_is_bad_data(run, tmp_path):
-    roster = tmp_path / "new.csv"
-    roster.write_text("player,rating\nAnn,\nBo,\n")
-    result = run("ladder", "--league", str(roster))
-    assert result.exit_code == 3
-    assert "nobody in it has a rating" in result.stderr
-
-
 def test_a_chart_of_ones_own(ladder, tmp_path):
     ours = tmp_path / "ours.csv"
     ours.write_text("difference_from,difference_to,stronger_needs,weaker_needs\n0,9,5,5\n10,,5,4\n")
     assert ladder("--chart", str(ours))["chart"] == "ours"
 
 
-def test_a_chart_for_another_scale_is_doubted(run):
-    doubted = run("ladder", "--json", "--chart", "fargo_r6_hot")
-    assert "points double the odds" in doubted.stderr
-    assert doubted.exit_code == 0
-    right = run("ladder", "--json", "--chart", "fargo_r6_hot", "--scale", "fargo")
-    assert not right.stderr
-    assert json.loads(right.stdout)["settling"]["start"] == -100
-
-
-def test_a_terminal_is_told_in_sentences(terminal):
-    text = terminal("--chart", "npl_10")
-    answer = " ".join(text.split())
-    assert answer.startswith("How wrong are ratings on chart npl_10, system npl?")
-    assert "off by 4.63 points (standard deviation)" in answer
-    assert "9 ratings of 10 are off by 7 points or less" in answer
-    assert "A player rated 30 points too low comes within 5 after 60.3 matches" in answer
-    assert "spectral gap 0.0217" in answer
-    assert max(map(len, text.splitlines())) <= 80
-
-
-def test_a_terminal_is_told_what_varies(terminal):
-    words = ("--day-sd", "5", "--match-sd", "2", "--drift", "0.1", "--newcomer", "--from", "25")
-    answer = " ".join(terminal("--equal-skill", *words).split())
-    assert "varies by 5 points from night to night, 1 match a night." in answer
-    assert "varies by 2 points from match to match." in answer
-    assert "skill rises by 0.1 points a match." in answer
-    assert "points too low on average, and wanders about that" in answer
-    assert "A player rated 25 points too high who moves as newcomers do" in answer
-    falling = " ".join(terminal("--drift", "-0.1").split())
-    assert "skill falls by 0.1 points a match." in falling
-    assert "points too high on average" in falling
-    settled = " ".join(terminal("--from", "3").split())
-    assert "An error of 3 counts as settled from the beginning." in settled
-
-
-def test_how_often_in_words():
-    assert [of_100(p) for p in (0.0, 0.5, 0.1, 0.01)] == [
-        "none",
-        "50 of 100",
-        "10 of 100",
-        "1 in 100",
-    ]
+def test_a_chart_for_another_scale_is_a_warning(ladder):
+    (warning,) = ladder("--chart", "fargo_r6_hot")["warnings"]
+    assert "fargo_r6_hot" in warning
+    right = ladder("--chart", "fargo_r6_hot", "--scale", "fargo")
+    assert right["warnings"] == []
+    assert right["settling"]["start"] == -100
 
 
 @pytest.mark.parametrize("words", [(), ("--autocorrelated", "--from", "-30")])
@@ -247,117 +153,37 @@ def test_the_help_names_all_systems(run):
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "told"),
+    ("words", "code", "named"),
     [
-        (("--chart", "apa_8ball"), 2, "a chart of skill levels"),
+        (("--chart", "apa_8ball"), 2, "'apa_8ball'"),
         (("--chart", "npl_9"), 3, "npl_9"),
-        (("--system", "chess"), 2, "system is 'chess'"),
-        (("--step", "0"), 2, "give a whole number from 1 to"),
-        (("--step", "2", "--system", "npl"), 2, "leave --system out"),
-        (("--from", "61"), 2, "the ladder goes from -60 to 60 points"),
-        (("--from", "half"), 2, "give a whole number"),
-        (("--day-sd", "-1"), 2, "give points, 0 or more"),
-        (("--day-sd", "1e9"), 2, "give points from 0 to 120"),
-        (("--scale", "0.01"), 2, "give 1 or more to double the odds"),
-        (("--match-sd", "nan"), 2, "give points, 0 or more"),
-        (("--drift", "2"), 2, "give a number from -0.9 to 0.9"),
-        (("--step", "100"), 1, "a smaller --step"),
+        (("--system", "chess"), 2, "'chess'"),
+        (("--step", "0"), 2, "'0'"),
+        (("--step", "2", "--system", "npl"), 2, "leave out --system"),
+        (("--from", "61"), 2, "from -60 to 60"),
+        (("--from", "half"), 2, "'half'"),
+        (("--day-sd", "-1"), 2, "'-1'"),
+        (("--day-sd", "1e9"), 2, "from 0 to 120"),
+        (("--scale", "0.01"), 2, "--scale 0.01"),
+        (("--match-sd", "nan"), 2, "'nan'"),
+        (("--drift", "2"), 2, "from -0.9 to 0.9"),
+        (("--step", "100"), 1, "--step"),
         (("--matches-a-night", "3"), 2, "give --day-sd"),
-        (("--autocorrelated", "--equal-skill"), 2, "exclude each other"),
-        (("--equal-skill", "--league", "x.csv"), 2, "exclude each other"),
+        (("--autocorrelated", "--equal-skill"), 2, "--autocorrelated and --equal-skill"),
+        (("--equal-skill", "--league", "x.csv"), 2, "--equal-skill and --league"),
         (("--skill", "80"), 2, "give --league"),
         (("--league", "no_such_file.csv"), 3, "no_such_file.csv"),
         (("--system", "elo 16", "--scale", "npl"), 2, "leave --scale out"),
-        (("--step", "2", "--newcomer"), 2, "leave --newcomer out"),
-        (("--scale", "-3"), 2, "scale is '-3'"),
+        (("--step", "2", "--newcomer"), 2, "--newcomer"),
+        (("--scale", "-3"), 2, "'-3'"),
         (("--chart", "-", "--league", "-"), 2, "only one file can be"),
         (("--plot", "x.pdf"), 2, ".png or .svg"),
     ],
 )
-def test_what_is_wrong_is_told_with_a_remedy(run, words, code, told):
+def test_what_is_wrong_is_named_with_a_remedy(run, words, code, named):
     result = run("ladder", *words)
     assert (result.exit_code, result.stdout) == (code, "")
-    assert told in " ".join(result.stderr.split())
-
-
-def test_systems_side_by_side(ladder):
-    answer = ladder("--compare", "--chart", "npl_12", "--equal-skill")
-    rows = {(row["system"], row["chart"]): row for row in answer["systems"]}
-    assert all(tuple(row) == COMPARE_COLUMNS for row in rows.values())
-    assert {chart for system, chart in rows if system == "npl"} == set(PRINTED)
-    assert round(rows["npl", "npl_10"]["sd"], 3) == 4.417
-    # A step of one is the league's own rule.
-    own, step = rows["npl", "npl_12"], rows["step 1", "npl_12"]
-    assert own["on_front"] is None
-    assert {**own, "system": "step 1", "on_front": True} == step
-    assert rows["step 2", "npl_12"]["sd"] > own["sd"]
-    assert rows["step 2", "npl_12"]["settling_mean"] < own["settling_mean"]
-    assert rows["elo 16", "fixed_9"]["sd_doublings"] < 1.0
-
-
-@pytest.fixture(scope="module")
-def compared(run):
-    result = run("ladder", "--compare", "--json")
-    assert result.exit_code == 0, result.stderr
-    return json.loads(result.stdout)["systems"]
-
-
-def test_a_row_of_the_comparison_says_what_the_ladder_says(ladder, compared):
-    (row,) = (row for row in compared if (row["system"], row["chart"]) == ("npl", "npl_10"))
-    alone = ladder("--chart", "npl_10")
-    assert row["sd"] == alone["sd"]
-    assert row["settling_mean"] == alone["settling"]["mean"]
-    assert row["p_favourite_mean"] == pytest.approx(alone["unfairness"]["favourite_mean"])
-
-
-def test_no_step_of_the_front_is_beaten(compared):
-    steps = [row for row in compared if row["on_front"] is not None]
-    assert [row["system"] for row in steps] == [f"step {step}" for step in STEPS]
-    for row in steps:
-        beaten = any(
-            other["sd"] < row["sd"] and other["settling_mean"] < row["settling_mean"]
-            for other in steps
-        )
-        assert row["on_front"] is not beaten
-
-
-def test_the_comparison_as_one_table_and_as_a_picture(run, terminal, tmp_path):
-    path = tmp_path / "systems.svg"
-    result = run("ladder", "--compare", "--plot", str(path))
-    rows = list(csv.DictReader(io.StringIO(result.stdout)))
-    assert tuple(rows[0]) == COMPARE_COLUMNS
-    assert {row["on_front"] for row in rows} == {"", "0", "1"}
-    assert "<svg" in path.read_text(encoding="utf-8")
-    text = terminal("--compare")
-    assert "Sizes of the step on chart npl_10:" in text
-    assert "Step 6 is never worth it: another step is both more exact and faster." in " ".join(
-        text.split()
-    )
-    assert max(map(len, text.splitlines())) <= 80
-
-
-def test_ratings_that_are_fitted_anew_are_simulated_beside_the_ladders(run, terminal):
-    table = run("ladder", "--compare", "--equal-skill").stdout.splitlines()
-    rows = list(csv.DictReader(table))
-    (refit,) = (row for row in rows if row["sd_se"])
-    (npl,) = (row for row in rows if (row["system"], row["chart"]) == ("npl", "npl_10"))
-    assert refit["system"] == "refit"
-    # Newcomers come in sooner than step by step, and nobody is as far off as by longer steps.
-    settling, error = float(refit["settling_mean"]), float(refit["settling_mean_se"])
-    assert settling + 4.0 * error < float(npl["settling_mean"])
-    assert 4.0 < float(refit["sd"]) - float(refit["sd_se"]) < 6.2
-    assert "refit: all ratings are fitted anew each week" in terminal("--compare", "--equal-skill")
-    assert "refit" not in run("ladder", "--compare").stdout
-
-
-@pytest.mark.parametrize(
-    "words",
-    [("--system", "npl"), ("--step", "2"), ("--from", "3"), ("--newcomer",), ("--drift", "0.1")],
-)
-def test_what_a_comparison_takes_no_heed_of_is_refused(run, words):
-    result = run("ladder", "--compare", *words)
-    assert (result.exit_code, result.stdout) == (2, "")
-    assert f"leave {words[0]} out" in " ".join(result.stderr.split())
+    assert named in " ".join(result.stderr.split())
 
 
 def test_uneven_steps_have_a_gap_and_mix(run):
@@ -369,40 +195,11 @@ def test_uneven_steps_have_a_gap_and_mix(run):
 
 
 @pytest.mark.parametrize(
-    ("system", "matches", "told"), [("elo 16", 3, True), ("elo 16", 1, False), ("npl", 3, False)]
+    ("system", "matches", "said"), [("elo 16", 3, True), ("elo 16", 1, False), ("npl", 3, False)]
 )
-def test_what_takes_long_is_said_beforehand(capsys, system, matches, told):
-    by = system_of(system)
-    say_if_long(by, by.usual_chart(), matches)
-    assert ("far longer" in capsys.readouterr().err) == told
-
-
-@pytest.fixture
-def fargo_league(tmp_path):
-    path = tmp_path / "fargo.csv"
-    path.write_text("player,rating\nAnn,600\nBo,500\nCy,550\n", encoding="utf-8")
-    return str(path)
-
-
-def test_a_league_on_another_scale_is_told(run, fargo_league):
-    told = " ".join(run("ladder", "--json", "--league", fargo_league).stderr.split())
-    assert "ratings on the npl scale are about 80, here they are about 550" in told
-    fits = ("--chart", "fargo_r6_hot", "--scale", "fargo")
-    assert run("ladder", "--json", *fits, "--league", fargo_league).stderr == ""
-
-
-@pytest.mark.parametrize("compare", [(), ("--compare",)])
-@pytest.mark.parametrize(
-    ("skill", "code", "told"),
-    [
-        ("80", 1, "give a --skill nearer to them"),
-        ("5000", 2, "--skill is 5000, and the ratings of"),
-    ],
-)
-def test_opponents_who_are_too_far_are_refused(run, fargo_league, compare, skill, code, told):
-    result = run("ladder", "--league", fargo_league, "--skill", skill, *compare)
-    assert (result.exit_code, result.stdout) == (code, "")
-    assert told in " ".join(result.stderr.split())
+def test_what_takes_long_is_said_beforehand(capsys, system, matches, said):
+    say_if_long(Ladder(system, day_sd=1.0, matches_a_night=matches))
+    assert bool(capsys.readouterr().err) == said
 
 
 def test_a_chart_that_is_even_everywhere_is_the_reason(run, tmp_path):
@@ -412,47 +209,11 @@ def test_a_chart_that_is_even_everywhere_is_the_reason(run, tmp_path):
     )
     result = run("ladder", "--chart", str(path))
     assert result.exit_code == 1
-    assert "nothing brings a wrong rating back" in " ".join(result.stderr.split())
+    assert "same race at every difference" in " ".join(result.stderr.split())
 
 
-def test_what_takes_for_ever_is_no_number(run):
-    told = " ".join(run("ladder", "--json", "--drift", "0.9").stderr.split())
-    assert "hardly ever comes" in told
-    assert "e+" not in told
-
-
-def test_a_gap_too_small_is_told_without_names_of_functions():
-    answer = LadderAnswer(Ladder("npl"), Question(-30, 5, newcomer=False, opponents="natural"))
-
-    def too_small():
-        raise AccuracyError("follow the ladder with ladder_mixing")
-
-    answer._or_not_told(too_small, "old errors fade slowly")
-    assert answer.not_told == ["old errors fade slowly"]
-
-
-def test_the_comparison_takes_a_league(ladder):
-    words = ("--chart", "npl_10", "--league", str(ROSTER), "--skill", "70")
-    compared = ladder("--compare", *words)
-    rows = {(row["system"], row["chart"]): row for row in compared["systems"]}
-    assert compared["opponents"] == "league"
-    alone = ladder(*words)
-    assert rows["npl", "npl_10"]["sd"] == alone["sd"]
-    assert rows["npl", "npl_10"]["settling_mean"] == alone["settling"]["mean"]
-    new = ladder(*words, "--newcomer")["settling"]["mean"]
-    assert rows["npl new", "npl_10"]["settling_mean"] == new
-    with ROSTER.open(encoding="utf-8") as file:
-        ratings = [float(row["rating"]) for row in csv.DictReader(file) if row["rating"]]
-    elo = Ladder("elo 4", opponents=stretched(opponents_of(ratings, 70), 400 * log10(2) / 30))
-    assert rows["elo 4", "fixed_9"]["sd"] == elo.law().sd
-
-
-def test_the_comparison_says_first_what_helps_most(terminal):
-    text = " ".join(terminal("--compare").split())
-    assert "Least off: npl on npl_20 (12.2 % of a doubling)." in text
-    assert "Fastest: step 10 on npl_10 (5.8 matches)." in text
-    assert "of those that are no slower, npl on npl_20 is the most accurate" in text
-    assert "newcomers alone (npl new) bring them in after 27.6 matches" in text
-    assert "it is the most accurate itself" in " ".join(
-        terminal("--compare", "--chart", "npl_20").split()
-    )
+def test_a_part_that_takes_forever_is_left_out_with_a_warning(ladder):
+    answer = ladder("--drift", "0.9")
+    assert answer["settling"] is None
+    (warning,) = answer["warnings"]
+    assert "e+" not in warning

@@ -2,13 +2,16 @@ import csv
 import io
 import json
 
+import click
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
-from evenbreak.handicaps.charts.uncertain import win_given_ratings
+from evenbreak.handicaps import audit_levels
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+from evenbreak.matches import PACES, Turnover
 from places import DATA
 
 CLUB = "player,rating\nAnn,92\nBo,71\nCy,80\nDi,60\n"
@@ -51,7 +54,7 @@ def test_all_pairs_as_csv(run, roster):
     assert list(rows[0]) == COLUMNS
     assert (rows[1]["chart_race_a"], rows[1]["chart_race_b"]) == ("6", "4")
     assert rows[1]["difference_error"] == ""
-    assert "npl scale" in result.stderr
+    assert "NPL scale" in result.stderr
 
 
 def test_pairs_in_the_order_of_the_list(run, roster):
@@ -110,11 +113,28 @@ def test_a_middle_far_from_all_ratings_is_no_starter(run, roster, words, doubted
     assert ("--starter" in run("matchups", path, *SURE, *words).stderr) == doubted
 
 
-def test_levels_need_a_scale(run, roster):
+def test_levels_are_as_strong_as_the_chart_makes_them(run, roster):
+    path = roster("player,skill level\nAnn,7\nBo,4\nCy,2\n")
+    result = run("matchups", path, "--chart", "apa_8ball", "--json")
+    assert (result.exit_code, result.stderr) == (0, "")
+    found = json.loads(result.stdout)
+    audited = {(cell.level, cell.opponent_level): cell for cell in audit_levels("apa_8ball").cells}
+    for row, levels in zip(found["pairs"], [(7, 4), (7, 2), (4, 2)], strict=True):
+        cell = audited[levels]
+        assert (row["chart_race_a"], row["chart_race_b"]) == (cell.needs, cell.opponent_needs)
+        assert row["chart_p_win_a"] == pytest.approx(cell.p_win_middle, rel=1e-9)
+    assert found["levels"]["2"] == 2.0
+    assert "chart audit apa_8ball" in run("matchups", path, "--chart", "apa_8ball").stderr
+
+
+def test_a_page_says_how_strong_levels_are(run, roster, tmp_path):
+    path, page = roster("player,skill level\nAnn,5\nBo,3\n"), tmp_path / "tonight.html"
+    assert run("matchups", path, "--chart", "apa_8ball", "--html", str(page)).exit_code == 0
+    assert "by 1.36 on average" in page.read_text(encoding="utf-8")
+
+
+def test_levels_on_a_scale(run, roster):
     path = roster("player,skill level\nAnn,5\nBo,3\n")
-    result = run("matchups", path, "--chart", "apa_8ball")
-    assert result.exit_code == 2
-    assert "--scale" in result.stderr
     (row,) = answer(run, path, "--chart", "apa_8ball", "--scale", "2")["pairs"]
     assert (row["chart_race_a"], row["chart_race_b"]) == (4, 2)
     result = run("matchups", roster(), "--chart", "apa_8ball", "--scale", "2")
@@ -134,6 +154,26 @@ def test_the_evening_is_in_every_face(run, roster):
     assert len(table(result)) == 2
     assert "2 matches on 2 tables" in run("matchups", *words, "--tables", "2", "--text").stdout
     assert answer(run, *words)["evening"] == []
+
+
+def test_minutes_go_by_the_discipline_and_the_turnover(run, roster):
+    words = (roster(), "--chart", "npl_10", "--tables", "1")
+    nine, eight, quick = (
+        answer(run, *words, *more)
+        for more in (
+            ("--discipline", "9-ball"),
+            ("--discipline", "8-ball"),
+            ("--discipline", "9-ball", "--turnover", "0"),
+        )
+    )
+    for row in nine["pairs"]:
+        assert row["chart_mean_minutes"] == pytest.approx(3.8 + 5.58 * row["chart_mean_games"])
+    assert nine["pace"]["discipline"] == "9-ball"
+    assert nine["pace"]["turnover"] == 10.8
+    ends = [found["evening"][0]["mean_minutes"] for found in (eight, nine, quick)]
+    assert ends == sorted(ends, reverse=True)
+    assert ends[1] - ends[2] == pytest.approx(10.8 * (len(nine["pairs"]) - 1))
+    assert answer(run, roster(), "--chart", "npl_10")["pace"] is None
 
 
 def test_the_seed_decides_an_evening_that_is_simulated(run, roster):
@@ -201,12 +241,15 @@ def test_stdin(run):
         (("--race-to", "7", "--tables", "2"), "--minutes-per-game"),
         (("--race-to", "7", "--tables", "0", "--minutes-per-game", "8"), "from 1 to 1000"),
         (("--race-to", "7", "--minutes-per-game", "0"), "'0'"),
+        (("--race-to", "7", "--discipline", "snooker"), "snooker"),
+        (("--race-to", "7", "--discipline", "8-ball", "--minutes-per-game", "8"), "--discipline"),
+        (("--race-to", "7", "--discipline", "8-ball", "--turnover", "5"), "--tables"),
         (("--race-to", "7", "--minutes-per-game", "nan"), "'nan'"),
         (("--race-to", "7", "--starter", "x"), "'x'"),
         (("--race-to", "7", "--starter-sd", "-1"), "'-1'"),
         (("--race-to", "7", "--starter-sd", "151"), "150"),
         (("--race-to", "7", "--scale", "x"), "npl, fargo, elo"),
-        (("--race-to", "7", "--pairs", "-", "--chart", "-"), "stdin"),
+        (("--race-to", "7", "--pairs", "-", "--chart", "-"), "standard input"),
     ],
 )
 def test_wrong_use_says_how_to_mend_it(run, roster, words, remedy):
@@ -228,7 +271,7 @@ def test_what_a_roster_may_lack(run, roster):
 
 
 def test_examples_of_the_help_name_options_that_exist():
-    command = program.get_command(None, "matchups")
+    command = program.get_command(click.Context(program), "matchups")
     known = {name for option in command.params for name in option.opts}
     used = {word for word in module.EXAMPLES.split() if word.startswith("--")}
     assert used <= known
@@ -236,7 +279,8 @@ def test_examples_of_the_help_name_options_that_exist():
 
 DEMO = str(DATA / "demo_roster.csv")
 LINE = (
-    "--games --race-to --chart --tables --minutes-per-game --scale --starter --json 7..9 3 npl_8 2"
+    "--games --race-to --chart --tables --minutes-per-game --discipline --turnover --scale "
+    "--starter --json 7..9 3 npl_8 2 8-ball"
 )
 words = st.sampled_from(LINE.split()) | st.text(max_size=4)
 
@@ -291,3 +335,85 @@ def test_more_than_a_page_holds_is_refused_with_the_remedy(run, roster, tmp_path
     result = run("matchups", club, *SURE, "--html", "page.txt")
     assert "'page.txt'" in result.stderr
     assert not page.exists()
+
+
+@pytest.fixture
+def fargo_list(run, tmp_path):
+    """Return the list that `report --scale fargo` writes of the demo league."""
+    assert run(
+        *("report", str(DATA / "demo_league.csv"), "--out", str(tmp_path), "--scale", "fargo")
+    ).exit_code == 0  # fmt: skip
+    return tmp_path / "ratings.csv"
+
+
+def test_a_list_keeps_its_scale(run, fargo_list):
+    found = run("matchups", str(fargo_list), *SURE, "--csv")
+    stated = run("matchups", str(fargo_list), *SURE, "--scale", "fargo", "--csv")
+    assert table(found) == table(stated)
+    unlike = run("matchups", str(fargo_list), "--chart", "npl_10")
+    assert "npl_10 is made for ratings on the NPL scale" in unlike.stderr
+
+
+def test_another_scale_than_that_of_the_list_is_refused(run, fargo_list):
+    refused = run("matchups", str(fargo_list), *SURE, "--scale", "elo")
+    assert refused.exit_code == 2
+    assert "Fargo scale" in refused.stderr
+    assert "Elo scale" in refused.stderr
+
+
+@pytest.mark.parametrize("command", [
+    ("rate", str(DATA / "demo_league.csv"), "--system", "npl", "--roster"),
+    ("sandbag", "watch", str(DATA / "demo_league.csv"), "--roster"),
+    ("ladder", "--league"),
+    ("ladder", "--compare", "--league"),
+])  # fmt: skip
+def test_a_system_of_another_scale_than_the_list_is_refused(run, fargo_list, command):
+    refused = run(*command, str(fargo_list))
+    assert refused.exit_code == 2
+    assert "Fargo scale" in refused.stderr
+    assert "NPL scale" in refused.stderr
+
+
+def test_a_season_on_another_scale_than_the_list_is_refused(run, fargo_list, tmp_path):
+    refused = run("simulate", str(fargo_list), "--out", str(tmp_path / "season"))
+    assert refused.exit_code == 2
+    assert "Fargo scale" in refused.stderr
+
+
+def test_of_a_list_only_the_entrants_meet(run, tmp_path):
+    entrants = tmp_path / "entrants.txt"
+    entrants.write_text("Søren Lindqvall\nNoor Al-Beyrati\nA Stranger\n", encoding="utf-8")
+    words = (str(DATA / "demo_roster.csv"), "--race-to", "7", "--json")
+    result = run("matchups", *words, "--players-file", str(entrants))
+    page = tmp_path / "tonight.html"
+    asked = ("--players-file", str(entrants), "--html", str(page))
+    assert run("matchups", *words, *asked).exit_code == 0
+    shown = page.read_text(encoding="utf-8")
+    assert "A Stranger" in shown
+    assert "/demo_roster.csv" not in shown
+    assert str(tmp_path) not in shown
+    pairs = json.loads(result.stdout)["pairs"]
+    assert [(pair["player_a"], pair["player_b"]) for pair in pairs] == [
+        ("Søren Lindqvall", "A Stranger"),
+        ("Søren Lindqvall", "Noor Al-Beyrati"),
+        ("A Stranger", "Noor Al-Beyrati"),
+    ]
+    assert pairs[0]["difference"] == 19
+    assert pairs[0]["difference_error"] == pytest.approx((6.7**2 + 30**2) ** 0.5)
+    assert "'A Stranger'" in result.stderr
+
+
+def test_the_help_knows_the_paces_and_the_usual_turnover(run):
+    assert tuple(PACES) == module.DISCIPLINES
+    assert f"[default: {Turnover().mean:g}]" in " ".join(run("matchups", "--help").stdout.split())
+
+
+def test_skill_levels_need_a_chart_of_levels_or_a_scale(run, tmp_path):
+    (tmp_path / "apa.csv").write_text("Name,Skill Level\nAnn,7\nBob,4\n", encoding="utf-8")
+    roster = str(tmp_path / "apa.csv")
+    refused = run("matchups", roster, "--race-to", "7")
+    assert refused.exit_code == 2
+    assert "apa_8ball" in refused.stderr
+    assert run("odds", "Ann", "Bob", "--from", roster, "--race", "7").exit_code == 2
+    assert run("matchups", roster, "--race-to", "7", "--scale", "2").exit_code == 0
+    assert run("matchups", roster, "--chart", "apa_8ball").exit_code == 0

@@ -27,6 +27,7 @@ COLUMNS = [
     "races_won",
     "races_lost",
     "component",
+    "scale",
 ]
 
 
@@ -62,7 +63,7 @@ def test_csv_into_a_pipe_and_words_beside_it(rate):
     assert list(rows[0]) == COLUMNS
     assert [row["player"] for row in rows] == ["Ann Lee", "Bo Diaz", "Cy"]
     assert sum(float(row["rating"]) for row in rows) == pytest.approx(1500, abs=1e-5)
-    assert "3 players, 4 matches with 42 games." in result.stderr
+    assert "3 players, 4 matches, 42 games" in result.stderr
     assert "100 points double the odds" in result.stderr
 
 
@@ -113,7 +114,7 @@ def test_pairs(rate, told):
     assert line == "player_a,player_b,difference,standard_error,p_game_a,note"
 
 
-def test_pairs_whom_nothing_links_have_no_numbers(told):
+def test_pairs_that_nothing_links_have_no_numbers(told):
     season = "player_a,player_b,score_a,score_b\nAnn,Bo,7,5\nCy,Di,7,5\n"
     (pair,) = told("--pair", "Ann", "Cy", season=season)["pairs"]
     assert (pair["difference"], pair["p_game_a"]) == (None, None)
@@ -121,18 +122,28 @@ def test_pairs_whom_nothing_links_have_no_numbers(told):
 
 
 def test_the_best_prior_is_among_those_tried(told):
-    answer = told("--prior", "best")
+    answer = told("--prior", "best", season=(DATA / "demo_league.csv").read_text(encoding="utf-8"))
     best = min(answer["priors_tried"], key=lambda tried: tried["log_loss"])
     assert answer["prior_sd_points"] == pytest.approx(best["prior_sd_points"])
-    assert told()["priors_tried"] is None
+    assert answer["prior_learnt"] is True
+    plain = told()
+    assert (plain["priors_tried"], plain["prior_learnt"]) == (None, None)
 
 
-def test_groups_are_told_apart(rate):
+def test_a_few_matches_are_warned_of_and_leave_the_default_prior(rate):
+    result = rate("--json", "--prior", "best")
+    answer = json.loads(result.stdout)
+    assert answer["prior_learnt"] is False
+    assert answer["prior_sd_points"] == pytest.approx(30)
+    assert "too few" in result.stderr
+
+
+def test_groups_that_never_met_are_kept_apart(rate):
     season = "player_a,player_b,score_a,score_b\nAnn,Bo,5,7\nBo,Cy,5,7\nDi,Eve,9,0\nFi,Ann,0,0\n"
     result = rate(season=season)
     rows = list(csv.DictReader(io.StringIO(result.stdout)))
     assert [row["component"] for row in rows] == ["1", "1", "1", "2", "2", "3"]
-    assert "Nothing links 2 groups of players, of 3 and 2" in result.stderr
+    assert "2 groups of players, of 3 and 2" in result.stderr
     assert "1 player has no games that count" in result.stderr
 
 
@@ -146,11 +157,12 @@ def test_winners_alone(rate):
 
 
 @pytest.mark.parametrize("advantage", ["fit", "5"])
-def test_a_break_that_the_file_does_not_tell_is_told(rate, advantage):
+def test_a_break_advantage_without_known_breaks_is_a_warning(rate, advantage):
     season = "player_a,player_b,score_a,score_b\nAnn,Bo,7,5\n"
     result = rate("--break-advantage", advantage, season=season)
     assert result.exit_code == 0
-    assert "of no game the file says who broke" in result.stderr
+    assert "Warning:" in result.stderr
+    assert "--break-advantage changes nothing" in result.stderr
 
 
 def test_names_cannot_become_formulas(rate):
@@ -162,19 +174,21 @@ def test_names_cannot_become_formulas(rate):
 @pytest.mark.parametrize(
     ("words", "code", "remedy"),
     [
-        (["--prior", "0"], 2, "a number of points above 0, or best"),
-        (["--prior", "wide"], 2, "a number of points above 0, or best"),
-        (["--prior", "1e9"], 2, "on this scale give"),
-        (["--half-life", "-3"], 2, "a number of days above 0"),
-        (["--as-of", "3/1/2026"], 2, "such as 2026-01-31 or 31.1.2026"),
-        (["--as-of", "2020-01-01"], 3, "no match in it was played by 2020-01-01; give a later day"),
+        (["--prior", "0"], 2, "on this scale give"),
+        (["--prior", "wide"], 2, "a number of points, or best"),
+        (["--prior", "1e6"], 2, "on this scale give"),
+        (["--half-life", "-3"], 2, "a number of days"),
+        (["--as-of", "3/1/2026"], 2, "--dates mdy or --dates dmy"),
+        (["--as-of", "soon"], 2, "such as 2026-01-31"),
+        (["--as-of", "2204-04-01"], 2, "'2204-04-01' is more than a year from today"),
+        (["--as-of", "2020-01-01"], 3, "2020-01-01; give a later day"),
         (["--break-advantage", "nan"], 2, "a number of points, or fit"),
         (["--anchor", "high"], 2, "such as 80, or NAME=POINTS"),
         (["--anchor", "1", "--anchor", "2"], 2, "not both"),
         (["--anchor", "1", "--anchor", "Cy=2"], 2, "not both"),
-        (["--anchor", "Cyy=2"], 2, "--anchor: not in the results: 'Cyy' (did you mean 'Cy'"),
-        (["--pair", "Cy", "Cy"], 2, "names one player twice"),
-        (["--pair", "Cy", "An"], 2, "--pair: not in the results: 'An' (did you mean"),
+        (["--anchor", "Cyy=2"], 2, "'Cyy' (did you mean 'Cy'"),
+        (["--pair", "Cy", "Cy"], 2, "'Cy'; name two"),
+        (["--pair", "Cy", "An"], 2, "'An' (did you mean"),
         (["--roster", "last.csv"], 2, "give --system npl too"),
         (["--system", "npl"], 2, "give --roster LAST.csv"),
         (["--system", "npl", "--roster", "x", "--prior", "best"], 2, "leave out --prior"),
@@ -186,14 +200,14 @@ def test_names_cannot_become_formulas(rate):
         (["--scale", "0"], 2, "points that double the odds"),
     ],
 )
-def test_wrong_use_says_how_to_mend_it(rate, words, code, remedy):
+def test_wrong_use_says_how_to_correct_it(rate, words, code, remedy):
     result = rate(*words)
     assert (result.exit_code, result.stdout) == (code, "")
     assert remedy in result.stderr
     assert "Traceback" not in result.stderr
 
 
-def test_a_day_is_read_as_results_files_write_it(rate):
+def test_a_day_may_be_written_as_in_results_files(rate):
     by_dots, by_dashes = (rate("--as-of", day).stdout for day in ("20.1.2026", "2026-01-20"))
     assert by_dots == by_dashes != rate().stdout
 

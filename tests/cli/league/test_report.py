@@ -1,10 +1,12 @@
 import csv
 import io
+import itertools
 import json
 import os
 import signal
 import subprocess
 import sys
+from html import unescape
 
 import pytest
 from hypothesis import given, settings
@@ -68,16 +70,30 @@ def test_the_same_as_json(run, demo, tmp_path):
 def test_the_columns_are_those_of_the_documentation(demo):
     _, folder = demo
     assert list(rows(folder, "ratings.csv")[0]) == (
-        ["player", "rating", "standard_error", "quasi_error", "games", "won", "lost", "component"]
+        [
+            "player",
+            "rating",
+            "standard_error",
+            "quasi_error",
+            "games",
+            "won",
+            "lost",
+            "component",
+            "scale",
+        ]
     )
     assert list(rows(folder, "matchups.csv")[0]) == (
         [
             "player_a",
             "player_b",
+            "difference",
+            "difference_error",
             "p_game_a",
+            "p_game_a_plug_in",
             "race_a",
             "race_b",
             "p_win_a",
+            "p_win_a_plug_in",
             "mean_games",
             "games_p90",
             "note",
@@ -98,8 +114,28 @@ def test_the_true_order_of_the_demo_league_is_found(demo):
     assert set(players[-2:]) == {"Cosmo Dilworthy", "Pia Rautavuori"}
 
 
-def test_ten_players_with_the_most_games_are_paired(demo):
+def test_all_players_are_paired_in_the_order_of_their_ratings(demo):
     _, folder = demo
+    matchups = rows(folder, "matchups.csv")
+    players = [row["player"] for row in rows(folder, "ratings.csv")]
+    assert [(row["player_a"], row["player_b"]) for row in matchups] == (
+        list(itertools.combinations(players, 2))
+    )
+    assert len(players) == 24
+    assert {row["race_a"] for row in matchups} == {"7"}
+
+
+def test_the_pairs_of_a_report_are_those_of_matchups_with_its_ratings(run, demo):
+    _, folder = demo
+    listed = run("matchups", str(folder / "ratings.csv"), "--race-to", "7", "--csv").stdout
+    assert list(csv.DictReader(io.StringIO(listed))) == rows(folder, "matchups.csv")
+
+
+def test_of_a_large_league_those_who_played_most_are_paired(run, tmp_path, monkeypatch):
+    monkeypatch.setattr("evenbreak.cli.league.report.MOST_ON_SHEET", 10)
+    result = run("report", str(DEMO), "--out", str(tmp_path))
+    assert "--top" in result.stderr
+    folder = tmp_path
     matchups = rows(folder, "matchups.csv")
     assert len(matchups) == 45
     paired = {row[side] for row in matchups for side in ("player_a", "player_b")}
@@ -128,7 +164,10 @@ def test_the_scale_only_rescales(run, demo, tmp_path):
     _, npl = demo
     result = run("report", str(DEMO), "--out", str(tmp_path), "--scale", "fargo")
     assert "Fargo-like" in result.stdout
-    assert content(tmp_path)["matchups.csv"] == content(npl)["matchups.csv"]
+    for one, other in zip(rows(npl, "matchups.csv"), rows(tmp_path, "matchups.csv"), strict=True):
+        for name in ("player_a", "race_a", "race_b", "games_p90", "note"):
+            assert other[name] == one[name]
+        assert float(other["p_win_a"]) == pytest.approx(float(one["p_win_a"]), abs=2e-6)
     for one, other in zip(rows(npl, "ratings.csv"), rows(tmp_path, "ratings.csv"), strict=True):
         rescaled = 500 + (float(one["rating"]) - 80) * 100 / 30
         assert float(other["rating"]) == pytest.approx(rescaled, abs=1e-5)
@@ -188,10 +227,10 @@ def test_aliases_mend_names_and_the_page_keeps_their_folder_to_itself(run, tmp_p
     words = ("report", "-", "--out", str(out), "--aliases", str(aliases), "--html")
     result = run(*words, stdin=season)
     assert result.exit_code == 0
-    assert f"{aliases} says: 'Annie' as 'Ann'" in result.stderr
+    assert f"{aliases}: 'Annie' as 'Ann'" in result.stderr
     assert {row["player"] for row in rows(out, "ratings.csv")} == {"Ann", "Bo", "Cy"}
     page = content(out)["sheet.html"].decode()
-    assert "aliases.csv says: &#39;Annie&#39; as &#39;Ann&#39;" in page
+    assert "aliases.csv: 'Annie' as 'Ann'" in unescape(page)
     assert "private" not in page
 
 
@@ -226,7 +265,7 @@ def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
     short = "".join(season[:81])
     words = ("--prior", "best", "--half-life", "180", "--as-of", "2024-10-20")
     result = run("report", "-", "--out", str(tmp_path), *words, stdin=short)
-    assert "of 12 spreads this one" in " ".join(result.stdout.split())
+    assert "of 12 values tried" in " ".join(result.stdout.split())
     listed = list(csv.DictReader(io.StringIO(run("rate", "-", *words, stdin=short).stdout)))
     columns = ("player", "rating", "standard_error")
     assert [[row[name] for name in columns] for row in listed] == (
@@ -237,7 +276,7 @@ def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "code", "remedy"),
     [
-        (["--prior", "0"], 2, "'0'"),
+        (["--prior", "0"], 2, "--prior is 0"),
         (["--prior", "1e9"], 2, "--prior"),
         (["--half-life", "0"], 2, "'0'"),
         (["--as-of", "yesterday"], 2, "'yesterday'"),
@@ -253,12 +292,12 @@ def test_wrong_words_on_how_to_rate_write_nothing(run, tmp_path, words, code, re
 
 
 def test_warnings_go_to_stderr(run, tmp_path):
-    season = SMALL + "2024-09-24,ann,Bo,7,5\n"
+    season = SMALL + "2024-09-24,Zoë,Bo,7,5\n2024-09-24,Zoe,Bo,7,5\n"
     result = run("report", "-", "--out", str(tmp_path), stdin=season.replace("date", "when"))
     assert result.exit_code == 0
     unused, alike = [line for line in result.stderr.splitlines() if line.startswith("Warning: ")]
     assert "'when'" in unused
-    assert "'Ann' and 'ann'" in alike
+    assert "'Zoe' and 'Zoë'" in alike
     assert "Warning" not in result.stdout
     assert summary(tmp_path)["groups_of_similar_names"] == "1"
 
@@ -430,3 +469,61 @@ def test_an_end_while_files_take_their_places_leaves_the_new_ones(run, tmp_path,
             process.kill()
         assert b"Traceback" not in process.stderr.read()
     assert content(old) == content(new)
+
+
+@pytest.mark.parametrize("name", ["ratings.csv", "matchups.csv", "summary.csv"])
+def test_the_results_are_never_overwritten(run, tmp_path, name):
+    season = tmp_path / name
+    season.write_bytes(DEMO.read_bytes())
+    result = run("report", str(season), "--out", str(tmp_path))
+    assert result.exit_code == 2
+    assert name in result.stderr
+    assert [file.name for file in tmp_path.iterdir()] == [name]
+    assert season.read_bytes() == DEMO.read_bytes()
+
+
+def test_a_page_never_takes_the_place_of_what_was_read(run, tmp_path):
+    season = tmp_path / "season.html"
+    season.write_bytes(DEMO.read_bytes())
+    assert run("rate", str(season), "--html", str(season)).exit_code == 2
+    assert season.read_bytes() == DEMO.read_bytes()
+    other = str(tmp_path / "page.html")
+    for _ in range(2):  # a page of last time may be written over
+        assert run("rate", str(season), "--html", other).exit_code == 0
+
+
+def test_entrants_are_paired_and_strangers_start_at_the_mean(run, tmp_path):
+    entrants = tmp_path / "entrants.txt"
+    entrants.write_text("zoë kestleman\nA Stranger\nInes Valbrecht\n", encoding="utf-8")
+    result = run("report", str(DEMO), "--out", str(tmp_path / "o"), "--players-file", str(entrants))
+    pairs = [(row["player_a"], row["player_b"]) for row in rows(tmp_path / "o", "matchups.csv")]
+    assert pairs == [
+        ("Ines Valbrecht", "Zoë Kestleman"),
+        ("Ines Valbrecht", "A Stranger"),
+        ("Zoë Kestleman", "A Stranger"),
+    ]
+    (new,) = [row for row in rows(tmp_path / "o", "ratings.csv") if row["player"] == "A Stranger"]
+    assert (float(new["rating"]), float(new["quasi_error"]), new["games"]) == (80, 30, "0")
+    assert "'A Stranger'" in result.stderr
+    words = ("--players-file", str(entrants), "--html")
+    assert run("report", str(DEMO), "--out", str(tmp_path / "q"), *words).exit_code == 0
+    page = (tmp_path / "q" / "sheet.html").read_text(encoding="utf-8")
+    assert "entrants.txt:2" in page
+    assert str(tmp_path) not in page
+    assert str(DEMO) not in page
+    both = ("--players-file", str(entrants), "--top", "3")
+    assert run("report", str(DEMO), "--out", str(tmp_path / "p"), *both).exit_code == 2
+
+
+@pytest.mark.parametrize("words", [("--html", "page.html"), ("--excel", "page.xlsx")])
+def test_a_name_after_an_option_without_one_gets_a_hint(run, tmp_path, words):
+    result = run("report", "-", *words, "--out", str(tmp_path / "sheet"), stdin=SMALL)
+    assert result.exit_code == 2
+    assert f"{words[0]} takes no name" in result.stderr
+
+
+def test_a_prior_from_too_few_results_is_doubted(run, tmp_path):
+    result = run("report", "-", "--out", str(tmp_path), "--prior", "best", stdin=SMALL)
+    assert "too few" in result.stderr
+    result = run("report", str(DEMO), "--out", str(tmp_path), "--prior", "best")
+    assert "Warning" not in result.stderr

@@ -1,6 +1,5 @@
-"""Simulating with more workers: the same files, a clean end on Ctrl-C, wrong addresses said."""
+"""Simulating with more workers: a clean end on Ctrl-C, wrong addresses said."""
 
-import contextlib
 import os
 import signal
 import subprocess
@@ -29,68 +28,34 @@ def started(roster, *options):
     )
 
 
-def ended(play):
-    """Return what a run told on stderr once it has ended; nobody of it is left if it does not."""
+def nobody_left_of(group):
+    """Whether all processes of a group end within 20 seconds; those that do not are killed."""
+    deadline = time.monotonic() + 20
     try:
-        return play.communicate(timeout=30)[1]
-    finally:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(play.pid, signal.SIGKILL)
-
-
-def anybody_of_group(group):
-    try:
-        os.killpg(group, 0)
+        while time.monotonic() < deadline:
+            os.killpg(group, 0)
+            time.sleep(0.05)
+        os.killpg(group, signal.SIGKILL)
     except ProcessLookupError:
-        return False
-    return True
-
-
-def test_two_jobs_write_the_same_files(roster, tmp_path):
-    written = []
-    for jobs in ("1", "2"):
-        out = tmp_path / f"jobs_{jobs}"
-        play = started(
-            roster, "--replicas", "50", "--weeks", "4", "--jobs", jobs, "--out", str(out)
-        )
-        printed, _ = play.communicate(timeout=60)
-        assert play.returncode == 0
-        written.append((printed, {path.name: path.read_bytes() for path in out.iterdir()}))
-    assert written[0] == written[1]
+        return True
+    return False
 
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="a terminal's Ctrl-C is POSIX here")
-@pytest.mark.parametrize(("jobs", "after"), [("1", 0.5), ("2", 0.0), ("2", 0.3), ("2", 2.5)])
-def test_ctrl_c_ends_with_130_and_writes_nothing(roster, tmp_path, jobs, after):
+@pytest.mark.parametrize(("jobs", "after"), [("1", 0.5), ("2", 0.0), ("2", 0.3), ("2", 1.2)])
+def test_ctrl_c_ends_with_130_writes_nothing_and_nobody_outlives_it(roster, tmp_path, jobs, after):
     """Whether the workers are not there yet, are starting, or at work."""
     out = tmp_path / "out"
     play = started(roster, "--replicas", "10000000", "--jobs", jobs, "--out", str(out))
     assert play.stderr is not None
-    assert "drawn anew" in play.stderr.readline()  # the roster is read
-    assert "About 6,000,000,000 matches are played" in play.stderr.readline()
+    assert "6,000,000,000 matches" in play.stderr.readline()  # the roster is read
     time.sleep(after)
     os.killpg(play.pid, signal.SIGINT)  # to the workers too, as a terminal sends it
-    told = ended(play)
+    _, told = play.communicate(timeout=30)
     assert play.returncode == 130
     assert told.strip() == "Interrupted."
     assert not out.exists()
-
-
-@pytest.mark.skipif(not hasattr(os, "killpg"), reason="a terminal's Ctrl-C is POSIX here")
-def test_nobody_outlives_an_interrupt(roster, tmp_path):
-    play = started(roster, "--replicas", "10000000", "--jobs", "2", "--out", str(tmp_path / "out"))
-    assert play.stderr is not None
-    play.stderr.readline()
-    time.sleep(1.5)
-    os.killpg(play.pid, signal.SIGINT)
-    play.communicate(timeout=30)
-    begun = time.monotonic()
-    while time.monotonic() - begun < 20 and anybody_of_group(play.pid):
-        time.sleep(0.1)
-    alone = not anybody_of_group(play.pid)
-    if not alone:
-        os.killpg(play.pid, signal.SIGKILL)
-    assert alone
+    assert nobody_left_of(play.pid)
 
 
 def test_a_wrong_address_is_one_line_and_nothing_is_written(roster, tmp_path):

@@ -39,7 +39,7 @@ def test_only_racks_with_a_known_breaker_count_for_the_break(run, tmp_path):
     assert (rows["breaker"]["count"], rows["side"]["count"]) == ("320", "640")
 
 
-def test_best_is_a_word_for_the_prior_and_it_says_what_it_does(run, tmp_path):
+def test_best_is_a_word_for_the_default_prior(run, tmp_path):
     place = tmp_path / "results.csv"
     place.write_text(
         "date,player_a,player_b,score_a,score_b\n2024-09-03,A,B,7,5\n2024-09-04,A,B,7,2\n"
@@ -47,12 +47,11 @@ def test_best_is_a_word_for_the_prior_and_it_says_what_it_does(run, tmp_path):
     named, plain = run("validate", str(place), "--prior", "best"), run("validate", str(place))
     assert named.exit_code == 0
     assert named.stdout == plain.stdout
-    assert "Predicting each date from those before it, with each of 9 priors" in named.stderr
 
 
-def test_json_says_it_in_words_too(run):
+def test_json_has_the_verdict_too(run):
     found = json.loads(run("validate", DEMO, *SD, "--json").stdout)
-    assert found["verdict"].startswith("The model holds on the whole, but")
+    assert found["verdict"] == found["sentences"][0]
     assert (found["matches_read"], found["forfeits"], found["empty"]) == (395, 11, 2)
     assert found["schema_version"] == 1
 
@@ -66,8 +65,8 @@ def test_a_picture_is_written(run, tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("player_a,player_b,score_a,score_b\nA,B,7,5\n", "no dates; add a column date"),
-        ("date,player_a,player_b,score_a,score_b\n2024-09-03,A,B,7,5\n", "1 date; give two"),
+        ("player_a,player_b,score_a,score_b\nA,B,7,5\n", "no dates"),
+        ("date,player_a,player_b,score_a,score_b\n2024-09-03,A,B,7,5\n", "1 date;"),
     ],
 )
 def test_a_file_without_an_order_in_time_is_refused(run, tmp_path, text, words):
@@ -80,7 +79,7 @@ def test_a_file_without_an_order_in_time_is_refused(run, tmp_path, text, words):
 
 @pytest.mark.parametrize("option", ["--prior", "--half-life"])
 @pytest.mark.parametrize("value", ["0", "-1", "much", "nan", "1e9", "0.001"])
-def test_silly_numbers_are_refused(run, option, value):
+def test_numbers_out_of_range_are_refused(run, option, value):
     found = run("validate", DEMO, option, value)
     assert found.exit_code == 2
-    assert "give a number from" in found.stderr
+    assert option in found.stderr

@@ -161,11 +161,14 @@ def test_cp1252_is_read_with_a_warning(run):
     [
         (b"", ["stdin: is empty"]),
         (b"\x00\x01", ["stdin:1: holds a NUL"]),
-        (HEADER, ["stdin: holds no arcs"]),
+        (HEADER, ["stdin: has no arcs"]),
         ("a,b\n1,2\n", ["'source'", "'target'", "'probability'"]),
         (HEADER + "S,W,x\n", ["stdin:2: probability 'x' is not a number"]),
         (HEADER + "S,W,nan\n", ["stdin:2: probability 'nan' is not a number"]),
-        (HEADER + "S,W,1.5\nS,L,-0.5\n", ["stdin:2: probability 1.5", "stdin:3: probability -0.5"]),
+        (
+            HEADER + "S,W,1.5\nS,L,-0.5\n",
+            ["stdin:2: probability '1.5'", "stdin:3: probability '-0.5'"],
+        ),
         (HEADER + "S,W,0.5\nS,L,0.4\n", ["stdin:2: the arcs out of 'S' sum to 0.9"]),
         (HEADER + "S,W,0.5\nS,W,0.5\n", ["stdin:3: the arc 'S' -> 'W' is in line 2 already"]),
         (HEADER + ",W,1\nW,,1\n", ["stdin:2: source is empty", "stdin:3: target is empty"]),

@@ -73,7 +73,7 @@ def test_csv_into_a_pipe_with_the_scale_beside_it(run, fair):
             for race in fair("85 40 --race-to 2")
         ),
     ]
-    assert "npl" in result.stderr
+    assert "NPL" in result.stderr
 
 
 @pytest.mark.parametrize(

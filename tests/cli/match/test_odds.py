@@ -2,12 +2,15 @@ import csv
 import json
 import os
 import pty
+import re
 import subprocess
 import sys
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
+from places import DATA
 
 KEYS = {
     "p_game_a",
@@ -224,7 +227,7 @@ def test_a_person_at_a_terminal_reads_text():
         ("612,5 521 --race 7", "612.5"),
         ("612 521 --race 7:", "such as 7:5"),
         ("612 521 --race 7 --score 3", "such as 3:0"),
-        ("612 521 --race 7-5", "such as 7:5"),
+        ("612 521 --race 7_5", "such as 7:5"),
         ("612 521 --race 0:5", "from 1 to 1000"),
         ("612 521 --race 9999:5", "from 1 to 1000"),
         ("612 521 --race 7:5 --score -1:0", "from 0 to 1000"),
@@ -238,6 +241,8 @@ def test_a_person_at_a_terminal_reads_text():
         ("--p 0.5 --race 7:7 --win-by 0", "win-by"),
         ("--p 0.5 --race 3:3 --win-by 101", "can still come to"),
         ("--p 0.5 --race 30:30 --set 30:30", "can still come to"),
+        ("--p 0.5 --race 101 --exact", "can still come to"),
+        ("612 521 --race 5 --exact", "--exact"),
     ],
 )
 def test_wrong_use(refused, line, named):
@@ -276,6 +281,14 @@ def test_whatever_is_asked_rightly_is_answered_with_the_same_keys(run, who, what
     assert total == pytest.approx(1, abs=1e-12)
 
 
+def test_exact_chances(run):
+    answer = json.loads(run("odds", *["--p", "0.6", "--ahead", "2:2", "--exact", "--json"]).stdout)
+    assert (answer["p_win_a_exact"], answer["p_win_b_exact"]) == ("9/13", "4/13")
+    assert "p_win_a_exact" not in json.loads(
+        run("odds", "--p", "0.6", "--race", "2", "--json").stdout
+    )
+
+
 def test_no_numpy_on_the_way():
     heavy = {"numpy", "scipy", "pandas", "networkx", "rich", "json"}
     code = (
@@ -286,3 +299,39 @@ def test_no_numpy_on_the_way():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout.splitlines()[-1] == ""
+
+
+def test_two_names_of_a_list_have_the_chances_of_matchups(run):
+    roster = str(DATA / "demo_roster.csv")
+    names = ("Keiko Amasuda", "Noor Al-Beyrati")
+    odds = json.loads(run("odds", *names, "--from", roster, "--race", "7:5", "--json").stdout)
+    assert (odds["player_a"], odds["player_b"]) == names
+    listed = run("matchups", roster, "--games", "11..11", "--json").stdout
+    for pair in json.loads(listed)["pairs"]:
+        if (pair["player_a"], pair["player_b"]) == names:
+            race = f"{pair['race_a']}:{pair['race_b']}"
+    odds = json.loads(run("odds", *names, "--from", roster, "--race", race, "--json").stdout)
+    (found,) = [
+        pair
+        for pair in json.loads(listed)["pairs"]
+        if (pair["player_a"], pair["player_b"]) == names
+    ]
+    for name in ("p_win_a", "p_game_a", "mean_games", "games_p90"):
+        assert odds[name] == pytest.approx(found[name], abs=1e-9)
+    fair = run("fair", *names, "--from", roster, "--games", "11..11", "--json").stdout
+    best = json.loads(fair)["races"][0]
+    assert f"{best['race_a']}:{best['race_b']}" == race
+
+
+def test_names_stand_where_a_and_b_would(run):
+    words = ("Keiko Amasuda", "Noor Al-Beyrati", "--from", str(DATA / "demo_roster.csv"))
+    for asked in (
+        ("odds", "--race", "7:5"),
+        ("fair", "--race-to", "7"),
+        ("live", "--race", "7:5", "--racks", "abb", "--table"),
+        ("compare", "7:5", "ahead 3:3"),
+    ):
+        command, *rest = asked
+        text = run(command, *words, *rest, "--text", "--verbose").stdout
+        assert "Keiko Amasuda" in text
+        assert not re.search(r"\bA\b|\bB\b", text)

@@ -49,6 +49,23 @@ def test_look_ahead_may_change_the_choice(oneball):
     assert [shot["shot"] for shot in oneball(f"{line} --look-ahead two")] == [2, 1]
 
 
+def test_later_shots_have_chances_of_their_own(ask):
+    told = ask("oneball", *["0.4", "0.8", "0.5", "0.2", "--or", "0.3:0.3"])
+    assert told["look_ahead"] == "all shots"
+    best, other = told["shots"]
+    assert (best["shot"], best["later"], other["shot"], other["later"]) == (2, "", 1, "0.5 0.2")
+    # By hand: 0.4 + 0.6 0.2 (0.5 + 0.5 0.8 / 2), and 0.3 + 0.7 0.7 / 2.
+    assert other["p_win_all_shots"] == pytest.approx(0.484)
+    assert best["p_win_all_shots"] == best["p_win_two_shots"] == pytest.approx(0.545)
+    # Even if a miss leaves p2 with 0.4 + 0.6 (1 - p2) 0.7 = 1/2.
+    assert other["critical_p2"] == pytest.approx(1 - 0.1 / 0.42)
+    first = ask(
+        "oneball", *["0.4", "0.8", "0.5", "0.2", "--or", "0.3:0.3", "--look-ahead", "infinite"]
+    )
+    assert first["look_ahead"] == "infinite"
+    assert first["shots"][0]["behind"] == 0.0
+
+
 def test_no_critical_p2_above_one_half(oneball):
     assert oneball("0.6 0.9")[0]["critical_p2"] is None
     assert oneball("0.5 0.9")[0]["critical_p2"] == 1.0
@@ -78,10 +95,11 @@ def test_plot(run, tmp_path, kind):
         ("0.4 nan", "'nan'"),
         ("-0.1 0.5", "'P1': '-0.1'"),
         ("0.1 -5e-1 --json", "'P2': '-5e-1'"),
-        ("0.1 0.5 --oder 0.3:0.3", "'--oder'"),
+        ("0.1 0.5 --oder 0.3:0.3", "--oder"),
         ("0.4 0.8 --or 0.3", "such as 0.3:0.3"),
         ("0.4 0.8 --or 0.3:1.3", "such as 0.3:0.3"),
-        ("0.4 0.8 --or 0.3:0.3:0.3", "such as 0.3:0.3"),
+        ("0.4 0.8 1.5", "1.5"),
+        ("0.4 0.8 0.5 --plot shots.png", "--look-ahead"),
         ("0.4 0.8 --look-ahead three", "'--look-ahead'"),
         ("0.4 0.8 --plot shots.gif", ".png or .svg"),
     ],

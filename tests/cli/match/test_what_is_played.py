@@ -8,11 +8,15 @@ from evenbreak.cli.match.what_is_played import match_of
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks
 
 NOTHING = {"race": None, "ahead": None, "set_": None, "score": None, "win_by": None}
-PLAYERS = TwoPlayers(Rack(0.6))
+WHO = dict.fromkeys(("scale", "p1", "p2", "breaks", "first_break")) | {"ratings": (), "p": 0.6}
 
 
-def match(players=PLAYERS, **options):
-    return match_of(players, **(NOTHING | options))
+def match(**options):
+    return match_of(**(NOTHING | WHO | options))[1]
+
+
+def test_the_players_come_with_the_match():
+    assert match_of(**(NOTHING | WHO | {"race": (7, 5)}))[0] == TwoPlayers(Rack(0.6))
 
 
 def test_a_race_perhaps_from_a_score_and_won_by_two():
@@ -27,8 +31,8 @@ def test_ahead():
 
 
 def test_sets_carry_the_break_on():
-    breaking = TwoPlayers(Rack(0.6, 0.5), "alternate", 2)
-    found = match(breaking, race=(3, 1), set_=(3, 3))
+    breaking = {"p": None, "p1": 0.6, "p2": 0.5, "breaks": "alternate", "first_break": "b"}
+    found = match(**breaking, race=(3, 1), set_=(3, 3))
     assert found.breaks is None
     assert found.rack.breaks is alternate_breaks
     assert found.start == (0, 0, (0, 0, 2))

@@ -206,7 +206,7 @@ def test_rows_that_get_no_harder_are_marked():
 def test_a_chart_that_tells_no_scale_needs_one():
     short = Chart("short", [(0, 9, 3, 3), (10, None, 4, 3)])
     for table in (short, Chart("one", [(0, None, 5, 5)])):
-        with pytest.raises(InputError, match="does not tell one; give npl, fargo"):
+        with pytest.raises(InputError, match="scale is missing"):
             audit(table)
     report = audit(short, scale="npl")
     assert report.best_fit is None

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from evenbreak.errors import InputError
 from evenbreak.games import winner_breaks
 from evenbreak.handicaps import (
-    Play,
+    MatchRules,
     RaceLimits,
     audit,
     chart,
@@ -30,11 +30,11 @@ def races_of(made, differences):
     return list(zip(m.tolist(), n.tolist(), strict=True))
 
 
-def all_charts(limits, play, up_to):
+def all_charts(limits, rules, up_to):
     """Yield every way to give differences 0, 1, ... races that get harder and harder."""
     races = limits.races
     even = dict(
-        zip(races, play.even_differences(*np.array(races).T).round(9).tolist(), strict=True)
+        zip(races, rules.even_differences(*np.array(races).T).round(9).tolist(), strict=True)
     )
     for path in product(races, repeat=up_to + 1):
         steps = pairwise(path)
@@ -42,52 +42,52 @@ def all_charts(limits, play, up_to):
             yield path
 
 
-def losses(path, play, target=0.5, tilt=0.5):
+def losses(path, rules, target=0.5, tilt=0.5):
     """Return what each difference costs, by the definition."""
     cost = [0.0]
     for points, (m, n) in enumerate(path[1:], 1):
-        above = play.win([m], [n], [points])[0, 0] - target
+        above = rules.win([m], [n], [points])[0, 0] - target
         weight = 1.0 - tilt if above > 0 else tilt
         cost.append(0.5 * abs(above) / weight)
     return cost
 
 
-def lengths(path, play):
-    return [play.mean_games([m], [n], [d])[0, 0] for d, (m, n) in enumerate(path)]
+def lengths(path, rules):
+    return [rules.mean_games([m], [n], [d])[0, 0] for d, (m, n) in enumerate(path)]
 
 
 SMALL = [
-    (RaceLimits((3, 5), weaker_least=2), Play(2), 4),
-    (RaceLimits((3, 4)), Play(1.5), 5),
-    (RaceLimits((2, 4)), Play(2, breaks=winner_breaks, break_points=1), 4),
-    (RaceLimits((3, 4)), Play(2, win_by=2), 4),
+    (RaceLimits((3, 5), weaker_least=2), MatchRules(2), 4),
+    (RaceLimits((3, 4)), MatchRules(1.5), 5),
+    (RaceLimits((2, 4)), MatchRules(2, breaks=winner_breaks, break_points=1), 4),
+    (RaceLimits((3, 4)), MatchRules(2, win_by=2), 4),
 ]
 
 
-@pytest.mark.parametrize(("limits", "play", "up_to"), SMALL)
+@pytest.mark.parametrize(("limits", "rules", "up_to"), SMALL)
 @pytest.mark.parametrize(("target", "tilt"), [(0.5, 0.5), (0.6, 0.5), (0.5, 0.2)])
-def test_no_chart_of_all_is_fairer(limits, play, up_to, target, tilt):
-    every = [losses(path, play, target, tilt) for path in all_charts(limits, play, up_to)]
+def test_no_chart_of_all_is_fairer(limits, rules, up_to, target, tilt):
+    every = [losses(path, rules, target, tilt) for path in all_charts(limits, rules, up_to)]
     assert len(every) > 10
     for criterion, total in (("mean", sum), ("worst", max)):
-        made = design(play, limits, target=target, tilt=tilt, criterion=criterion, up_to=up_to)
-        ours = losses(races_of(made, range(up_to + 1)), play, target, tilt)
+        made = design(rules, limits, target=target, tilt=tilt, criterion=criterion, up_to=up_to)
+        ours = losses(races_of(made, range(up_to + 1)), rules, target, tilt)
         assert total(ours) == pytest.approx(min(map(total, every)), abs=1e-9)
         if criterion == "worst":
             least = min(map(max, every)) + 1e-9
             assert sum(ours) == pytest.approx(min(sum(c) for c in every if max(c) <= least))
 
 
-@pytest.mark.parametrize(("limits", "play", "up_to"), SMALL)
+@pytest.mark.parametrize(("limits", "rules", "up_to"), SMALL)
 @pytest.mark.parametrize("rows", [1, 2, 3, 9])
-def test_no_chart_of_so_few_rows_is_fairer(limits, play, up_to, rows):
+def test_no_chart_of_so_few_rows_is_fairer(limits, rules, up_to, rows):
     every = [
-        losses(path, play) for path in all_charts(limits, play, up_to) if len(set(path)) <= rows
+        losses(path, rules) for path in all_charts(limits, rules, up_to) if len(set(path)) <= rows
     ]
     for criterion, total in (("mean", sum), ("worst", max)):
-        made = design(play, limits, criterion=criterion, up_to=up_to, rows=rows)
+        made = design(rules, limits, criterion=criterion, up_to=up_to, rows=rows)
         assert len(made.rows) <= rows
-        ours = losses(races_of(made, range(up_to + 1)), play)
+        ours = losses(races_of(made, range(up_to + 1)), rules)
         assert total(ours) == pytest.approx(min(map(total, every)), abs=1e-9)
         if criterion == "worst":
             least = min(map(max, every)) + 1e-9
@@ -95,18 +95,18 @@ def test_no_chart_of_so_few_rows_is_fairer(limits, play, up_to, rows):
 
 
 def test_few_rows_and_a_budget():
-    limits, play, up_to = SMALL[1]
+    limits, rules, up_to = SMALL[1]
     every = [
-        (np.mean(lengths(path, play)), sum(losses(path, play)))
-        for path in all_charts(limits, play, up_to)
+        (np.mean(lengths(path, rules)), sum(losses(path, rules)))
+        for path in all_charts(limits, rules, up_to)
         if len(set(path)) <= 2
     ]
-    made = design(play, limits, up_to=up_to, mean_games=2.7, rows=2)
+    made = design(rules, limits, up_to=up_to, mean_games=2.7, rows=2)
     ours = races_of(made, range(up_to + 1))
-    length = np.mean(lengths(ours, play))
+    length = np.mean(lengths(ours, rules))
     assert len(made.rows) <= 2
     assert length <= 2.7
-    assert sum(losses(ours, play)) == pytest.approx(
+    assert sum(losses(ours, rules)) == pytest.approx(
         min(cost for games, cost in every if games <= length + 1e-12)
     )
 
@@ -125,29 +125,29 @@ def test_more_rows_are_never_less_fair():
 
 @pytest.mark.parametrize("budget", [2.4, 2.7, 3.0])
 def test_no_chart_that_is_as_short_is_fairer(budget):
-    limits, play, up_to = SMALL[1]
+    limits, rules, up_to = SMALL[1]
     every = [
-        (np.mean(lengths(path, play)), sum(losses(path, play)))
-        for path in all_charts(limits, play, up_to)
+        (np.mean(lengths(path, rules)), sum(losses(path, rules)))
+        for path in all_charts(limits, rules, up_to)
     ]
-    made = races_of(design(play, limits, up_to=up_to, mean_games=budget), range(up_to + 1))
-    length = np.mean(lengths(made, play))
+    made = races_of(design(rules, limits, up_to=up_to, mean_games=budget), range(up_to + 1))
+    length = np.mean(lengths(made, rules))
     assert length <= budget
-    assert sum(losses(made, play)) == pytest.approx(
+    assert sum(losses(made, rules)) == pytest.approx(
         min(cost for games, cost in every if games <= length + 1e-12)
     )
 
 
 def test_a_budget_and_the_worst_difference():
-    limits, play, up_to = SMALL[1]
+    limits, rules, up_to = SMALL[1]
     every = [
-        (np.mean(lengths(path, play)), max(losses(path, play)))
-        for path in all_charts(limits, play, up_to)
+        (np.mean(lengths(path, rules)), max(losses(path, rules)))
+        for path in all_charts(limits, rules, up_to)
     ]
-    made = design(play, limits, up_to=up_to, mean_games=2.7, criterion="worst")
+    made = design(rules, limits, up_to=up_to, mean_games=2.7, criterion="worst")
     ours = races_of(made, range(up_to + 1))
-    assert np.mean(lengths(ours, play)) <= 2.7
-    assert max(losses(ours, play)) == pytest.approx(
+    assert np.mean(lengths(ours, rules)) <= 2.7
+    assert max(losses(ours, rules)) == pytest.approx(
         min(cost for games, cost in every if games <= 2.7)
     )
 
@@ -189,41 +189,41 @@ def test_the_nearest_races_make_the_printed_charts_but_for_these_differences(num
 def test_the_nearest_race_is_nearest_at_each_difference():
     limits = npl_limits(12)
     made = nearest_chart("npl", limits, up_to=60)
-    play = Play("npl")
+    rules = MatchRules("npl")
     assert made.race(0) == made.race(1) == (6, 6)
     for points in range(1, 61):
         others = [race for race in limits.races if race[0] != race[1] or race == (6, 6)]
-        missed = {race: abs(play.win(*zip(race), [points])[0, 0] - 0.5) for race in others}
+        missed = {race: abs(rules.win(*zip(race), [points])[0, 0] - 0.5) for race in others}
         assert missed[made.race(points)] == pytest.approx(min(missed.values()), abs=1e-12)
 
 
 @pytest.mark.parametrize("scale", ["npl", "fargo", 400.0])
 @pytest.mark.parametrize("tilt", [0.0, 0.25, 0.5, 0.75, 1.0])
 def test_the_audit_of_a_designed_chart_tells_its_scale_and_tilt(scale, tilt):
-    play = Play(scale)
-    made = design(play, RaceLimits((9, 11), weaker_least=2), tilt=tilt)
+    rules = MatchRules(scale)
+    made = design(rules, RaceLimits((9, 11), weaker_least=2), tilt=tilt)
     fit = audit(made).best_fit
-    assert fit.points_per_doubling == pytest.approx(play.points, rel=0.02)
+    assert fit.points_per_doubling == pytest.approx(rules.points, rel=0.02)
     assert fit.tilt == pytest.approx(tilt, abs=0.12)
 
 
 def test_at_tilt_0_the_stronger_is_never_the_underdog_and_at_1_never_the_favourite():
-    play, points = Play("npl"), np.arange(1, 40)
+    rules, points = MatchRules("npl"), np.arange(1, 40)
     for tilt, sign in ((0.0, 1.0), (1.0, -1.0)):
-        made = design(play, RaceLimits((5, 9), weaker_least=2), tilt=tilt, up_to=40)
+        made = design(rules, RaceLimits((5, 9), weaker_least=2), tilt=tilt, up_to=40)
         races = races_of(made, points)
         for d, (m, n) in zip(points.tolist(), races, strict=True):
-            others = (play.win(*zip(race), [d])[0, 0] for race in ((5, 4), (6, 2), (8, 2)))
+            others = (rules.win(*zip(race), [d])[0, 0] for race in ((5, 4), (6, 2), (8, 2)))
             if any(sign * (other - 0.5) >= 0 for other in others):
-                assert sign * (play.win([m], [n], [d])[0, 0] - 0.5) >= -1e-9
+                assert sign * (rules.win([m], [n], [d])[0, 0] - 0.5) >= -1e-9
 
 
 def test_a_target_is_what_the_stronger_gets():
-    play = Play("fargo")
-    made = design(play, RaceLimits((7, 15), weaker_least=2), target=0.6)
+    rules = MatchRules("fargo")
+    made = design(rules, RaceLimits((7, 15), weaker_least=2), target=0.6)
     m, n = made.races(np.arange(40, 200))
     wins = [
-        play.win([a], [b], [d])[0, 0]
+        rules.win([a], [b], [d])[0, 0]
         for a, b, d in zip(m.tolist(), n.tolist(), range(40, 200), strict=True)
     ]
     assert np.mean(wins) == pytest.approx(0.6, abs=0.01)
@@ -248,7 +248,7 @@ def test_every_design_is_a_chart_within_its_limits(
         return
     made = design(scale, limits, target=target, tilt=tilt, criterion=criterion)
     assert {row[2:] for row in made.rows} <= set(limits.races)
-    even = [Play(scale).even_differences([row[2]], [row[3]])[0] for row in made.rows]
+    even = [MatchRules(scale).even_differences([row[2]], [row[3]])[0] for row in made.rows]
     assert even == sorted(even)
     assert len(set(even)) == len(even)
 
@@ -267,23 +267,29 @@ def test_a_limit_on_the_90_per_cent_length_holds_at_every_difference():
     [
         ({"target": 2}, "target is 2"),
         ({"tilt": -1}, "tilt is -1"),
-        ({"criterion": "best"}, "criterion is 'best'; give 'mean' or 'worst'"),
+        ({"criterion": "best"}, "criterion is 'best'"),
         ({"up_to": 0}, "up_to is 0"),
         ({"rows": 0}, "rows is 0"),
         (
             {"limits": RaceLimits((1, 99)), "rows": 60, "up_to": 400},
-            "narrow games, lower rows or up_to",
+            "rows is 60",
         ),
-        ({"mean_games": 0}, "mean_games is 0; give a number above 0"),
-        ({"mean_games": 2}, "the shortest chart that keeps the limits has a mean of"),
+        ({"mean_games": 0}, "mean_games is 0"),
+        ({"mean_games": 2}, "mean_games is 2"),
         ({"limits": RaceLimits((5, 7), games_p90=3)}, "at a difference of 0 no allowed race"),
-        ({"limits": RaceLimits((1, 999))}, "too many to go through; narrow games"),
+        ({"limits": RaceLimits((1, 999))}, "250000 races at 315 differences"),
         (
-            {"limits": RaceLimits((1, 99)), "play": Play("npl", win_by=2)},
-            "400 are the most: narrow games",
+            {"limits": RaceLimits((1, 99)), "rules": MatchRules("npl", win_by=2)},
+            "2500 races",
         ),
     ],
 )
 def test_wrong_wishes_are_refused(wrong, remedy):
     with pytest.raises(InputError, match=remedy):
-        design(**{"play": "npl", "limits": RaceLimits((5, 7)), **wrong})
+        design(**{"rules": "npl", "limits": RaceLimits((5, 7)), **wrong})
+
+
+@pytest.mark.parametrize("spread", [-1, 2.5, "wide"])
+def test_a_spread_that_is_no_count_is_refused(spread):
+    with pytest.raises(InputError, match="spread"):
+        design("npl", RaceLimits((5, 7)), spread=spread)

@@ -96,7 +96,7 @@ def test_break_formats_are_played_out(breaks, first_breaker):
     )
     assert len(found) == 28
     laws = {
-        (m, n): race_odds(m, n, 0.65, 0.5, breaks, first_breaker).p_win_1
+        (m, n): race_odds(m, n, Rack(0.65, 0.5), breaks, first_breaker).p_win_1
         for m in range(1, 8)
         for n in range(1, 9 - m)
     }
@@ -122,7 +122,7 @@ def test_a_sure_winner_wins_every_race_and_the_shortest_is_first(p, sure):
     ("words", "options"),
     [
         ("games is None and race_to is None", {}),
-        ("give just one", {"games": (1, 2), "race_to": 3}),
+        ("games is .* and race_to is", {"games": (1, 2), "race_to": 3}),
         ("smaller number first", {"games": (5, 3)}),
         ("give the pair", {"games": (5,)}),
         ("games is 0", {"games": (0, 3)}),

@@ -92,5 +92,5 @@ def test_the_worst_cell():
 
 
 def test_an_unknown_scale():
-    with pytest.raises(InputError, match="give npl, fargo, elo"):
+    with pytest.raises(InputError, match="scale"):
         audit_levels(APA, scale="x")

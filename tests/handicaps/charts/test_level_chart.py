@@ -48,7 +48,7 @@ def test_a_chart_is_a_frozen_value():
 
 @pytest.mark.parametrize("level", [2, 5, 3.5, "3", None, [3], np.array([3, 4])])
 def test_a_level_that_the_chart_lacks_lists_those_it_has(level):
-    with pytest.raises(InputError, match="give a level of the chart: 3, 4"):
+    with pytest.raises(InputError, match="3, 4"):
         TWO.race(3, level)
 
 
@@ -56,12 +56,12 @@ def test_a_level_that_the_chart_lacks_lists_those_it_has(level):
     "levels", [[3, 5], [2], [3.5], [np.nan], ["3"], "3", None, 10**6, [[3], [3, 4]]]
 )
 def test_levels_that_the_chart_lacks_in_an_array(levels):
-    with pytest.raises(InputError, match="give a level of the chart: 3, 4"):
+    with pytest.raises(InputError, match="3, 4"):
         TWO.races(levels, 3)
 
 
 def test_shapes_that_do_not_go_together():
-    with pytest.raises(InputError, match="shapes that broadcast together"):
+    with pytest.raises(InputError, match="shapes"):
         TWO.races([3, 4, 3], [3, 4])
 
 
@@ -69,7 +69,7 @@ def test_shapes_that_do_not_go_together():
     ("levels", "needs", "message"),
     [
         ([], [], "levels is empty"),
-        ([4, 3], [[2, 2], [3, 3]], "level 3 comes after 4; give rising levels"),
+        ([4, 3], [[2, 2], [3, 3]], "level 3 comes after 4"),
         ([3, 3], [[2, 2], [3, 3]], "level 3 comes after 3"),
         ([3.5, 4], [[2, 2], [3, 3]], "level 1 is 3.5"),
         ([3, 4], [[2, 2]], "not a square for 2 levels"),
@@ -86,5 +86,5 @@ def test_numbers_that_make_no_chart_are_refused(levels, needs, message):
 
 @pytest.mark.parametrize("name", ["npl_8", "", None])
 def test_an_unknown_chart_lists_the_known(name):
-    with pytest.raises(InputError, match="give apa_8ball"):
+    with pytest.raises(InputError, match="apa_8ball"):
         level_chart(name)

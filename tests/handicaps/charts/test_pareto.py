@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps import Play, RaceLimits, chart, design, measure_chart, pareto
+from evenbreak.handicaps import MatchRules, RaceLimits, chart, design, measure_chart, pareto
 
 WIDE = RaceLimits((5, 19), weaker_least=2)
 PRINTED = [chart(f"npl_{number}") for number in (8, 10, 12, 20)]
@@ -66,7 +66,7 @@ def test_each_chart_is_the_design_of_its_limit_and_measured_as_it_is():
 
 
 def test_matches_won_by_two_have_a_front_too():
-    charts = pareto(Play("npl", win_by=2), RaceLimits((5, 6), weaker_least=2), up_to=20)
+    charts = pareto(MatchRules("npl", win_by=2), RaceLimits((5, 6), weaker_least=2), up_to=20)
     lengths = [one.measure.games_p90 for one in charts]
     assert min(lengths) < max(lengths)
 
@@ -80,7 +80,7 @@ def test_a_limit_on_rows_holds_for_every_chart_and_each_is_told_of():
 
 
 def test_wrong_wishes_are_refused():
-    with pytest.raises(InputError, match="give 'mean' or 'worst'"):
+    with pytest.raises(InputError, match="criterion"):
         pareto("npl", WIDE, criterion="best")
     with pytest.raises(InputError, match="up_to is 0"):
         pareto("npl", WIDE, up_to=0)

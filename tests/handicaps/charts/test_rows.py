@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import Chart, ChartRow
-from evenbreak.handicaps.charts.rows import row_faults
+from evenbreak.handicaps.charts.rows import catalogue_rows, row_faults
 
 
 def test_all_faults_are_told_with_the_place_of_their_row():
@@ -19,10 +19,15 @@ def test_all_faults_are_told_with_the_place_of_their_row():
         (0, "row 1 is a race 5:4"),
         (1, "difference_to of row 2 is 3"),
         (1, "stronger_needs of row 2 is 4"),
-        (1, "row 2 begins at 6 and row 1 ends at 4"),
-        (2, "row 3 has no end but is not the last"),
+        (1, "row 2 begins at 6, but row 1 ends at 4"),
+        (2, "row 3 is open-ended but not the last row"),
         (3, "the last row ends at 12"),
     ]
+
+
+def test_the_rows_of_the_catalogue_are_whole_numbers_with_open_ends():
+    assert catalogue_rows("npl_8")[-1] == (49, None, 6, 2)
+    assert catalogue_rows("apa_8ball")[0] == (2, 2, 2, 2)
 
 
 ends = st.integers(0, 12)

@@ -59,10 +59,10 @@ def test_ratings_of_a_pair_come_near_the_difference_of_skill():
     assert pair.error_law().mean == pytest.approx((pair.law().mean - 20) / 2, abs=1e-12)
 
 
-def test_a_pair_whose_sum_does_not_stay_has_a_difference_only():
+def test_a_pair_whose_sum_changes_has_a_difference_only():
     pair = ClosedPair(step_system(2, 1))
     assert pair.law().mean == pytest.approx(0.0, abs=1e-12)
-    with pytest.raises(InputError, match="sum of two ratings does not stay"):
+    with pytest.raises(InputError, match="sum of two ratings changes"):
         pair.error_law()
 
 
@@ -108,7 +108,7 @@ def test_in_step_law_of_longer_steps_is_on_their_multiples():
 
 
 @pytest.mark.parametrize("system", [step_system(2, 1), "margin"])
-def test_who_does_not_stay_in_step_has_no_such_law(system):
+def test_players_who_do_not_stay_in_step_are_refused(system):
     with pytest.raises(InputError, match="do not stay in step"):
         in_step_law(system)
 

@@ -10,7 +10,7 @@ from evenbreak.handicaps import (
     chart,
     opponents_of,
 )
-from evenbreak.handicaps.ladders.opponent_pairs import meetings_of
+from evenbreak.handicaps.ladders.opponent_pairs import opponent_pairs_of
 from evenbreak.handicaps.systems.elo import elo_system
 from evenbreak.handicaps.systems.margin import margin_system
 from evenbreak.handicaps.systems.step import step_system
@@ -30,13 +30,13 @@ KINDS = {
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("system", [step_system(1), margin_system(2)], ids=lambda s: s.name)
-def test_meetings_give_the_ladders_own_chances(kind, system):
+def test_pairs_give_the_ladders_own_chances(kind, system):
     # The ladder convolves; here every pair is added up.
     ladder = Ladder(system, opponents=KINDS[kind])
-    meetings = meetings_of(ladder)
-    wins = meetings.wins()[meetings.places(), meetings.ahead] @ meetings.chance
+    pairs = opponent_pairs_of(ladder)
+    wins = pairs.wins()[pairs.places(), pairs.ahead] @ pairs.chance
     np.testing.assert_allclose(wins, ladder.wins, atol=1e-11)
-    moves = meetings.mean_of(meetings.table.moves[..., 0])
+    moves = pairs.mean_of(pairs.table.moves[..., 0])
     np.testing.assert_allclose(moves, ladder.kernel @ ladder.steps, atol=1e-10)
 
 
@@ -44,22 +44,22 @@ def test_meetings_give_the_ladders_own_chances(kind, system):
 @pytest.mark.parametrize(
     "forms", [{"day_sd": 6.0}, {"match_sd": 3.0}, {"day_sd": 0.4}, {"day_sd": 90.0}]
 )
-def test_fluctuations_of_form_are_those_of_the_ladder(kind, forms):
+def test_form_is_that_of_the_ladder(kind, forms):
     ladder = Ladder(chart("npl_10"), opponents=KINDS[kind], **forms)
-    meetings = meetings_of(ladder)
-    wins = meetings.wins()[meetings.places(), meetings.ahead] @ meetings.chance
+    pairs = opponent_pairs_of(ladder)
+    wins = pairs.wins()[pairs.places(), pairs.ahead] @ pairs.chance
     np.testing.assert_allclose(wins, ladder.wins, atol=1e-11)
 
 
-def test_meetings_of_a_wide_scale_are_the_ladders_too():
+def test_pairs_on_a_wide_scale_are_the_ladders_too():
     ladder = Ladder(elo_system(16), opponents=EQUAL_SKILL)
-    meetings = meetings_of(ladder)
-    moves = meetings.mean_of(meetings.table.moves[..., 0])
+    pairs = opponent_pairs_of(ladder)
+    moves = pairs.mean_of(pairs.table.moves[..., 0])
     np.testing.assert_allclose(moves, ladder.kernel @ ladder.steps, atol=1e-8)
 
 
-def test_two_deviations_of_one_night_are_one_law_of_twice_the_variance():
-    both = meetings_of(Ladder("npl", day_sd=3.0, match_sd=4.0))
-    one = meetings_of(Ladder("npl", day_sd=5.0))
-    # But for the rounding of two deviations in place of one.
+def test_two_kinds_of_form_add_their_variances():
+    both = opponent_pairs_of(Ladder("npl", day_sd=3.0, match_sd=4.0))
+    one = opponent_pairs_of(Ladder("npl", day_sd=5.0))
+    # Except that two deviations are rounded instead of one.
     np.testing.assert_allclose(both.wins(), one.wins(), atol=1e-3)

@@ -39,7 +39,7 @@ def test_a_league_of_equals_is_the_model_that_it_looks_like():
     assert law == Ladder(chart("npl_8"), opponents=EQUAL_SKILL).law()
 
 
-def test_who_meets_better_rated_players_only_has_a_law_of_his_own():
+def test_meeting_only_better_rated_players_shifts_the_players_error_alone():
     league = opponents_of(np.arange(100, 140), 80)
     found = Ladder(chart("npl_10"), opponents=league)
     assert found.law().mean != pytest.approx(0.0, abs=0.1)
@@ -65,8 +65,8 @@ def test_what_makes_no_opponents_is_refused(change, message):
     ("ratings", "message"),
     [
         ([], "ratings is empty"),
-        ([80, float("nan")], "ratings is .*; give finite numbers"),
-        (["x"], "ratings is .*; give finite numbers"),
+        ([80, float("nan")], "ratings holds nan"),
+        (["x"], "ratings is "),
     ],
 )
 def test_ratings_that_are_none_are_refused(ratings, message):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from typing import Any
 
@@ -10,16 +9,11 @@ import numpy as np
 import pytest
 from matplotlib.patches import FancyArrowPatch
 
-from evenbreak.source_text.physics.chosen import CAPTIONS
-from evenbreak.source_text.physics.figures import figures
-from places import SHARED
-
-NAMES = tuple(f"figure_{n}" for n in ("1_1", "1_2", "2_1", "4_1", "4_2", "4_3", "4_6"))
+from drawings import figure
 
 
-@functools.cache
 def axes_of(name: str) -> Any:
-    return figures()[name]().axes[0]
+    return figure(name).axes[0]
 
 
 def arrows(name: str, label: str) -> list[Any]:
@@ -41,11 +35,6 @@ def cross(a: Any, b: Any) -> float:
 def turn(arrow: Any, centre: Any) -> float:
     """Return above 0 for an arrow counterclockwise about a centre."""
     return cross(arrow[0] - centre, arrow[1] - centre)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_a_sketch_says_that_it_is_one(name: str) -> None:
-    assert "A sketch" in CAPTIONS[name]
 
 
 def test_friction_turns_two_balls_the_same_way() -> None:
@@ -91,10 +80,13 @@ def test_what_friction_gives_the_one_ball_it_takes_from_the_other() -> None:
     assert line @ left == pytest.approx(0)
     assert math.atan2(-line[1], line[0]) == pytest.approx(math.pi / 6)
     assert gained @ left > 0
+    (before,) = vectors("figure_4_2", "$V_0$")
     # Without friction the object ball goes along the line of centres, the cue ball across it.
     (object_ball,), (cue_ball,) = (vectors("figure_4_2", f"$V_{ball}$") for ball in "bc")
     assert cross(object_ball - gained, line) == pytest.approx(0)
     assert (cue_ball - lost) @ line == pytest.approx(0)
+    assert object_ball + cue_ball == pytest.approx(before)
+    assert before[1] == 0
 
 
 def test_each_way_of_slipping_has_its_quadrant() -> None:
@@ -118,11 +110,3 @@ def test_the_axis_of_a_thrown_ball_is_tilted_by_seven_halves_of_the_throw() -> N
     low, high = np.array(equator.get_xydata())
     assert (high - low) @ axis == pytest.approx(0)
     assert (low + high) / 2 == pytest.approx([0, 1])
-
-
-def test_all_figures_of_the_source_are_here() -> None:
-    facts = SHARED / "seed" / "physics_figures.csv"
-    if not facts.exists():
-        pytest.skip("the facts about the text's figures do not lie beside this copy")
-    numbers = {line.split(",")[0] for line in facts.read_text("utf-8").splitlines()[1:]}
-    assert {f"figure_{number.replace('.', '_')}" for number in numbers} == set(figures())

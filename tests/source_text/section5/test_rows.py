@@ -1,87 +1,95 @@
-from decimal import Decimal
-from fractions import Fraction
+"""The matrices in symbols are those of the games, and the page has their eigenvalues."""
 
+from __future__ import annotations
+
+import math
+import re
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
 
-from evenbreak.source_text.section5.rows import (
-    difference_cell,
-    fixed_cell,
-    number_cell,
-    parse_inputs,
-)
+from evenbreak.chains import chain_of, stochastic_limit
+from evenbreak.game import Game
+from evenbreak.games import Ahead, OneBall, Rack, Series
+from evenbreak.games.breaks import BREAK_FORMATS
+from evenbreak.source_text.section5.rows import Row, formulas
 
-
-@pytest.mark.parametrize(
-    ("text", "named", "words"),
-    [
-        ("", {}, ()),
-        ("p=2/3", {"p": (Fraction(2, 3),)}, ()),
-        ("N=120 p=.52", {"N": (120,), "p": (Fraction(13, 25),)}, ()),
-        ("x=0 1 1 4 5", {"x": (0, 1, 1, 4, 5)}, ()),
-        ("scores 50 44", {"scores": (50, 44)}, ("scores",)),
-        ("mean run 24", {"run": (24,)}, ("mean", "run")),
-        ("1 2 4 5", {"": (1, 2, 4, 5)}, ()),
-        ("3:1 sets of 3:3", {"": (3, 1), "of": (3, 3)}, ("sets", "of")),
-        ("p=0.5 p_i=p^(i-1)", {"p": (Fraction(1, 2),)}, ()),
-        (
-            "winner breaks p1=.9 win 1.0 lose 2.0",
-            {"p1": (Fraction(9, 10),), "win": (1,), "lose": (2,)},
-            ("winner", "breaks", "win", "lose"),
-        ),
-    ],
-)
-def test_inputs(text, named, words):
-    assert parse_inputs(text) == (named, words)
+P1, P2 = 0.4, 0.8
+VALUES = {"p1": P1, "p2": P2, "q1": 1 - P1, "q2": 1 - P2, "p": 0.3, "q": 0.7, "sqrt": math.sqrt}
 
 
-def test_one_input_must_be_one():
-    with pytest.raises(ValueError, match="unpack"):
-        parse_inputs("1 2").one()
+def value(formula: str) -> float:
+    return float(eval(re.sub(r"(?<=\w) (?=\w)", "*", formula), dict(VALUES)))  # noqa: S307
 
 
-# At 1e-14 itself, where noise ends, one side is written and the other is not.
-@given(st.floats(-1e6, 1e6, allow_subnormal=False).filter(lambda x: not 0.9 < abs(x) * 1e14 < 1.1))
-@example(0.20947265625)
-@example(1.1e-14)
-def test_cells_hide_the_noise_of_machines(value):
-    noisy = [value * (1 + 2e-16), value * (1 - 2e-16)]
-    assert {number_cell(v) for v in noisy} == {number_cell(value)}
-    assert float(number_cell(value)) == pytest.approx(value, rel=1e-9, abs=1e-13)
+def entries_of(name: str) -> dict[tuple[str, str], str]:
+    """Return the entries of a matrix in symbols by target and source."""
+    rows = [row for problem in ("P5.23", "P5.24", "P5.27") for row in formulas(problem)]
+    entries = {}
+    for row in rows:
+        if row.quantity == f"formula: {name}":
+            _, target, _, source = row.inputs.split()
+            entries[target, source] = row.computed
+    return entries
 
 
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (1e-17, "0"),
-        (-1e-17, "0"),
-        (1200.0, "1200"),
-        (Fraction(1, 3), "0.3333333333"),
-        (0.11279296875, "0.1127929688"),
-        (2.694665955e-9, "2.694665955E-9"),
-    ],
-)
-def test_number_cells_as_written(value, text):
-    assert str(number_cell(value)) == text
+def states_of(name: str) -> list[str]:
+    return list(dict.fromkeys(target for target, _ in entries_of(name)))
 
 
-def test_fixed_cells_have_six_decimals():
-    assert [str(fixed_cell(v)) for v in (0, 1, 1e-9, 0.0078125, 0.75)] == [
-        "0.000000",
-        "1.000000",
-        "0.000000",
-        "0.007812",
-        "0.750000",
-    ]
+def matrix_of(name: str) -> Any:
+    entries, states = entries_of(name), states_of(name)
+    return np.array([[value(entries[to, source]) for source in states] for to in states])
 
 
-def test_difference_of_equal_numbers_is_zero():
-    assert str(difference_cell(0.1 + 0.2, Decimal("0.3"))) == "0"
-    assert str(difference_cell(0.5, Decimal("0.49"))) == "0.01"
-    assert str(difference_cell(-1 / 14, Decimal("-0.08"))) == "0.0085714286"
+def matrix_of_game(game: Game, states: list[Any]) -> Any:
+    chain = chain_of(game)
+    order = [chain.index(state) for state in states]
+    return chain.matrix.toarray()[np.ix_(order, order)]
 
 
-@pytest.mark.parametrize("noise", [-2e-16, 0.0, 2e-16])
-def test_difference_that_ends_in_a_half_hides_the_noise_of_machines(noise):
-    assert str(difference_cell(0.80615234375 * (1 + noise), Decimal("0.806"))) == "0.0001523438"
+PAGE = files("evenbreak.source_text.section5").joinpath("page.md").read_text("utf-8")
+MATRICES = re.findall(r"\{\{matrix (.*)\}\}", PAGE)
+
+
+def test_a_row_may_do_without_a_note() -> None:
+    assert Row("mean", "", 1.5).note == ""
+
+
+@pytest.mark.parametrize("name", MATRICES)
+def test_columns_sum_to_1_and_eigenvalues_are_those_of_the_matrix(name: str) -> None:
+    matrix = matrix_of(name)
+    assert matrix.sum(axis=0) == pytest.approx(1.0)
+    (line,) = re.findall(rf"\| {re.escape(name)} \| `(.*)` \|", PAGE)
+    given = sorted(map(value, line.split(", ")))
+    assert sorted(np.linalg.eigvals(matrix).real) == pytest.approx(given, abs=1e-7)
+
+
+def test_the_one_ball_game() -> None:
+    states = states_of("M")
+    game = OneBall(P1, P2)
+    assert matrix_of("M") == pytest.approx(matrix_of_game(game, states))
+    chain = chain_of(game)
+    limits = [[stochastic_limit(chain, source)[to] for source in states] for to in states]
+    assert matrix_of("limit of M^n") == pytest.approx(np.array(limits))
+    far = np.linalg.matrix_power(matrix_of("M"), 60)
+    assert matrix_of("limit of M^n") == pytest.approx(far, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["winner", "loser", "alternate"])
+def test_break_formats(name: str) -> None:
+    game = Series(Rack(P1, P2), breaks=BREAK_FORMATS[name])
+    matrix = matrix_of(f"M, {name} breaks")
+    assert matrix == pytest.approx(matrix_of_game(game, [1, 2]))
+
+
+@pytest.mark.parametrize("m", range(1, 6))
+def test_a_lead_of_six_games(m: int) -> None:
+    n = 6 - m
+    named = states_of("M, six games between the ends")
+    leads = [(max(lead, 0), max(-lead, 0)) for lead in range(-n, m + 1)]
+    expected = matrix_of_game(Ahead(m, n, Rack(0.3)), leads)
+    assert matrix_of("M, six games between the ends") == pytest.approx(expected)
+    assert named[leads.index((0, 0))] == f"{m}:{n}"

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.answer import Quantities
+from evenbreak.answers.parts import Quantities
 from evenbreak.files.csv_writer import csv_lines
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
+    from evenbreak.answers.parts import Show
 
 
 def to_csv(answer: Answer) -> Iterator[str]:
@@ -18,17 +19,17 @@ def to_csv(answer: Answer) -> Iterator[str]:
     if isinstance(numbers, Quantities):
         yield from csv_lines(["quantity", "value"], ([one.name, one.value] for one in numbers.of))
     elif numbers is not None:
-        exact = [column.exact for column in numbers.columns for _ in column.names]
-        yield from csv_lines(numbers.names, _in_full(numbers.records(), exact))
+        cells = [repr if c.exact else c.cell for c in numbers.columns for _ in c.names]
+        yield from csv_lines(numbers.names, _as_cells(numbers.records(), cells))
 
 
-def _in_full(rows: Iterator[list[Any]], exact: list[bool]) -> Iterator[list[Any]]:
-    """Yield rows, the numbers of some columns as text with all their digits."""
-    if not any(exact):
+def _as_cells(rows: Iterator[list[Any]], cells: list[Show | None]) -> Iterator[list[Any]]:
+    """Yield rows with the values of some columns as the text that CSV has for them."""
+    if not any(cells):
         yield from rows
         return
     for row in rows:
         yield [
-            repr(value) if full and value is not None else value
-            for value, full in zip(row, exact, strict=True)
+            value if cell is None or value is None else cell(value)
+            for value, cell in zip(row, cells, strict=True)
         ]

@@ -6,11 +6,13 @@ from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Quantities, Table
+from evenbreak.answers.parts import Quantities, Table
+from evenbreak.answers.remarks import Remark, Remarks
 from evenbreak.files.problems import printable
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer, Part
+    from evenbreak.answers.answer import Answer
+    from evenbreak.answers.parts import Part
 
 
 def to_html(answer: Answer) -> str:
@@ -22,18 +24,30 @@ def _lines(answer: Answer) -> Iterator[str]:
     first, *more = answer.heading.split("\n")
     yield f"<h2>{_text(first)}</h2>"
     yield from (f"<p>{_text(line)}</p>" for line in more)
+    yield from body_lines(answer)
+
+
+def body_lines(answer: Answer) -> Iterator[str]:
+    """Yield the HTML of an answer without its heading."""
     for part in answer.parts:
-        yield from _part(part)
+        yield from part_lines(part)
     if answer.details:
         yield "<details><summary>Details</summary>"
         for part in answer.details:
-            yield from _part(part)
+            yield from part_lines(part)
         yield "</details>"
     yield from (f'<p role="note">{_text(warning)}</p>' for warning in answer.warnings)
 
 
-def _part(part: Part) -> Iterator[str]:
+def part_lines(part: Part) -> Iterator[str]:
+    """Yield the HTML of a part of an answer."""
     match part:
+        case Remarks():
+            if part.above:
+                yield f"<p>{_text(part.above)}:</p>"
+            yield "<ul>"
+            yield from (f"<li>{_remark(item)}</li>" for item in part.items)
+            yield "</ul>"
         case Quantities():
             yield "<table>" + _caption(part.title)
             for one in part.shown(verbose=True):
@@ -58,6 +72,16 @@ def _part(part: Part) -> Iterator[str]:
             yield "</tbody></table>"
         case _:
             yield from (f"<p>{_text(line)}</p>" for line in part.split("\n"))
+
+
+def _remark(item: Remark) -> str:
+    """Return a remark as it reads elsewhere, each name in it by itself."""
+    what = _text(item.what)
+    if item.names:
+        names = ", ".join(f"<bdi>{_text(name)}</bdi>" for name in item.shown_names)
+        more = f" and {item.more_names:,} more" if item.more_names else ""
+        what = f"{what} ({names}{more})"
+    return f"<strong>{what}</strong>: {_text(item.why)}."
 
 
 def _caption(title: str) -> str:

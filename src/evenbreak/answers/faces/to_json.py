@@ -6,10 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.answer import Quantities, Table
+from evenbreak.answers.parts import Quantities, Table
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer, Part
+    from evenbreak.answers.answer import Answer
+    from evenbreak.answers.parts import Part
 
 
 def as_dict(answer: Answer) -> dict[str, Any]:
@@ -22,7 +23,7 @@ def as_dict(answer: Answer) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for part in (*answer.parts, *answer.details, *([answer.csv] if answer.csv else [])):
         found |= _numbers(part)
-    found |= {name: plain(value) for name, value in answer.data.items()}
+    found |= {name: json_value(value) for name, value in answer.data.items()}
     return found | {
         "heading": answer.heading,
         "sentences": answer.sentences,
@@ -42,16 +43,16 @@ def to_json(answer: Answer) -> str:
 def _numbers(part: Part) -> dict[str, Any]:
     match part:
         case Quantities(of=listed, in_json=True):
-            return {one.name: plain(one.value) for one in listed}
+            return {one.name: json_value(one.value) for one in listed}
         case Table(name=name) if name:
-            return {name: plain(part.to_dicts())}
+            return {name: json_value(part.to_dicts())}
     return {}
 
 
-def plain(value: Any) -> Any:
+def json_value(value: Any) -> Any:
     """Return a value as JSON knows it: numpy's numbers as Python's, NaN and infinities as None.
 
-    >>> plain({"p": float("inf"), "rows": (1, 2.5)})
+    >>> json_value({"p": float("inf"), "rows": (1, 2.5)})
     {'p': None, 'rows': [1, 2.5]}
     """
     if value is None or isinstance(value, str | bool | int):
@@ -59,11 +60,11 @@ def plain(value: Any) -> Any:
     if isinstance(value, float):
         return float(value) if math.isfinite(value) else None
     if isinstance(value, Mapping):
-        return {str(key): plain(one) for key, one in value.items()}
+        return {str(key): json_value(one) for key, one in value.items()}
     if hasattr(value, "_asdict"):
-        return {key: plain(one) for key, one in value._asdict().items()}
+        return {key: json_value(one) for key, one in value._asdict().items()}
     if hasattr(value, "tolist"):
-        return plain(value.tolist())
+        return json_value(value.tolist())
     if isinstance(value, list | tuple):
-        return [plain(one) for one in value]
+        return [json_value(one) for one in value]
     return str(value)

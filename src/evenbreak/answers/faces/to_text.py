@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Quantities, Table
+from evenbreak.answers.parts import Quantities, Table
 from evenbreak.files.problems import printable
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer, Part
+    from evenbreak.answers.answer import Answer
+    from evenbreak.answers.parts import Part
 
 WIDTH = 80
 NARROWEST, LONGEST_NAME = 20, 30
@@ -17,6 +18,7 @@ NARROWEST, LONGEST_NAME = 20, 30
 leaves them as many columns as the first; else after as many as the second."""
 
 _GAP = 2
+"""Blanks between two columns."""
 
 
 def to_text(answer: Answer, *, width: int = WIDTH, verbose: bool = False) -> str:
@@ -37,7 +39,7 @@ def to_text(answer: Answer, *, width: int = WIDTH, verbose: bool = False) -> str
 
 
 def paragraph(text: str, width: int = WIDTH) -> str:
-    r"""Return text with each of its lines broken between words where the terminal ends.
+    r"""Return text with its lines broken between words, in items too.
 
     >>> print(paragraph("Left out:\n- 11 forfeited matches: no games were played.", 32))
     Left out:
@@ -99,16 +101,38 @@ def _folded(rows: list[list[str]], flush: Sequence[int], width: int) -> list[lis
     over = sum(wide) + _GAP * len(wide) - width
     if over <= 0 or not flush:
         return rows
-    widest = max(flush, key=lambda k: wide[k])
-    room = wide[widest] - over
-    room = min(wide[widest], LONGEST_NAME) if room < NARROWEST else room
+    room = _room([wide[k] for k in flush], sum(wide[k] for k in flush) - over)
+    if room < NARROWEST:
+        room = LONGEST_NAME
     folded = []
     for row in rows:
-        first, *more = textwrap.wrap(row[widest], room, subsequent_indent="  ") or [""]
-        for text in (first, *more):
-            line = row if text is first else [""] * len(row)
-            folded.append([*line[:widest], text, *line[widest + 1 :]])
+        parts = {
+            k: textwrap.wrap(row[k], room, subsequent_indent="  ") or [""]
+            if text_width(row[k]) > room
+            else [row[k]]
+            for k in flush
+        }
+        for line in range(max(map(len, parts.values()))):
+            rest = row if line == 0 else [""] * len(row)
+            folded.append(
+                [
+                    "".join(parts[k][line : line + 1]) if k in parts else cell
+                    for k, cell in enumerate(rest)
+                ]
+            )
     return folded
+
+
+def _room(wide: Sequence[int], total: int) -> int:
+    """Return how wide columns may be at most, so that they are not wider than `total` together.
+
+    >>> _room([30, 10, 40], 60), _room([30, 40], 200)
+    (25, 40)
+    """
+    return max(
+        (room for room in range(max(wide) + 1) if sum(min(one, room) for one in wide) <= total),
+        default=0,
+    )
 
 
 def _blocks(cells: Sequence[Sequence[str]], names: int, width: int) -> list[list[int]]:

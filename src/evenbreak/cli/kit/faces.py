@@ -1,18 +1,15 @@
 """How a command's answer is printed: text on a terminal, CSV into a pipe, JSON or HTML if asked."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import update_wrapper
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
-from evenbreak.cli.kit.terminal import say, to_terminal, write
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.interrupts import raise_if_interrupted
+from evenbreak.cli.kit.terminal import say, to_terminal, write, write_file
 
 Function = Callable[..., "Answer"]
 
@@ -44,24 +41,27 @@ def faces(
             answer = function(**options)
             print_answer(answer, chosen, verbose=verbose)
             if page_file is not None:
-                _write_page(answer, page_file)
+                from evenbreak.sheets.answer_page import answer_page
+
+                write_file(page_file, answer_page(answer))
 
         command: Any = update_wrapper(run, function)
-        for add in reversed(_options(page=page, csv=not always_text)):
+        for add in reversed(_options(page=page)):
             command = add(command)
         return command  # type: ignore[no-any-return]
 
     return decorate
 
 
-def _options(*, page: bool, csv: bool) -> list[Callable[[Any], Any]]:
+def _options(*, page: bool) -> list[Callable[[Any], Any]]:
     def face(name: str, text: str) -> Callable[[Any], Any]:
         return click.option(f"--{name}", "face", flag_value=name, help=text)
 
-    options = [face("text", "Print text, even into a pipe.")]
-    if csv:
-        options.append(face("csv", "Print CSV, even on a terminal."))
-    options.append(face("json", "Print JSON, with floats in full precision."))
+    options = [
+        face("text", "Print text, even into a pipe."),
+        face("csv", "Print CSV, even on a terminal."),
+        face("json", "Print JSON, with numbers in full precision."),
+    ]
     if page:
         options.append(
             click.option(
@@ -69,7 +69,7 @@ def _options(*, page: bool, csv: bool) -> list[Callable[[Any], Any]]:
                 "page_file",
                 metavar="FILE",
                 callback=page_name,
-                help="Also write the answer to FILE as a page.",
+                help="Also write the answer to FILE as a web page.",
             )
         )
     more = click.option("-v", "--verbose", is_flag=True, help="Add the statistical details.")
@@ -83,11 +83,24 @@ def page_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     return value
 
 
+def without_folders(warnings: Iterable[str], *paths: str | None) -> list[str]:
+    """Return warnings for a page that is handed out: the folders of files are private.
+
+    >>> without_folders(["'Bo' is not in /home/ann/club.csv"], "/home/ann/club.csv", None)
+    ["'Bo' is not in club.csv"]
+    """
+    public = list(warnings)
+    for path in filter(None, paths):
+        public = [text.replace(path, PurePath(path).name) for text in public]
+    return public
+
+
 def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
     """Print an answer as text, csv or json; its warnings go to stderr.
 
     With CSV on stdout, the sentences of the answer go to stderr too.
     """
+    raise_if_interrupted()
     if face == "json":
         from evenbreak.answers.faces.to_json import to_json
 
@@ -105,12 +118,3 @@ def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
         write(to_text(answer, verbose=verbose))
     for warning in answer.warnings:
         say(f"Warning: {warning}")
-
-
-def _write_page(answer: Answer, path: str) -> None:
-    from evenbreak.files.folder import write_files
-    from evenbreak.sheets.answer_page import answer_page
-
-    place = PurePath(path)
-    write_files(str(place.parent), {place.name: answer_page(answer)})
-    say(f"Wrote {path}")

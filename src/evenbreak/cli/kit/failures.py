@@ -3,8 +3,6 @@
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad data, 130 interrupted.
 """
 
-from __future__ import annotations
-
 import errno
 import os
 import sys
@@ -34,10 +32,16 @@ def report_error(error: BaseException) -> int:
             return INTERRUPTED
         case OSError(errno=errno.EPIPE):
             # The reader of the pipe is gone; what is still buffered must not fail at exit.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            if sys.stdout is not None:
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return FAILED
         case EvenbreakError() | OSError() | MemoryError() | OverflowError():
             pass
+        case UnicodeDecodeError() if _in_matplotlib(error):
+            error = InputError(
+                f"matplotlib cannot read its settings ({error}); mend or remove the file "
+                "matplotlibrc in this folder"
+            )
         case _:
             raise error
     for line in _lines(error):
@@ -48,6 +52,16 @@ def report_error(error: BaseException) -> int:
         case InputError():
             return USAGE
     return FAILED
+
+
+def _in_matplotlib(error: BaseException) -> bool:
+    """Return whether an error comes from matplotlib as it loads, where it reads its settings."""
+    place = error.__traceback__
+    names = set()
+    while place is not None:
+        names.add(place.tb_frame.f_globals.get("__name__"))
+        place = place.tb_next
+    return "matplotlib" in names
 
 
 def _chain(error: BaseException | None) -> Iterator[BaseException]:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import importlib
 import itertools
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 
 class Entry(NamedTuple):
@@ -45,13 +48,28 @@ class LazyGroup(click.Group):
         """Return the names of the commands, in the order of the help text."""
         return list(self._table)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Import and return the command of this name, or None if there is none."""
         if cmd_name not in self._table:
             return None
         module = importlib.import_module(f"evenbreak.cli.{self._table[cmd_name].module}")
         command: click.Command = module.command
+        if ctx.resilient_parsing:  # a shell asks what may come next
+            from evenbreak.cli.kit.completion import complete_files
+
+            complete_files(command)
         return command
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """Return the commands that begin like this, without importing any."""
+        from click.shell_completion import CompletionItem
+
+        commands = [
+            CompletionItem(name, help=entry.help)
+            for name, entry in self._table.items()
+            if name.startswith(incomplete)
+        ]
+        return [*commands, *click.Command.shell_complete(self, ctx, incomplete)]
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

@@ -1,20 +1,28 @@
 """Options shared by several commands, each declared once, and commands that take ratings."""
 
-from __future__ import annotations
-
 import math
+import re
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from functools import update_wrapper
+from typing import Any, TypeVar
 
 import click
 
-from evenbreak.cli.kit.values import CHANCE, LONGEST, NUMBER, SPAN, Whole, meant, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.ratings.scale import Scale
+from evenbreak.cli.kit import completion
+from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Whole, meant, refuse
+from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale, scale_of
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Decorator = Callable[[Command], Command]
+
+
+def with_options(command: Command, *options: Decorator[Any]) -> Command:
+    """Return a command with more options, the last of them first in its help."""
+    for option in options:
+        command = option(command)
+    return command
+
 
 HIGHEST_SEED = 2**32 - 1
 
@@ -29,34 +37,26 @@ class PlainCommand(click.Command):
         )
         rest = super().parse_args(ctx, args)
         words: Sequence[str] = ctx.params.get("ratings", ())
+        if ctx.resilient_parsing:
+            return rest
+        named = ctx.params.get("from_file") is not None
         for word in words:
-            if NUMBER.fullmatch(word):
+            if (named and not word.startswith("-")) or NUMBER.fullmatch(word):
                 continue
             if word.startswith("-"):
                 known = [name for option in self.params for name in option.opts]
                 raise click.NoSuchOption(word.split("=")[0], possibilities=known, ctx=ctx)
-            wanted = "give two numbers, such as 612 521"
+            wanted = "give two numbers, such as 612 521, or say with --from where it stands"
             refuse(f"{word!r} is not a rating; {wanted}{meant(word, -math.inf, math.inf)}")
         return rest
 
 
-class ScaleName(click.ParamType):  # type: ignore[type-arg]
-    """A scale, by its name or by the points that double the odds."""
-
-    name = "scale"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Scale:
-        """Return the scale."""
-        from evenbreak.errors import InputError
-        from evenbreak.ratings.scale import scale_of
-
-        try:
-            scale: Scale = scale_of(value)
-        except InputError as error:
-            self.fail(str(error), param, ctx)
-        return scale
+def _scale(name: str) -> Scale:
+    try:
+        scale: Scale = scale_of(name)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+    return scale
 
 
 def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
@@ -72,21 +72,29 @@ def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
     """
     return click.option(
         "--scale",
-        type=ScaleName(),
+        type=_scale,
+        shell_complete=completion.scales,
         default=without if fixed else None,
+        show_default=False,
         metavar="npl|fargo|elo|POINTS",
-        help="What ratings mean: POINTS of difference double the odds of winning a game.  "
+        help="The scale of the ratings: POINTS double the odds of winning a game.  "
         f"[default: {without}]",
     )
 
 
-def seed_option(what: str = "The seed of all random draws.", *, default: int = 1) -> Decorator[Any]:
+drill_option = click.option(
+    "--drill", metavar="NAME", help="The drill to look at, if the file has several."
+)
+
+
+def seed_option(
+    what: str = "The seed of all random draws.", *, default: int | None = 1
+) -> Decorator[Any]:
     """Return the option --seed; `what` says what is drawn."""
     return click.option(
         "--seed",
         type=Whole(0, HIGHEST_SEED),
         default=default,
-        show_default=True,
         metavar="N",
         help=what,
     )
@@ -99,42 +107,120 @@ def chart_option(
     return click.option("--chart", metavar="NAME|FILE", help=what)
 
 
-aliases_option = click.option(
-    "--aliases",
-    metavar="ALIASES.csv",
-    help="Which names mean the same player: a file with the columns name and means.",
+def _folder(ctx: click.Context, param: click.Parameter, value: str) -> str:  # noqa: ARG001
+    if not value.strip():
+        refuse("--out is empty; name a folder, or . for this one")
+    return value
+
+
+def out_option(what: str) -> Decorator[Any]:
+    """Return the option --out; `what` says what is written to the folder."""
+    kind = click.Path(file_okay=False)
+    return click.option(
+        "--out", required=True, metavar="DIR", type=kind, callback=_folder, help=what
+    )
+
+
+def _columns(
+    ctx: click.Context,  # noqa: ARG001
+    param: click.Parameter,  # noqa: ARG001
+    given: tuple[str, ...],
+) -> dict[str, str]:
+    """Return the title of each column that --columns names."""
+    columns: dict[str, str] = {}
+    for text in given:
+        # A title may have a comma in it, but hardly words and an equals sign after it.
+        for part in re.split(r",(?=[\w ]+=)", text):
+            name, sign, title = (piece.strip() for piece in part.partition("="))
+            name = name.lower().replace(" ", "_")
+            if not (name and sign and title):
+                refuse(
+                    f"--columns has {part.strip()!r}; give the column and the title that it has in "
+                    "the file, such as player_a=Home,player_b=Away"
+                )
+            if name in columns or title.casefold() in map(str.casefold, columns.values()):
+                refuse(f"--columns has {part.strip()!r}, but one of them was given before")
+            columns[name] = title
+    return columns
+
+
+dates_option = click.option(
+    "--dates",
+    type=click.Choice(["mdy", "dmy"]),
+    is_eager=True,
+    help="The order in dates such as 9/3/2024: month first or day first.  [default: as other dates "
+    "of the file show]",
 )
-"""The option --aliases of every command that reads results."""
+"""The option --dates; it is read first, so that options with a date can go by it."""
+
+
+def results_options(command: Command) -> Command:
+    """Add the options of every command that reads results, which gets them as `reading`.
+
+    They are --aliases, --columns and --dates, by the names that `files.read_results` has.
+    """
+
+    def run(*, aliases: str | None, columns: dict[str, str], dates: str | None, **rest: Any) -> Any:
+        return command(reading={"aliases": aliases, "columns": columns, "dates": dates}, **rest)
+
+    wrapped: Any = update_wrapper(run, command)
+    return with_options(  # type: ignore[no-any-return]
+        wrapped,
+        dates_option,
+        click.option(
+            "--columns",
+            multiple=True,
+            metavar="NAME=TITLE,...",
+            callback=_columns,
+            help="What the file calls its columns, such as player_a=Home,player_b=Away; can be "
+            "repeated.",
+        ),
+        click.option(
+            "--aliases",
+            metavar="ALIASES.csv",
+            help="Names that mean the same player: a file with the columns name and means.",
+        ),
+    )
+
+
+players_file_option = click.option(
+    "--players-file",
+    metavar="FILE",
+    help="Who has entered: a name on each line, or a CSV file with player and rating.",
+)
+"""The option --players-file of the commands about the players of an evening or a season."""
 
 
 safety_option = click.option(
     "--safety",
     metavar="ALPHA",
-    type=CHANCE,
+    type=SHARE,
     default="1",
-    show_default=True,
     help="The first shot of an inning goes in ALPHA times as often as the others.",
 )
 """The option --safety of the commands about straight pool."""
 
 
-def which_races(command: Command) -> Command:
+def race_limit_options(command: Command) -> Command:
     """Add the options that limit the races: --games or --race-to."""
-    command = click.option(
-        "--race-to",
-        type=Whole(1, LONGEST),
-        metavar="N",
-        help="Races in which the stronger player needs N games.",
-    )(command)
-    return click.option(
-        "--games",
-        metavar="LO..HI",
-        type=SPAN,
-        help="Races whose longest possible match has LO to HI games.",
-    )(command)
+    return with_options(
+        command,
+        click.option(
+            "--race-to",
+            type=Whole(1, LONGEST),
+            metavar="N",
+            help="Races in which the stronger player needs N games.",
+        ),
+        click.option(
+            "--games",
+            metavar="LO..HI",
+            type=SPAN,
+            help="Races whose longest possible match has LO to HI games.",
+        ),
+    )
 
 
 def refuse_both(games: tuple[int, int] | None, race_to: int | None) -> None:
     """Refuse --games together with --race-to."""
     if games is not None and race_to is not None:
-        refuse("--games and --race-to exclude each other; leave one out")
+        refuse("--games and --race-to cannot be combined; leave one out")

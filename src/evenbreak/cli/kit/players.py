@@ -1,18 +1,17 @@
-"""Who plays: two ratings, one game probability, or one for each breaker with a break format."""
-
-from __future__ import annotations
+"""Who plays: two ratings, two names on a list, a chance in a game, or one for each breaker."""
 
 import math
 
 import click
 
 from evenbreak.answers.two_players import FORMATS, TwoPlayers
-from evenbreak.cli.kit.options import Command, scale_option
-from evenbreak.cli.kit.values import CHANCE, refuse
+from evenbreak.cli.kit import completion
+from evenbreak.cli.kit.options import Command, scale_option, with_options
+from evenbreak.cli.kit.values import CHANCE, number_of, refuse
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale, scale_of
 
-REMEDY = "give two ratings A B, or --p, or --p1 and --p2 with --breaks"
+REMEDY = "give two ratings A B, or two names with --from, or --p, or --p1 and --p2 with --breaks"
 
 
 def players_of(
@@ -23,14 +22,17 @@ def players_of(
     p2: float | None,
     breaks: str | None,
     first_break: str | None,
+    from_file: str | None = None,
 ) -> TwoPlayers:
     """Return the players that the options describe, or refuse options that contradict."""
     by_break = p1 is not None or p2 is not None
     ways = bool(ratings) + (p is not None) + by_break
     if ways != 1:
         refuse(("the players are given twice; " if ways else "the players are missing; ") + REMEDY)
+    if from_file is not None and not ratings:
+        refuse("--from is for two players by name, but none are named; leave it out")
     if scale is not None and not ratings:
-        refuse("--scale says what ratings mean, but none are given; leave it out")
+        refuse("--scale is for ratings, but none are given; leave it out")
     if by_break:
         if p1 is None or p2 is None or breaks is None:
             refuse("--p1, --p2 and --breaks go together; give all three")
@@ -40,24 +42,76 @@ def players_of(
         refuse("the break matters only with --p1 and --p2; leave --breaks and --first-break out")
     if p is not None:
         return TwoPlayers(Rack(p))
+    if from_file is not None:
+        return _named(ratings, from_file, scale)
     if len(ratings) != 2:
         given = "only one rating is" if len(ratings) == 1 else f"{len(ratings)} ratings are"
         refuse(f"{given} given, {' '.join(ratings)}; {REMEDY}")
-    a, b = (float(rating) for rating in ratings)
+    a, b = map(number_of, ratings)
     if not math.isfinite(a - b):
         refuse("the ratings are too far apart to calculate with; give smaller numbers")
     return TwoPlayers.rated(a, b, scale or scale_of("npl"))
 
 
+def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers:
+    """Return two players of a list, with its ratings, its scale and its errors."""
+    from evenbreak.answers.chosen_players import find_players
+    from evenbreak.answers.roster_matchups import cannot_be_compared
+    from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
+    from evenbreak.files.roster import read_roster
+
+    if len(names) != 2:
+        refuse(f"--from needs two players, and {len(names)} are named; quote a name with blanks")
+    file = read_roster(path)
+    if scale is not None:
+        refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
+    elif file.scale is None:
+        refuse_levels(file, "say with --scale how many levels double the odds")
+    roster = file.roster
+    places = find_players(roster, names, said="--from", where=file.source)
+    if len(places) < 2:
+        refuse(f"{names[0]!r} and {names[1]!r} are one player; name two")
+    for place in places:
+        if math.isnan(roster.rating[place]):
+            refuse(f"{roster.players[place]!r} has no rating in {file.source}; give two ratings")
+    a, b = places
+    if cannot_be_compared(roster, a, b):
+        refuse(
+            f"no chain of opponents links {roster.players[a]!r} and {roster.players[b]!r}, so "
+            "their ratings cannot be compared"
+        )
+    errors = [0.0 if math.isnan(error) else error for error in roster.standard_error.tolist()]
+    return TwoPlayers.rated(
+        float(roster.rating[a]),
+        float(roster.rating[b]),
+        scale or file.scale or scale_of("npl"),
+        names=(roster.players[a], roster.players[b]),
+        errors=(errors[a], errors[b]),
+    )
+
+
+from_option = click.option(
+    "--from",
+    "from_file",
+    metavar="RATINGS.csv",
+    help="Take A and B as names on this list of ratings, with its scale and errors.",
+)
+
+
 def player_options(command: Command) -> Command:
     """Add the arguments and options that describe the players."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--first-break",
             type=click.Choice(["a", "b"]),
             help="Who breaks the next game.  [default: a; b with --breaks b]",
         ),
-        click.option("--breaks", type=click.Choice(list(FORMATS)), help="Who breaks."),
+        click.option(
+            "--breaks",
+            type=click.Choice(list(FORMATS)),
+            help="Who breaks: winner, loser, in turn, or always A or B.",
+        ),
         click.option(
             "--p2", metavar="P", type=CHANCE, help="Chance that B wins a game that B breaks."
         ),
@@ -65,8 +119,7 @@ def player_options(command: Command) -> Command:
             "--p1", metavar="P", type=CHANCE, help="Chance that A wins a game that A breaks."
         ),
         click.option("--p", metavar="P", type=CHANCE, help="Chance that A wins a game."),
-        scale_option(fixed=False),
-        click.argument("ratings", nargs=-1, metavar="[A B]"),
-    ):
-        command = add(command)
-    return command
+        scale_option("the one that the file of --from states, else npl", fixed=False),
+        from_option,
+        click.argument("ratings", nargs=-1, metavar="[A B]", shell_complete=completion.players),
+    )

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.options import Command
+from evenbreak.cli.kit.terminal import write_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from evenbreak.cli.kit.options import Command
 
 KINDS = (".png", ".svg")
 
@@ -48,10 +48,7 @@ plot_option = plot_option_for()
 
 def write_plot(figure: Figure, path: str) -> None:
     """Write a figure to the file named by --plot, and say so on stderr."""
-    from evenbreak.files.folder import write_files
-    from evenbreak.plots.diagram import image_bytes
+    from evenbreak.plots.picture import image_bytes
 
-    place = PurePath(path)
-    image = image_bytes(figure, "svg" if place.suffix.lower() == ".svg" else "png")
-    write_files(str(place.parent), {place.name: image})
-    say(f"Wrote {path}")
+    svg = PurePath(path).suffix.lower() == ".svg"
+    write_file(path, image_bytes(figure, "svg" if svg else "png"))

@@ -1,6 +1,4 @@
-"""A line on stderr that shows the progress of a long computation."""
-
-from __future__ import annotations
+"""A line on stderr that shows the progress of a long computation, or that it takes long."""
 
 import math
 import sys
@@ -12,12 +10,18 @@ import click
 PATIENCE = 1.0
 """Seconds before the line first appears."""
 
+PATIENCE_IN_A_FILE = 10.0
+"""Seconds before stderr says once that the work goes on, where it is not a terminal."""
+
 _PAUSE = 0.1
 """Seconds between two updates."""
 
 
 class Progress:
-    """A line that counts, shown only on a terminal and only if the work takes long.
+    """A line that counts, shown only if the work takes long.
+
+    On a terminal it is written over again and again, and erased at the end. Elsewhere one line
+    is printed, and no more.
 
     Parameters
     ----------
@@ -33,18 +37,22 @@ class Progress:
     def __init__(self, what: str) -> None:
         self._what, self._shown = what, 0
         self._begun = time.monotonic()
-        self._next = self._begun + PATIENCE
+        self._terminal = sys.stderr is not None and sys.stderr.isatty()
+        self._next = self._begun + (PATIENCE if self._terminal else PATIENCE_IN_A_FILE)
 
     def __call__(self, count: int, total: int | None = None) -> None:
         """Show how many are done and, if the total is known, how long the rest will take."""
         now = time.monotonic()
-        if now < self._next or not sys.stderr.isatty():
+        if now < self._next:
             return
-        self._next = now + _PAUSE
+        self._next = now + _PAUSE if self._terminal else math.inf
         line = f"{count} {self._what} so far ..."
         if total is not None:
             line = f"{count:,} of {total:,} {self._what} ({100 * count // total}%)"
             line += f", {_left(now - self._begun, count, total)} ..."
+        if not self._terminal:
+            click.echo(line, err=True)
+            return
         click.echo("\r" + line.ljust(self._shown), nl=False, err=True)
         self._shown = len(line)
 

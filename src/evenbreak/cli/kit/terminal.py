@@ -1,12 +1,14 @@
 """The two streams of a command: the answer on stdout, everything else on stderr."""
 
-from __future__ import annotations
-
 import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 
 import click
 
 from evenbreak.answers.faces.to_text import WIDTH, paragraph
+from evenbreak.cli.interrupts import raise_if_interrupted
+from evenbreak.cli.kit.values import refuse
 from evenbreak.files.problems import printable
 
 
@@ -17,12 +19,52 @@ def to_terminal() -> bool:
 
 def write(text: str) -> None:
     """Write text to stdout; letters that the terminal cannot show become question marks."""
+    raise_if_interrupted()
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     click.echo(text.encode(encoding, "replace"), nl=False)
 
 
+def write_file(path: str, content: bytes) -> None:
+    """Write the file that an option names, and say so."""
+    from evenbreak.files.folder import write_files
+
+    place = Path(path)
+    # The option itself is one that names it.
+    if len(list(_named_by(place))) > 1:
+        refuse(f"{path} is read by this command and would be overwritten; name another file")
+    raise_if_interrupted()
+    write_files(str(place.parent), {place.name: content})
+    say(f"Wrote {path}")
+
+
+def write_folder(out: str, files: Mapping[str, bytes]) -> None:
+    """Write files into the folder of --out, and say so."""
+    from evenbreak.files.folder import write_files
+
+    for name in files:
+        for given in _named_by(Path(out, name)):
+            refuse(
+                f"{given} is read by this command and would be overwritten by the {name} that it "
+                "writes; name another folder with --out"
+            )
+    raise_if_interrupted()
+    write_files(out, files)
+    say(f"Wrote {', '.join(files)} to {out}")
+
+
+def _named_by(place: Path) -> Iterator[str]:
+    """Yield the arguments and options of the command that name this file, if it exists."""
+    if not place.exists():
+        return
+    for value in click.get_current_context().params.values():
+        for given in value if isinstance(value, tuple) else (value,):
+            if isinstance(given, str) and Path(given).is_file() and place.samefile(given):
+                yield given
+
+
 def say(message: str) -> None:
     """Print a message on stderr; on a terminal its lines are wrapped."""
+    raise_if_interrupted()
     terminal = sys.stderr is not None and sys.stderr.isatty()
     # File names stay whole, so that they can be copied.
     click.echo(paragraph(message, WIDTH) if terminal else printable(message), err=True)

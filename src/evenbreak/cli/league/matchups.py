@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.answers.scale_doubts import league_doubts
-from evenbreak.cli.kit.faces import faces, page_name
+from evenbreak import answers, files, handicaps, matches, ratings, sheets
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
+from evenbreak.cli.kit.faces import faces, page_name, without_folders
 from evenbreak.cli.kit.options import (
     chart_option,
+    players_file_option,
+    race_limit_options,
     refuse_both,
     scale_option,
     seed_option,
-    which_races,
 )
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
+from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.kit.values import Number, Whole, refuse
+from evenbreak.ratings.scale import SCALES, Scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.round import AnyChart, Round
-    from evenbreak.ratings.roster import Roster
-    from evenbreak.ratings.scale import Scale
+    from evenbreak.answers.round import AnyChart
+    from evenbreak.matches.pace import Pace
+
 
 MOST_PAIRS = 1_000_000
 """The most pairs that are written to a file: about a minute and 200 MB."""
@@ -38,21 +43,30 @@ MOST_MATCHES = 1_000
 POINTS = Number(-1e6, 1e6, " is not a number of rating points; give one such as 80")
 SPREAD = Number(0.0, 1e6, " is not a spread; give 0 or more points, such as 30")
 MINUTES = Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5")
+TURNOVER = Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0")
+
+DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 
 EXAMPLES = """\b
 Examples:
   evenbreak matchups roster.csv --chart npl_10
   evenbreak matchups roster.csv --games 7..13 --pairs tonight.csv --html tonight.html
-  evenbreak matchups roster.csv --race-to 7 --minutes-per-game 8 --tables 4
+  evenbreak matchups roster.csv --race-to 7 --players-file entrants.txt
+  evenbreak matchups roster.csv --race-to 7 --discipline 9-ball --tables 4
 """
 
 
 @click.command("matchups", epilog=EXAMPLES)
 @click.argument("roster", metavar="ROSTER.csv")
 @chart_option("The league's chart, by name or in a file.")
-@which_races
+@race_limit_options
+@players_file_option
 @click.option("--pairs", metavar="PAIRS.csv", help="Who meets whom.  [default: all pairs]")
-@scale_option("the scale of the chart, else npl", fixed=False)
+@scale_option(
+    "the one that the file states, else the chart's, else npl; for skill levels, where the "
+    "chart's own races put them",
+    fixed=False,
+)
 @click.option(
     "--starter",
     metavar="RATING",
@@ -63,13 +77,27 @@ Examples:
     "--starter-sd",
     metavar="POINTS",
     type=SPREAD,
-    help="How far off that may be: one standard deviation.  [default: what doubles the odds]",
+    help="How far off that may be (standard deviation).  [default: what doubles the odds]",
 )
 @click.option(
-    "--minutes-per-game", metavar="MINUTES", type=MINUTES, help="Give the lengths in minutes."
+    "--discipline",
+    type=click.Choice(DISCIPLINES),
+    help="Give the lengths in minutes, at the usual pace of this game.",
+)
+@click.option(
+    "--minutes-per-game",
+    metavar="MINUTES",
+    type=MINUTES,
+    help="Give the lengths in minutes, at this pace on average.",
 )
 @click.option(
     "--tables", type=Whole(1, 1000), metavar="T", help="Say when the round ends on T tables."
+)
+@click.option(
+    "--turnover",
+    metavar="MINUTES",
+    type=TURNOVER,
+    help="The time between two matches on a table, on average.  [default: 10.8]",
 )
 @seed_option("The seed of the evenings that have to be simulated.", default=0)
 @click.option(
@@ -85,105 +113,162 @@ def command(
     chart: str | None,
     games: tuple[int, int] | None,
     race_to: int | None,
+    players_file: str | None,
     pairs: str | None,
     scale: Scale | None,
     starter: float | None,
     starter_sd: float | None,
+    discipline: str | None,
     minutes_per_game: float | None,
     tables: int | None,
+    turnover: float | None,
     seed: int,
     html: str | None,
 ) -> Answer:
-    """Find the race for each pair of players tonight, and what it is worth.
+    """Find the race for each pair of players tonight, and how often each player wins it.
 
     ROSTER.csv has a row for each player, with the columns player and rating and, if you
-    have them, standard_error and games; - is stdin. Races come from --chart, or are the
-    fairest ones with --games or --race-to, or both. Where standard errors are given, the
-    chances are averaged over what the ratings may be.
+    have them, standard_error and games; - reads standard input. --chart looks the
+    races up, --games or --race-to finds the fairest ones; with both, they stand side by side.
+    --players-file says who has entered, if not all of them; those not on the list are new players.
+    Where standard errors are given, the chances are averaged over how far the ratings may be
+    off.
     """
-    from evenbreak.answers.matchups import matchups_answer
-    from evenbreak.answers.offered_races import OfferedRaces
     from evenbreak.answers.roster_matchups import check_roster
-    from evenbreak.answers.round import Round
-    from evenbreak.answers.scale_doubts import starter_doubts
-    from evenbreak.files.roster import read_roster
 
     refuse_both(games, race_to)
     if chart is None and games is None and race_to is None:
         refuse("say which races; give --chart NAME, --games LO..HI or --race-to N")
-    if tables is not None and minutes_per_game is None:
-        refuse("--tables needs to know how long a game takes; add --minutes-per-game, such as 8")
+    pace = _pace(discipline, minutes_per_game)
+    if tables is not None and pace is None:
+        refuse(
+            "--tables needs to know how long games take; add --discipline, such as 9-ball, or "
+            "--minutes-per-game, such as 8"
+        )
+    if turnover is not None and tables is None:
+        refuse("--turnover is the time between two matches on a table; say how many --tables")
     if [roster, pairs, chart].count("-") > 1:
-        refuse("only one list can be on stdin; name a file for the other")
+        refuse("only one list can come from standard input; name a file for the other")
     of_league, warnings = (None, []) if chart is None else _chart(chart)
-    points = _scale(chart, of_league) if scale is None else scale
-    file = read_roster(roster)
+    file = files.read_roster(roster)
+    if players_file is not None:
+        file = files.roster_of_entrants(file, files.read_entrants(players_file))
+    points, levels = _scale_of_list(file, scale, of_league)
     players = _with_starters(file.roster, points, starter, starter_sd)
     check_roster(file, players, of_league, points)
-    if scale is None:
-        remedy = "if they are on another scale, say which with --scale"
+    if scale is None and file.scale is not None:
+        warnings += _other_chart(file.scale, of_league)
+    elif scale is None:
+        remedy = "if they are on another scale, name it with --scale"
         warnings += league_doubts(points, file.roster.rating, remedy)
     if starter is None:
         warnings += starter_doubts(points, file.roster.rating)
     meet, more = _pairs(pairs, file.source, players, tables, face)
-    tonight = Round(
+    tonight = answers.Round(
         file=file,
         roster=players,
         pairs=meet,
         scale=points,
         chart=of_league,
-        offered=None if games is None and race_to is None else OfferedRaces(games, race_to),
-        minutes_per_game=minutes_per_game,
+        levels=levels,
+        offered=None if games is None and race_to is None else answers.OfferedRaces(games, race_to),
+        pace=pace,
         tables=tables,
+        turnover=matches.Turnover() if turnover is None else matches.Turnover(turnover),
         seed=seed,
         listed=pairs is not None,
     )
     if html is not None:
-        _write_page(html, tonight)
-    return matchups_answer(tonight, warnings=[*warnings, *more])
+        public = without_folders([*warnings, *more], chart, pairs)
+        league = None if players_file is None else roster
+        about_file = tuple(without_folders(file.warnings, league))
+        shown = replace(tonight, file=replace(file, warnings=about_file))
+        write_file(html, sheets.round_html(shown, warnings=public))
+    return answers.matchups_answer(tonight, warnings=[*warnings, *more])
+
+
+def _pace(discipline: str | None, minutes_per_game: float | None) -> Pace | None:
+    if discipline is not None and minutes_per_game is not None:
+        refuse("--discipline and --minutes-per-game cannot be combined; leave one out")
+    if minutes_per_game is not None:
+        return matches.own_pace(minutes_per_game)
+    return None if discipline is None else matches.pace_of(discipline)
 
 
 def _chart(name: str) -> tuple[AnyChart, list[str]]:
     from evenbreak.files.chart import find_chart_file
 
     file = find_chart_file(name)
+    if isinstance(file.chart, handicaps.PointsChart):
+        refuse(
+            f"{name} is a chart of points, not of games, so it gives no races here; `evenbreak "
+            f"chart show {name}` has the points of each level"
+        )
     return file.chart, list(file.warnings)
 
 
-def _scale(name: str | None, chart: AnyChart | None) -> Scale:
-    """Return the scale of the chart, else the NPL's."""
-    from evenbreak.handicaps.charts.level_chart import LevelChart
-    from evenbreak.ratings.scale import SCALES
+def _scale_of_list(
+    file: files.RosterFile, stated: Scale | None, of_league: AnyChart | None
+) -> tuple[Scale, handicaps.LevelScale | None]:
+    """Return the scale of the ratings, and what skill levels are worth if the chart says it."""
+    if stated is not None:
+        refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
+        return stated, None
+    if file.scale is not None:
+        return file.scale, None
+    if isinstance(of_league, handicaps.LevelChart):
+        levels = handicaps.level_scale(of_league)
+        return levels.scale, levels
+    refuse_levels(
+        file,
+        "add a chart by skill level, such as --chart apa_8ball, or say with --scale how many "
+        "levels double the odds",
+    )
+    return _scale(of_league), None
 
-    if isinstance(chart, LevelChart):
-        refuse(
-            f"{name} is a chart of skill levels, which have no scale of their own; say how many "
-            "levels double the odds of winning a game, such as --scale 2"
-        )
+
+def _scale(chart: AnyChart | None) -> Scale:
+    """Return the scale of the chart, else the NPL's."""
     of_chart = "" if chart is None else chart.name.partition("_")[0]
     return SCALES.get(of_chart, SCALES["npl"])
 
 
-def _with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float | None) -> Roster:
+def _other_chart(stated: Scale, chart: AnyChart | None) -> list[str]:
+    """Return a warning if a chart is made for another scale than the one of the ratings."""
+    from evenbreak.answers.scale_words import scale_words
+
+    made_for = None if chart is None else SCALES.get(chart.name.partition("_")[0])
+    if chart is None or made_for is None or made_for.same_points(stated):
+        return []
+    return [
+        f"the ratings are {scale_words(stated)}, but {chart.name} is made for ratings "
+        f"{scale_words(made_for)}"
+    ]
+
+
+def _with_starters(
+    roster: ratings.Roster, scale: Scale, starter: float | None, sd: float | None
+) -> ratings.Roster:
     """Return the roster with new players filled in."""
     import numpy as np
 
-    from evenbreak.handicaps.charts.uncertain import MOST_DOUBLINGS
-    from evenbreak.ratings.scale import SCALES
+    from evenbreak.handicaps.charts.given_ratings import MOST_DOUBLINGS
 
     unrated = np.isnan(roster.rating)
     if unrated.any() and starter is None and scale.name not in SCALES:
         name = roster.players[int(unrated.argmax())]
-        refuse(f"{name!r} has no rating; say with --starter RATING what a new player starts with")
+        refuse(f"{name!r} has no rating; give the rating of a new player with --starter RATING")
     spread = scale.points_per_doubling if sd is None else sd
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
     if spread > most:
-        refuse(f"--starter-sd is {spread:g}, which says nothing about a player; {most:g} at most")
+        refuse(
+            f"--starter-sd is {spread:g}, which says nothing about a player; give {most:g} at most"
+        )
     return roster.with_starters(scale.centre if starter is None else starter, spread)
 
 
 def _pairs(
-    path: str | None, source: str, roster: Roster, tables: int | None, face: str
+    path: str | None, source: str, roster: ratings.Roster, tables: int | None, face: str
 ) -> tuple[NDArray[Any], tuple[str, ...]]:
     """Return who meets whom, and the warnings of the list; refuse too many."""
     from evenbreak.answers.roster_matchups import all_pairs
@@ -208,25 +293,3 @@ def _refuse_too_many(found: str, many: int, tables: int | None, face: str) -> No
         refuse(f"{found}, and {MOST_PAIRS:,} are the most; {meet}")
     if many > MOST_SHOWN and face != "csv":
         refuse(f"{found}, too many for {face}; write them with --csv > pairs.csv, or {meet}")
-
-
-def _write_page(path: str, tonight: Round) -> None:
-    from pathlib import PurePath
-
-    from evenbreak.files.folder import write_files
-    from evenbreak.sheets.round_page import MOST_ACROSS, MOST_MATCHES, round_html
-
-    players, matches = len(tonight.roster), len(tonight.pairs)
-    if not tonight.listed and players > MOST_ACROSS:
-        refuse(
-            f"{players:,} players are too many for --html, which holds all pairs of {MOST_ACROSS} "
-            "at most; name those who meet with --pairs PAIRS.csv"
-        )
-    if tonight.listed and matches > MOST_MATCHES:
-        refuse(
-            f"{matches:,} matches are too many for --html, which holds {MOST_MATCHES} at most; "
-            "make a list and a page for each part of the round"
-        )
-    place = PurePath(path)
-    write_files(str(place.parent), {place.name: round_html(tonight)})
-    say(f"Wrote {path}")

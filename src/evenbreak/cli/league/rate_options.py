@@ -1,82 +1,110 @@
-"""What `rate` and `report` share: the options that say how to rate, and the rating by them."""
+"""How to rate: the options that `rate`, `report`, `why` and `validate` share, and their use."""
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.callbacks import NUMBER, Command, refuse
-from evenbreak.errors import DataError
+from evenbreak.cli.kit.options import Command, Decorator, refuse_both, with_options
+from evenbreak.cli.kit.values import Number, refuse
+from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
+    from evenbreak.answers.offered_races import OfferedRaces
+    from evenbreak.files.date_cells import DateOrder
     from evenbreak.files.results import ResultsFile
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
-    from evenbreak.ratings.scale import Scale
+
+RACE_TO = 7
+"""The races that are offered unless an option says otherwise."""
 
 
-def points(ctx: click.Context, param: click.Parameter, value: str | None) -> Any:
-    """Return a number of points above 0, or the option's word; None where it is absent."""
-    word = "best" if param.name == "prior" else "fit"
-    if value is None or value.strip().lower() == word:
-        return None if value is None else word
-    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    if math.isfinite(number) and (word == "fit" or number > 0):
-        return number
-    least = " above 0" if word == "best" else ""
-    raise click.BadParameter(
-        f"{value!r}; give a number of points{least}, or {word}", ctx=ctx, param=param
-    )
+class PointsOr(Number):
+    """A number of points, or a word in place of it."""
+
+    def __init__(self, word: str, low: float) -> None:
+        super().__init__(low, 1e6, f"; give a number of points, or {word}")
+        self.word = word
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the number, or the word."""
+        if str(value).strip().lower() == self.word:
+            return self.word
+        return super().convert(value, param, ctx)
 
 
-def _days(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
-    if value is None:
-        return None
-    number = float(value) if NUMBER.fullmatch(value.strip()) else math.nan
-    if math.isfinite(number) and number > 0:
-        return number
-    raise click.BadParameter(
-        f"{value!r}; give a number of days above 0, such as 180", ctx=ctx, param=param
-    )
+def read_day(text: str, order: DateOrder | None = None) -> str:
+    """Return a day, written in any way that a cell of a results file may have, as 2026-01-31.
 
+    In 9/3/2024 `order` says which is the month. The day may lie up to a year ahead, for a
+    tournament to come; a later one was mistyped.
+    """
+    import numpy as np
 
-def _day(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    """Return a day as 2026-01-31, from all that a cell of a results file may say."""
-    if value is None:
-        return None
-    from evenbreak.files.cells import read_date
+    from evenbreak.files.date_cells import is_two_dates, read_date
 
-    day = read_date(value.strip())
+    day = read_date(text.strip(), order)
     if day is None:
-        raise click.BadParameter(
-            f"{value!r}; give a day, such as 2026-01-31 or 31.1.2026", ctx=ctx, param=param
-        )
+        remedy = "give a day, such as 2026-01-31, 31.1.2026 or 1/31/2026"
+        if is_two_dates(text.strip()):
+            remedy = "say with --dates mdy or --dates dmy what comes first, or write 2026-01-31"
+        raise click.BadParameter(f"{text!r}; {remedy}")
+    if day > np.datetime64("today", "D") + _DAYS_AHEAD:
+        raise click.BadParameter(f"{text!r} is more than a year from today; give an earlier day")
     return str(day)
+
+
+def offered_races(games: tuple[int, int] | None, race_to: int | None) -> OfferedRaces:
+    """Return the races of --games or --race-to, or races to 7 where neither is given."""
+    from evenbreak.answers.offered_races import OfferedRaces
+
+    refuse_both(games, race_to)
+    return OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
+
+
+def _as_of(ctx: click.Context, param: click.Parameter, text: str | None) -> str | None:  # noqa: ARG001
+    return None if text is None else read_day(text, ctx.params.get("dates"))
+
+
+_DAYS_AHEAD = 366
+
+DAYS = Number(0.01, 1e6, "; give a number of days from 0.01 to 1,000,000, such as 180")
+
+
+def prior_option(default: str) -> Decorator[Any]:
+    """Return the option --prior; `default` says what applies if it is not given."""
+    return click.option(
+        "--prior",
+        metavar="POINTS|best",
+        type=PointsOr("best", 0.0),
+        help="How far apart players are assumed to be before any result (standard deviation); "
+        f"best: the value that predicts best.  [default: {default}]",
+    )
+
+
+half_life_option = click.option(
+    "--half-life",
+    metavar="DAYS",
+    type=DAYS,
+    help="After this many days a match counts half.  [default: it always counts in full]",
+)
 
 
 def how_to_rate(command: Command) -> Command:
     """Add the options --prior, --half-life and --as-of."""
-    command = click.option(
-        "--as-of",
-        metavar="DATE",
-        callback=_day,
-        help="Rate as of this day: leave later matches out.  [default: the last date]",
-    )(command)
-    command = click.option(
-        "--half-life",
-        metavar="DAYS",
-        callback=_days,
-        help="A match counts half after so many days.  [default: always whole]",
-    )(command)
-    return click.option(
-        "--prior",
-        metavar="POINTS|best",
-        callback=points,
-        help="How far players are apart, before any result: the standard deviation; best: the "
-        "one that predicts later days best.  [default: what doubles the odds]",
-    )(command)
+    return with_options(
+        command,
+        click.option(
+            "--as-of",
+            metavar="DATE",
+            callback=_as_of,
+            help="Rate as of this day, without later matches.  [default: the last date]",
+        ),
+        half_life_option,
+        prior_option("what doubles the odds"),
+    )
 
 
 def rated(
@@ -96,9 +124,15 @@ def rated(
     DataError
         if no match counts.
     """
-    from evenbreak.ratings.fit import fit
+    from evenbreak.errors import DataError
+    from evenbreak.ratings.fit import PRIOR_SD, fit
 
-    prior_sd, choice = _prior(file, prior, scale, half_life, as_of, break_advantage)
+    choice = None
+    if prior == "best":
+        choice = _best_prior(file, scale, half_life, as_of, break_advantage)
+        prior_sd = choice.prior_sd
+    else:
+        prior_sd = PRIOR_SD if prior is None else prior_in_log_odds(float(prior), scale)
     ratings = fit(
         file.results,
         prior_sd=prior_sd,
@@ -116,30 +150,36 @@ def rated(
     return ratings, choice
 
 
-def _prior(
+def prior_in_log_odds(points: float, scale: Scale) -> float:
+    """Return the standard deviation that --prior gives, in log-odds, or refuse it."""
+    from evenbreak.ratings.fit import NARROWEST, WIDEST
+
+    width = scale.log_odds(points)
+    if not NARROWEST <= width <= WIDEST:
+        least, most = scale.points(NARROWEST), scale.points(WIDEST)
+        refuse(f"--prior is {points:g} points; on this scale give {least:.2g} to {most:.4g}")
+    return width
+
+
+def _best_prior(
     file: ResultsFile,
-    prior: float | str | None,
     scale: Scale,
     half_life: float | None,
     as_of: str | None,
     break_advantage: float | str | None,
-) -> tuple[float, PriorChoice | None]:
-    """Return the standard deviation of the prior in log-odds, and how it was chosen."""
-    from evenbreak.ratings.fit import NARROWEST, PRIOR_SD, WIDEST
-
-    if prior is None:
-        return PRIOR_SD, None
-    if prior != "best":
-        width = float(scale.log_odds(float(prior)))
-        if not NARROWEST <= width <= WIDEST:
-            least, most = scale.points(NARROWEST), scale.points(WIDEST)
-            refuse(f"--prior is {prior:g} points; on this scale give {least:.2g} to {most:.4g}")
-        return width, None
+) -> PriorChoice:
+    from evenbreak.cli.kit.progress import Progress
     from evenbreak.ratings.decay import day_of, until
     from evenbreak.ratings.prior import best_prior
 
     results = file.results
     if as_of is not None:
         results = results.select(until(results, day_of(as_of)))
-    choice = best_prior(results, half_life=half_life, break_advantage=break_advantage, scale=scale)
-    return choice.prior_sd, choice
+    with Progress("stretches predicted") as progress:
+        return best_prior(
+            results,
+            half_life=half_life,
+            break_advantage=break_advantage,
+            scale=scale,
+            progress=progress,
+        )

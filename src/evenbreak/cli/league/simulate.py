@@ -2,40 +2,46 @@
 
 from __future__ import annotations
 
-import sys
+from contextlib import nullcontext
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.callbacks import Whole, number, wants_json
-from evenbreak.cli.kit.output import (
-    SCHEMA_VERSION,
-    aligned,
-    paragraphs,
-    print_json,
-    say,
-    to_terminal,
+from evenbreak import league, plots
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import (
+    chart_option,
+    out_option,
+    players_file_option,
+    scale_option,
+    seed_option,
 )
 from evenbreak.cli.kit.progress import Progress
+from evenbreak.cli.kit.systems import system_option
+from evenbreak.cli.kit.terminal import say, write_folder
+from evenbreak.cli.kit.values import Number, Whole
 from evenbreak.cli.league.simulate_season import (
     WEEKS,
+    matches_to_play,
     refuse_contradictions,
-    remarks,
     season_of_options,
+    with_entrants,
 )
+from evenbreak.files.csv_writer import to_csv
 
 if TYPE_CHECKING:
-    import pandas as pd
+    from evenbreak.answers.season_tables import SeasonTables
 
-    from evenbreak.league.season import Season
-    from evenbreak.league.tally import Tally
 
 MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
-LARGEST_SD = 1_000.0
+
+LONG = 500_000_000
+"""Matches that take one process ten seconds or more."""
 
 MANY = 100_000
-"""Players times weeks from which one season in full takes seconds."""
+"""Players times weeks for which one season in full takes seconds."""
 
 EXAMPLES = """\b
 Examples:
@@ -45,40 +51,13 @@ Examples:
 """
 
 
-def _day_sd(ctx: click.Context, param: click.Parameter, value: str) -> float:
-    wanted = f"; give points from 0 to {LARGEST_SD:,.0f}"
-    return number(value, 0.0, LARGEST_SD, wanted, ctx=ctx, param=param)
-
-
 @click.command("simulate", epilog=EXAMPLES)
 @click.argument("roster", metavar="ROSTER.csv")
-@click.option(
-    "--out",
-    required=True,
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="Where the tables and pictures go; made if it is not there.",
-)
-@click.option(
-    "--system",
-    "system_name",
-    default="npl",
-    show_default=True,
-    metavar="NAME",
-    help="The league's system: how ratings move, and on which scale.",
-)
-@click.option(
-    "--scale",
-    "scale_name",
-    metavar="npl|fargo|elo|POINTS",
-    help="What ratings mean: POINTS of difference double the odds.  [default: the system's]",
-)
-@click.option(
-    "--chart",
-    "chart_name",
-    metavar="NAME|CHART.csv",
-    help="The chart by which races are given.  [default: the system's]",
-)
+@out_option("The folder for the tables and pictures; created if needed.")
+@players_file_option
+@system_option()
+@scale_option("the system's", fixed=False)
+@chart_option()
 @click.option(
     "--weeks",
     type=Whole(1, MOST_WEEKS),
@@ -89,59 +68,54 @@ def _day_sd(ctx: click.Context, param: click.Parameter, value: str) -> float:
     "--schedule",
     "schedule_path",
     metavar="FILE",
-    help="Who meets whom: a file with the columns week, player_a and player_b.",
+    help="Who plays whom: a file with the columns week, player_a and player_b.",
 )
 @click.option(
-    "--round-robin", is_flag=True, help="Everybody meets everybody, again and again: the default."
+    "--round-robin",
+    is_flag=True,
+    help="Everybody plays everybody in turn, again and again: the default.",
 )
-@click.option("--random", "by_lot", is_flag=True, help="Opponents are drawn by lot each week.")
+@click.option("--random", "by_lot", is_flag=True, help="Draw opponents at random each week.")
 @click.option(
     "--matches",
     type=Whole(1, MOST_MATCHES),
     metavar="N",
-    help="Matches of each player in a week, without a schedule.  [default: 1]",
+    help="Matches per player and week, without a schedule.  [default: 1]",
 )
 @click.option(
     "--day-sd",
-    callback=_day_sd,
+    type=Number(0.0, 1000.0, "; give points from 0 to 1,000"),
     default="0",
-    show_default=True,
     metavar="POINTS",
-    help="How far skills vary from day to day, where the roster does not say.",
+    help="How much a player's form varies from day to day (standard deviation), where the roster "
+    "does not say.",
 )
-@click.option("--racks", is_flag=True, help="Play rack by rack, not by the chance of the match.")
+@click.option(
+    "--racks", is_flag=True, help="Play rack by rack instead of drawing the winner of each match."
+)
 @click.option(
     "--replicas",
     type=Whole(1, MOST_REPLICAS),
     default=1000,
-    show_default=True,
     metavar="R",
     help="How many seasons are simulated.",
 )
-@click.option(
-    "--seed",
-    type=Whole(0, 2**32 - 1),
-    default=1,
-    show_default=True,
-    metavar="S",
-    help="Seed of all that is drawn; the same one gives the same files.",
-)
+@seed_option("Seed of all random draws; the same seed gives the same files.")
 @click.option(
     "--jobs",
     type=Whole(1, MOST_JOBS),
     default=1,
-    show_default=True,
     metavar="J",
-    help="Processes that work at a time; the answer does not depend on it.",
+    help="How many processes work at a time; the answer is the same.",
 )
 @click.option(
     "--dask",
     "cluster",
     metavar="ADDRESS",
-    help="Work on the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
+    help="Use the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
 )
-@click.option("--no-matches", is_flag=True, help="Do without matches.csv and truth.csv.")
-@wants_json
+@click.option("--no-matches", is_flag=True, help="Do not write matches.csv and truth.csv.")
+@faces()
 def command(
     roster: str,
     out: str,
@@ -150,133 +124,95 @@ def command(
     jobs: int,
     cluster: str | None,
     no_matches: bool,
-    as_json: bool,
+    players_file: str | None,
     **played: Any,
-) -> None:
-    """Simulate the season of a league many times: how wrong, how fair, who profits.
+) -> Answer:
+    """Simulate a season many times: how accurate ratings are, how fair matches are, who gains.
 
-    ROSTER.csv has a player in each row, with the columns player, rating and, if you like,
+    ROSTER.csv has one player per row, with the columns player and rating and, optionally,
     standard_error, matches, skill, day_sd, drift, joins, leaves and absence; - reads standard
-    input. Without a skill the true one is drawn for each season, by rating and standard error.
-    matches.csv is one season in full, which `rate` and `validate` read.
+    input. A player without a skill gets one drawn for each season from rating and standard
+    error. --players-file says who plays, if not everybody; those not on the list are new players.
+    matches.csv is one season in full, which `rate` and `validate` can read.
     """
-    from evenbreak.answers.season_frames import season_frame
-    from evenbreak.files.folder import check_folder, write_files
+    from evenbreak.answers.faces.to_csv import to_csv
+    from evenbreak.answers.season import season_answer
+    from evenbreak.answers.season_tables import season_tables
+    from evenbreak.files.folder import check_folder
     from evenbreak.files.league import read_league
 
-    refuse_contradictions(roster, out, jobs, cluster, played)
+    refuse_contradictions(roster, jobs, cluster, played)
     file = read_league(roster, day_sd=played["day_sd"])
-    season = season_of_options(file, played)
+    if players_file is not None:
+        file = with_entrants(file, players_file, played)
+    season, warnings = season_of_options(file, played)
     check_folder(out)
-    for remark in remarks(file, season, replicas, alone=jobs == 1 and cluster is None):
-        say(remark)
+    if (many := matches_to_play(season) * replicas) >= LONG:
+        remedy = "; --jobs shares the work" if jobs == 1 and cluster is None else ""
+        say(f"{many:,} matches are to be played{remedy}")
     tally = _simulated(season, replicas, seed, jobs, cluster)
-    settings = {"roster_file": PurePath(file.source).name, "seed": seed, "day_sd": played["day_sd"]}
-    told = season_frame(season, tally, settings)
-    files = _tables(season, tally, told)
+    tables = season_tables(season, tally)
+    answer = season_answer(
+        season,
+        tally,
+        tables,
+        {"roster_file": PurePath(file.source).name, "seed": seed, "day_sd": played["day_sd"]},
+        drawn=file.drawn,
+        exact=file.exact,
+        warnings=warnings,
+    )
+    files = _tables(tables) | {"summary.csv": "".join(to_csv(answer)).encode()}
     if not no_matches:
         files |= _one_season(season, seed)
-    files |= _pictures(season, tally)
-    write_files(out, files)
-    say(f"Wrote {', '.join(files)} to {out}")
-    _print(season, tally, told, as_json)
+    files |= _pictures(tables)
+    write_folder(out, files)
+    return answer
 
 
-def _simulated(season: Season, replicas: int, seed: int, jobs: int, cluster: str | None) -> Tally:
-    from evenbreak.league.simulate import simulate as simulated
+def _simulated(
+    season: league.Season, replicas: int, seed: int, jobs: int, cluster: str | None
+) -> league.Tally:
+    from evenbreak.cli.league.cluster import cluster_at
 
-    executor: Any = None
-    if cluster is not None:
-        from evenbreak.league.on_dask import DaskExecutor
-
-        executor = DaskExecutor(cluster)
-    try:
-        with Progress("seasons") as progress:
-            return simulated(
-                season,
-                replicas=replicas,
-                seed=seed,
-                executor=executor,
-                jobs=jobs,
-                progress=progress,
-            )
-    finally:
-        if executor is not None:
-            executor.shutdown()
+    with (
+        nullcontext() if cluster is None else cluster_at(cluster) as client,
+        Progress("seasons") as progress,
+    ):
+        return league.simulate(
+            season, replicas=replicas, seed=seed, executor=client, jobs=jobs, progress=progress
+        )
 
 
-def _tables(season: Season, tally: Tally, told: pd.DataFrame) -> dict[str, bytes]:
-    from evenbreak.answers.season_frames import fairness_frame, standings_frame, weeks_frame
-    from evenbreak.files.csv_writer import to_csv
-
+def _tables(tables: SeasonTables) -> dict[str, bytes]:
     return {
-        "standings.csv": to_csv(standings_frame(season, tally)),
-        "ratings_by_week.csv": to_csv(weeks_frame(tally)),
-        "fairness.csv": to_csv(fairness_frame(season, tally)),
-        "summary.csv": to_csv(told),
+        "standings.csv": to_csv(tables.standings),
+        "ratings_by_week.csv": to_csv(tables.weeks),
+        "fairness.csv": to_csv(tables.fairness),
     }
 
 
-def _one_season(season: Season, seed: int) -> dict[str, bytes]:
-    from evenbreak.answers.one_season_frames import matches_frame, truth_frame
-    from evenbreak.files.csv_writer import to_csv
-    from evenbreak.league.one_season import season_matches
+def _one_season(season: league.Season, seed: int) -> dict[str, bytes]:
+    from evenbreak.answers.one_season_tables import matches_frame, truth_frame
 
     if len(season.players) * season.weeks > MANY:
-        say("Playing one season rack by rack; --no-matches does without it")
-    played = season_matches(season, seed)
+        say("Playing one season rack by rack; --no-matches leaves it out")
+    played = league.season_matches(season, seed)
     return {
         "matches.csv": to_csv(matches_frame(played)),
         "truth.csv": to_csv(truth_frame(season, played)),
     }
 
 
-def _pictures(season: Season, tally: Tally) -> dict[str, bytes]:
-    from evenbreak.plots.diagram import image_bytes
+def _pictures(tables: SeasonTables) -> dict[str, bytes]:
     from evenbreak.plots.seasons import errors_figure, gaps_figure, standings_figure
 
     figures = {
-        "errors_by_week": errors_figure(tally),
-        "wins_by_gap": gaps_figure(season, tally),
-        "standings": standings_figure(season, tally),
+        "errors_by_week": errors_figure(tables.weeks),
+        "wins_by_gap": gaps_figure(tables.fairness),
+        "standings": standings_figure(tables.standings),
     }
     return {
-        f"{name}.{kind}": image_bytes(figure, kind)
+        f"{name}.{kind}": plots.image_bytes(figure, kind)
         for name, figure in figures.items()
         for kind in ("png", "svg")
-    }
-
-
-def _print(season: Season, tally: Tally, told: pd.DataFrame, as_json: bool) -> None:
-    """Print what the season says: as words on a terminal, the summary in CSV into a pipe."""
-    if as_json:
-        print_json(_as_json(told))
-    elif to_terminal():
-        from evenbreak.answers.season_words import season_words, standings_rows
-
-        words = "\n\n".join(paragraphs(text) for text in season_words(season, tally))
-        text = f"{words}\n\n{aligned(standings_rows(season, tally), left=2)}"
-        # Names may have letters that the terminal's encoding lacks.
-        click.echo(text.encode(sys.stdout.encoding or "utf-8", "replace"), nl=False)
-    else:
-        from evenbreak.files.csv_writer import to_csv
-
-        click.echo(to_csv(told), nl=False)
-
-
-def _as_json(told: pd.DataFrame) -> dict[str, Any]:
-    import math
-
-    def plain(value: Any) -> Any:
-        return None if isinstance(value, float) and not math.isfinite(value) else value
-
-    rows = told.to_dict("records")
-    return {
-        **{row["quantity"]: plain(row["value"]) for row in rows},
-        "standard_errors": {
-            row["quantity"]: row["standard_error"]
-            for row in rows
-            if math.isfinite(row["standard_error"])
-        },
-        "schema_version": SCHEMA_VERSION,
     }

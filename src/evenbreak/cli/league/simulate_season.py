@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from evenbreak.cli.kit.callbacks import refuse
-from evenbreak.cli.kit.output import say
-from evenbreak.cli.kit.scale_doubts import scale_doubts
-
-if TYPE_CHECKING:
-    from evenbreak.files.league import LeagueFile
-    from evenbreak.league.season import Season
+from evenbreak import files, league
+from evenbreak.cli.kit.systems import chart_for, on_scale, refuse_other_scale
+from evenbreak.cli.kit.values import refuse
+from evenbreak.ratings.scale import SCALES
 
 WEEKS = 30
-"""How long a season is where neither --weeks nor a schedule says it."""
-
-LONG = 500_000_000
-"""Matches that take one process some ten seconds or more."""
+"""The length of a season where neither --weeks nor a schedule says it."""
 
 
 def refuse_contradictions(
-    roster: str, out: str, jobs: int, cluster: str | None, played: dict[str, Any]
+    roster: str, jobs: int, cluster: str | None, played: dict[str, Any]
 ) -> None:
-    """Refuse options that exclude each other or say nothing."""
+    """Refuse options that exclude each other or are empty."""
     ways = {
         "--schedule": played["schedule_path"] is not None,
         "--round-robin": played["round_robin"],
@@ -30,80 +24,71 @@ def refuse_contradictions(
     }
     chosen = [name for name, given in ways.items() if given]
     if len(chosen) > 1:
-        refuse(f"{' and '.join(chosen)} exclude each other; leave all but one out")
+        refuse(f"{' and '.join(chosen)} cannot be combined; leave all but one out")
     if ways["--schedule"] and played["matches"] is not None:
-        refuse("--schedule and --matches exclude each other; the schedule says who has how many")
+        refuse("--schedule and --matches cannot be combined; the schedule sets the matches")
     if cluster is not None and jobs > 1:
-        refuse("--dask and --jobs exclude each other; a cluster has as many workers as it has")
+        refuse("--dask and --jobs cannot be combined; the cluster has workers of its own")
     if cluster is not None and not cluster.strip():
         refuse("--dask is empty; give the scheduler's address, such as tcp://10.0.0.5:8786")
-    if not out.strip():
-        refuse("--out is empty; name a folder, or . for this one")
-    if [roster, played["schedule_path"]].count("-") > 1:
+    if [roster, played["schedule_path"], played["chart"]].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
 
 
-def season_of_options(file: LeagueFile, played: dict[str, Any]) -> Season:
-    """Return the season that is asked for: its system, chart, schedule and weeks."""
-    from evenbreak.cli.ladder.ladder_options import chart_of_option, system_of_options
-    from evenbreak.files.schedule import read_schedule
-    from evenbreak.league.schedule import RandomPairing, RoundRobin, Schedule
-    from evenbreak.league.season import Season
+def with_entrants(file: files.LeagueFile, path: str, played: dict[str, Any]) -> files.LeagueFile:
+    """Return the league with those players who have entered.
 
-    system = system_of_options({**played, "step": None})
-    chart = chart_of_option(played["chart_name"], system)
-    matches = played["matches"] or 1
-    weeks = played["weeks"]
-    schedule: Schedule
-    if played["schedule_path"] is not None:
-        fixtures = read_schedule(played["schedule_path"], file.roster)
-        for warning in fixtures.warnings:
-            say(f"Warning: {warning}")
-        schedule, last = fixtures.schedule, fixtures.schedule.weeks
-        if weeks is not None and weeks < last:
-            say(f"Warning: {fixtures.source}: what is after week {weeks} is not played")
-        if weeks is not None and weeks > last:
-            say(f"Warning: {fixtures.source}: ends with week {last}; after it nobody plays")
-        weeks = weeks or last
-    elif played["by_lot"]:
-        schedule = RandomPairing(matches)
-    else:
-        schedule = RoundRobin(len(file.players), matches)
-    play = "racks" if played["racks"] else "matches"
-    return Season(file.players, system, chart, schedule, weeks or WEEKS, play)
-
-
-def remarks(file: LeagueFile, season: Season, replicas: int, *, alone: bool) -> list[str]:
-    """Return what is assumed of the players, what looks odd in their list, and what takes long.
-
-    `alone` is whether this process does all the work.
+    New ones start in the middle of the scale, or of the league if the scale has none.
     """
-    told = [f"Warning: {warning}" for warning in file.warnings]
-    many = len(file.players)
-    if file.guessed:
-        told.append(
-            f"The true skill of {file.guessed:,} of {many:,} players is drawn anew for each "
-            "season, by rating and standard error"
-        )
-    if file.exact:
-        told.append(
-            f"{file.exact:,} of {many:,} players are taken to be rated rightly at the start: "
-            "neither skill nor standard_error is stated"
-        )
-    doubts = scale_doubts(season.system.scale, file.players.rating, "--scale says what they mean")
-    return [*told, *doubts, *_much(season, replicas, alone=alone)]
+    scale = on_scale(played["system"], played["scale"]).scale
+    of_league = sorted(file.players.rating.tolist())[len(file.players) // 2]
+    return files.league_of_entrants(
+        file,
+        files.read_entrants(path),
+        starter=scale.centre if scale.name in SCALES else of_league,
+        starter_sd=scale.points_per_doubling,
+    )
 
 
-def _much(season: Season, replicas: int, *, alone: bool) -> list[str]:
-    """Return a word on how much there is to play, where it takes more than some seconds."""
-    from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
+def season_of_options(
+    file: files.LeagueFile, played: dict[str, Any]
+) -> tuple[league.Season, list[str]]:
+    """Return the season that is asked for, and warnings about roster, chart and schedule."""
+    from evenbreak.answers.scale_doubts import league_doubts
 
+    system = on_scale(played["system"], played["scale"])
+    refuse_other_scale(file, system.scale, f"the system {system.name}", "set it with --scale")
+    chart, of_chart = chart_for(system, played["chart"])
+    schedule, weeks, of_schedule = _schedule(file, played)
+    play = "racks" if played["racks"] else "matches"
+    doubts = league_doubts(system.scale, file.players.rating, "set the scale with --scale")
+    warnings = [*file.warnings, *of_chart, *of_schedule, *doubts]
+    return league.Season(file.players, system, chart, schedule, weeks, play), warnings
+
+
+def _schedule(
+    file: files.LeagueFile, played: dict[str, Any]
+) -> tuple[league.Schedule, int, list[str]]:
+    """Return who plays whom, for how many weeks, and warnings."""
+    matches, weeks = played["matches"] or 1, played["weeks"]
+    if played["schedule_path"] is None:
+        if played["by_lot"]:
+            return league.RandomPairing(matches), weeks or WEEKS, []
+        return league.RoundRobin(len(file.players), matches), weeks or WEEKS, []
+    fixtures = files.read_schedule(played["schedule_path"], file.roster)
+    last, warnings = fixtures.schedule.weeks, list(fixtures.warnings)
+    if weeks is not None and weeks < last:
+        warnings.append(f"{fixtures.source}: matches after week {weeks} are not played")
+    if weeks is not None and weeks > last:
+        warnings.append(f"{fixtures.source}: ends with week {last}; nobody plays after it")
+    return fixtures.schedule, weeks or last, warnings
+
+
+def matches_to_play(season: league.Season) -> int:
+    """Return how many matches one season has, if everybody is always there."""
     match season.schedule:
-        case FixedSchedule(week=week):
-            a_season = int((week <= season.weeks).sum())
-        case RandomPairing(matches_a_week=many) | RoundRobin(matches_a_week=many):
-            a_season = season.weeks * many * (len(season.players) // 2)
-    if a_season * replicas < LONG:
-        return []
-    remedy = "; --jobs shares them out" if alone else ""
-    return [f"About {a_season * replicas:,} matches are played{remedy}"]
+        case league.FixedSchedule(week=week):
+            return int((week <= season.weeks).sum())
+        case league.RandomPairing(matches_a_week=many) | league.RoundRobin(matches_a_week=many):
+            return season.weeks * many * (len(season.players) // 2)
+    return 0

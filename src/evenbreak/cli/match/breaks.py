@@ -1,24 +1,18 @@
 """`evenbreak breaks`: what each break format is worth to two players in the long run."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, Number
 from evenbreak.games.rack import Rack
 
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-
 HIGHEST = 1_000_000
 """The highest stake."""
 
-STAKE = Number(0, HIGHEST, f" is no stake; give a number from 0 to {HIGHEST}")
+STAKE = Number(0, HIGHEST, f" is not a stake; give a number from 0 to {HIGHEST}")
 
 EXAMPLES = """\b
 Examples:
@@ -36,22 +30,19 @@ Examples:
     metavar="X",
     type=STAKE,
     default="1",
-    show_default=True,
-    help="The points that A gains with each rack won.",
+    help="What A wins for each rack won.",
 )
 @click.option(
     "--lose",
     metavar="Y",
     type=STAKE,
     default="1",
-    show_default=True,
-    help="The points that A loses with each rack lost.",
+    help="What A pays for each rack lost.",
 )
 @click.option(
     "--first-break",
     type=click.Choice(["a", "b"]),
     default="a",
-    show_default=True,
     help="Who breaks the first rack; it matters only if the break never passes on.",
 )
 @plot_option
@@ -61,8 +52,8 @@ def command(
 ) -> Answer:
     """Compare break formats for two players in the long run, the best for A first.
 
-    P1 is A's chance of winning a rack that A breaks, P2 is B's chance of winning a rack
-    that B breaks.
+    P1 is A's chance of winning a rack that A breaks, P2 B's chance of winning one that B
+    breaks.
     """
     from evenbreak.answers.breaks import breaks_answer
 

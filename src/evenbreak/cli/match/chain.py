@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
+from evenbreak import chains, files
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.errors import DataError
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 EXAMPLES = """\b
 Examples:
@@ -27,26 +24,26 @@ Examples:
     "--steps",
     type=click.IntRange(0),
     metavar="N",
-    help="Give the probabilities after N steps too; CSV then has these.",
+    help="Also give the probabilities after N steps; CSV then has only these.",
 )
 @faces()
 def command(arcs: str, start: str | None, steps: int | None) -> Answer:
     """Find where any Markov chain ends, or its long-run average, from a file of arcs.
 
     The columns of ARCS.csv are source, target and probability; - reads standard input.
-    The arcs out of each state sum to 1; a state that is only a target absorbs.
+    The arcs out of each state sum to 1; the chain ends in a state that is only a target.
     """
     from evenbreak.answers.chain import chain_answer
-    from evenbreak.chains.explore import chain_from_arrays
-    from evenbreak.files.arcs import read_arcs
 
-    file = read_arcs(arcs)
+    file = files.read_arcs(arcs)
     if start is None:
         start = file.states[file.sources[0]]
     elif start not in file.states:
         known = ", ".join(repr(state) for state in file.states[:5])
-        raise DataError([f"{file.source}: start {start!r} is no state; its states begin {known}"])
-    chain = chain_from_arrays(
+        raise DataError(
+            [f"{file.source}: start {start!r} is not a state; the first states are {known}"]
+        )
+    chain = chains.chain_from_arrays(
         file.states, file.sources, file.targets, file.probabilities, start=start
     )
     return chain_answer(chain, steps=steps, warnings=file.warnings)

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak import matches
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.players import player_options, players_of
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import NUMBER, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.matches.formats import MatchFormat
+from evenbreak.matches.formats import MatchFormat
 
 MOST_FORMATS = 7
 """As many formats as a picture has lines for."""
@@ -30,6 +29,7 @@ EXAMPLES = """\b
 Examples:
   evenbreak compare --p 0.6667 9:5 "3:1 of 3:3" "ahead 5:3"
   evenbreak compare 612 521 --scale fargo 7:5 "7:7 win by 2" --plot formats.png
+  evenbreak compare "Ann Lee" "Bo Diaz" --from ratings.csv 7:5 "ahead 5:3"
   evenbreak compare --p1 0.6 --p2 0.55 --breaks winner 9:7 "9:7 alternate breaks"
 """
 
@@ -44,8 +44,14 @@ class CompareCommand(PlainCommand):
         )
         rest = click.Command.parse_args(self, ctx, args)
         words: Sequence[str] = ctx.params["ratings"]
-        ctx.params["ratings"] = tuple(word for word in words if NUMBER.fullmatch(word))
-        ctx.params["formats"] = [word for word in words if not NUMBER.fullmatch(word)]
+        if ctx.params["from_file"] is not None:
+            who, formats = words[:2], words[2:]
+        else:
+            who = [word for word in words if NUMBER.fullmatch(word)]
+            formats = [word for word in words if not NUMBER.fullmatch(word)]
+        ctx.params["ratings"], ctx.params["formats"] = tuple(who), list(formats)
+        if ctx.resilient_parsing:
+            return rest
         for word in ctx.params["formats"]:
             if word.startswith("-"):
                 raise click.NoSuchOption(word.split("=")[0], ctx=ctx)
@@ -66,15 +72,14 @@ class CompareCommand(PlainCommand):
 @plot_option
 @faces()
 def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) -> Answer:
-    """Compare match formats for two players: which is better for whom, and at what strength.
+    """Compare match formats for two players: which is better for whom.
 
     A FORMAT is 9:5 (A needs 9 games, B needs 5), "7:7 win by 2", "ahead 5:3" or
-    "3:1 of 3:3" (sets), and may end in a break format, such as "winner breaks". The
-    players: two ratings A B; or --p; or --p1, --p2 and --breaks.
+    "3:1 of 3:3" (sets), and may end in a break format, such as "winner breaks".
+    Describe the players by two ratings A B, by two names with --from, by --p, or by --p1, --p2 and
+    --breaks.
     """
     from evenbreak.answers.compare import Compared, compare_answer
-    from evenbreak.matches.crossings import crossings, even_probability
-    from evenbreak.matches.odds import match_odds
 
     _refuse_numbers(**who)
     players = players_of(**who)
@@ -85,23 +90,41 @@ def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) 
         match = played.match(
             players.rack, breaks=players.break_format, first_breaker=players.first_breaker
         )
-        compared.append(Compared(played, match_odds(match), even_probability(played, **line)))
+        compared.append(
+            Compared(played, matches.match_odds(match), matches.even_probability(played, **line))
+        )
     pairs = {
-        (i, j): crossings(read[i], read[j], **line) for i, j in combinations(range(len(read)), 2)
+        (i, j): matches.crossings(read[i], read[j], **line)
+        for i, j in combinations(range(len(read)), 2)
     }
+    answer = compare_answer(players, compared, pairs, hold=hold)
     if plot is not None:
         from evenbreak.plots.formats import plot_formats
 
-        write_plot(plot_formats(read, line, pairs.values(), p1=float(players.rack.p1)), plot)
-    return compare_answer(players, compared, pairs, hold=hold)
+        figure = plot_formats(
+            read,
+            line,
+            pairs.values(),
+            p1=float(players.rack.p1),
+            title=answer.heading,
+            names=players.names,
+        )
+        write_plot(figure, plot)
+    return answer
 
 
 def _refuse_numbers(
-    *, ratings: Sequence[str], p: float | None, p1: float | None, p2: float | None, **_: Any
+    *,
+    ratings: Sequence[str],
+    from_file: str | None,
+    p: float | None,
+    p1: float | None,
+    p2: float | None,
+    **_: Any,
 ) -> None:
     """Refuse a number that was meant for a race."""
     said = not (p is None and p1 is None and p2 is None)
-    if ratings and (said or len(ratings) > 2):
+    if ratings and from_file is None and (said or len(ratings) > 2):
         word = ratings[0 if said else 2]
         race = word if word.isdecimal() else "7"
         refuse(f"{word} was read as a rating; write {race}:{race} for a race to {race}")
@@ -109,13 +132,11 @@ def _refuse_numbers(
 
 def _read(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
     """Return the formats, or refuse those that cannot be compared here."""
-    from evenbreak.matches.formats import match_format
-
     if not texts:
         refuse('the formats are missing; give some, such as 9:5 "3:1 of 3:3" "ahead 5:3"')
     if len(texts) > MOST_FORMATS:
-        refuse(f"{len(texts)} formats are given; compare {MOST_FORMATS} at the most")
-    read = [match_format(text) for text in texts]
+        refuse(f"{len(texts)} formats are given; compare {MOST_FORMATS} at most")
+    read = [matches.match_format(text) for text in texts]
     for played in read:
         kinds = [played]
         while kinds[-1].set_ is not None:
@@ -133,8 +154,8 @@ def _read(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
             scores = kind.scores // (kind.set_.scores if kind.set_ else 1)
             if scores > most:
                 refuse(
-                    f"{str(played)!r} has a part with about {scores:,} scores; compare such "
-                    f"matches with {most:,} at the most, or ask evenbreak odds for one"
+                    f"{str(played)!r} has a part with about {scores:,} scores, and {most:,} are "
+                    "the most that can be compared here; use evenbreak odds for such a match"
                 )
     return read
 

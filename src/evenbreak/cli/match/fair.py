@@ -1,18 +1,14 @@
 """`evenbreak fair`: the races that come nearest to a target chance."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand, refuse_both, which_races
+from evenbreak.cli.kit.options import PlainCommand, race_limit_options, refuse_both
 from evenbreak.cli.kit.players import player_options, players_of
 from evenbreak.cli.kit.values import CHANCE, Whole, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
 
 MOST = 300
 """The most races that are listed, so that every answer takes seconds."""
@@ -20,6 +16,7 @@ MOST = 300
 EXAMPLES = """\b
 Examples:
   evenbreak fair 612 521 --scale fargo --race-to 7
+  evenbreak fair "Ann Lee" "Bo Diaz" --from ratings.csv --race-to 7
   evenbreak fair 85 40 --games 7..13 --top 3
   evenbreak fair --p1 0.6 --p2 0.5 --breaks alternate --games 5..9
 """
@@ -27,21 +24,19 @@ Examples:
 
 @click.command("fair", cls=PlainCommand, epilog=EXAMPLES)
 @player_options
-@which_races
+@race_limit_options
 @click.option(
     "--target",
     metavar="P",
     type=CHANCE,
     default=0.5,
-    show_default=True,
-    help="The chance that A should have to win the match.",
+    help="The chance of winning that A should have.",
 )
 @click.option(
     "--top",
     type=Whole(1, MOST),
     metavar="K",
     default=5,
-    show_default=True,
     help="How many races to list.",
 )
 @faces()
@@ -54,8 +49,8 @@ def command(
 ) -> Answer:
     """Find the fairest races for two players, the fairest first.
 
-    The players: two ratings A B; or --p; or --p1, --p2 and --breaks. The length: --games
-    or --race-to.
+    Describe the players by two ratings A B, by two names with --from, by --p, or by --p1, --p2 and
+    --breaks; limit the length by --games or --race-to.
     """
     from evenbreak.answers.fair import fair_answer
     from evenbreak.handicaps.charts.fair import fair_races
@@ -64,13 +59,18 @@ def command(
     players = players_of(**who)
     if games is None and race_to is None:
         refuse("the length of the race is missing; give --games LO..HI or --race-to N")
-    races = fair_races(
-        players.rack,
-        games=games,
-        race_to=race_to,
-        target=target,
-        top=top,
-        breaks=players.break_format,
-        first_breaker=players.first_breaker,
-    )
+    limits: Any = {"games": games, "race_to": race_to, "target": target, "top": top}
+    if players.error:
+        from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
+
+        races = nearest_races_given_ratings(
+            players.difference, players.error, scale=players.scale, **limits
+        )
+    else:
+        races = fair_races(
+            players.rack,
+            breaks=players.break_format,
+            first_breaker=players.first_breaker,
+            **limits,
+        )
     return fair_answer(players, races, target=target)

@@ -1,24 +1,21 @@
 """`evenbreak live`: a match under way, game by game."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
-from evenbreak.cli.kit.players import player_options, players_of
+from evenbreak.cli.kit.players import player_options
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import SCORE, refuse
 from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
 
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-
 EXAMPLES = """\b
 Examples:
   evenbreak live 612 521 --scale fargo --race 7:5 --racks abbab
+  evenbreak live "Ann Lee" "Bo Diaz" --from ratings.csv --race 7:5 --racks abb
   evenbreak live --p 0.6 --race 9:7 --score 4:6
   evenbreak live --p 0.6 --race 7:5 --table
   evenbreak live --p 0.6 --race 3:3 --set 4:3 --score 1:0 --set-score 2:2
@@ -55,35 +52,30 @@ def _racks(ctx: click.Context, param: click.Parameter, value: str | None) -> lis
 @plot_option
 @faces()
 def command(
-    race: tuple[int, int] | None,
-    ahead: tuple[int, int] | None,
-    set_: tuple[int, int] | None,
-    win_by: int | None,
-    score: tuple[int, int] | None,
     set_score: tuple[int, int] | None,
     racks: list[int],
     table: bool,
     plot: str | None,
-    **who: Any,
+    **asked: Any,
 ) -> Answer:
-    """Follow a match under way: the odds now, what the next game is worth, how it went.
+    """Follow a match under way: the odds now, the worth of the next game, the turning point.
 
-    The players and the match: as for odds. The score: --racks, or --score, or both, the
-    racks then being those played since that score.
+    Describe the players and the match as for `odds`, and the score by --racks, by --score,
+    or by both: the racks are then those played since that score.
     """
     from evenbreak.answers.live import live_answer
     from evenbreak.matches.live import live_odds
 
-    players = players_of(**who)
-    match = match_of(players, race=race, ahead=ahead, set_=set_, score=score, win_by=win_by)
-    if set_score is not None and set_ is None:
-        refuse("--set-score is the score of a set, and there is no --set; leave it out")
+    players, match = match_of(**asked)
+    if set_score is not None and asked["set_"] is None:
+        refuse("--set-score is the score of a set, but there is no --set; leave it out")
     if plot is not None and not racks:
         refuse("--plot draws the match as it went; give --racks, such as abbab")
     refuse_giants(match)
     odds = live_odds(match, racks, set_score=set_score)
+    answer = live_answer(players, match, odds, comebacks=table)
     if plot is not None:
         from evenbreak.plots.live_match import plot_course
 
-        write_plot(plot_course(odds), plot)
-    return live_answer(players, match, odds, comebacks=table)
+        write_plot(plot_course(odds, title=answer.heading, names=players.names), plot)
+    return answer

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import click
 
+from evenbreak import matches, stats
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand, safety_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, MOST_BALLS, PAIR, Number, refuse
 
-if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-
-AVERAGE = Number(0, MOST_BALLS, f" is no average; give balls an inning from 0 to {MOST_BALLS}")
+AVERAGE = Number(0, MOST_BALLS, f" is not an average; give balls an inning from 0 to {MOST_BALLS}")
 REMEDY = "give two averages A B, or --p1 and --p2"
 
 EXAMPLES = """\b
@@ -43,7 +41,6 @@ Examples:
     "--first",
     type=click.Choice(["a", "b"]),
     default="a",
-    show_default=True,
     help="Who has the first inning.",
 )
 @plot_option
@@ -59,11 +56,9 @@ def command(
 ) -> Answer:
     """Give the odds of a match of 14.1 straight pool, and the spot that makes it even.
 
-    The players: the balls that A and B average an inning; or --p1 and --p2.
+    Describe the players by the balls that A and B average an inning, or by --p1 and --p2.
     """
     from evenbreak.answers.straight import straight_answer
-    from evenbreak.matches.straight_pool import StraightPool
-    from evenbreak.stats.runs import shot_chance
 
     shots: list[Fraction | float]
     if averages and (p1 is not None or p2 is not None):
@@ -72,12 +67,12 @@ def command(
         if len(averages) != 2:
             given = " ".join(f"{average:g}" for average in averages)
             refuse(f"the averages are {given}; {REMEDY}")
-        shots = [shot_chance(average, safety) for average in averages]
+        shots = [stats.shot_chance(average, safety) for average in averages]
     elif p1 is None or p2 is None:
         refuse(f"the players are missing; {REMEDY}")
     else:
         shots = [p1, p2]
-    match = StraightPool(
+    match = matches.StraightPool(
         *points,
         *shots,
         safety_1=safety,

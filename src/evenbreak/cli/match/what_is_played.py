@@ -1,18 +1,15 @@
 """The match: a race or n-ahead, perhaps in sets, perhaps from a score on."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from evenbreak.answers.two_players import TwoPlayers
+from evenbreak.cli.kit.options import Command, with_options
+from evenbreak.cli.kit.players import players_of
 from evenbreak.cli.kit.values import LONGEST, PAIR, SCORE, Whole, refuse
+from evenbreak.games.match import Match
 from evenbreak.games.race import Race
-
-if TYPE_CHECKING:
-    from evenbreak.answers.two_players import TwoPlayers
-    from evenbreak.cli.kit.options import Command
-    from evenbreak.games.match import Match
 
 MOST_SCORES = 10_000
 """The most scores that a match may still come to, so that every answer takes seconds."""
@@ -20,7 +17,8 @@ MOST_SCORES = 10_000
 
 def match_options(command: Command) -> Command:
     """Add the options that describe the match."""
-    for add in (
+    return with_options(
+        command,
         click.option(
             "--win-by",
             type=Whole(1, LONGEST),
@@ -49,25 +47,24 @@ def match_options(command: Command) -> Command:
             type=PAIR,
             help="A needs M games, B needs N; 7 means 7:7.",
         ),
-    ):
-        command = add(command)
-    return command
+    )
 
 
 def match_of(
-    players: TwoPlayers,
     *,
     race: tuple[int, int] | None,
     ahead: tuple[int, int] | None,
     set_: tuple[int, int] | None,
     score: tuple[int, int] | None,
     win_by: int | None,
-) -> Match:
-    """Return the match that the options describe, or refuse what contradicts itself."""
+    **who: Any,
+) -> tuple[TwoPlayers, Match]:
+    """Return the players and the match of the options, or refuse what contradicts itself."""
+    players = players_of(**who)
     if race is not None and ahead is not None:
-        refuse("--race and --ahead exclude each other; leave one out")
+        refuse("--race and --ahead cannot be combined; leave one out")
     if win_by is not None and (ahead or set_):
-        refuse(f"--win-by does not combine with {'--ahead' if ahead else '--set'}; leave it out")
+        refuse(f"--win-by cannot be combined with {'--ahead' if ahead else '--set'}; leave it out")
     rack: Any = players.rack
     breaks, first = players.break_format, players.first_breaker
     start = score or (0, 0)
@@ -77,11 +74,12 @@ def match_of(
     if ahead is not None:
         from evenbreak.games.ahead import Ahead
 
-        return Ahead(ahead[0], ahead[1], rack, breaks=breaks, first_breaker=first, score=start)
+        return players, Ahead(*ahead, rack, breaks=breaks, first_breaker=first, score=start)
     if race is None:
         refuse("the match is missing; give --race M:N or --ahead M:N")
-    m, n = race
-    return Race(m, n, rack, breaks=breaks, first_breaker=first, score=start, win_by=win_by or 1)
+    return players, Race(
+        *race, rack, breaks=breaks, first_breaker=first, score=start, win_by=win_by or 1
+    )
 
 
 def refuse_giants(match: Match) -> None:

@@ -1,162 +1,108 @@
-"""How a cue ball hits an object ball: the options that say so, and the words for it."""
+"""The options that say how tip, cue ball and object ball meet."""
 
 from __future__ import annotations
 
-import math
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.callbacks import Command
-from evenbreak.cli.physics.units import Measure, decimals
+from evenbreak.cli.kit.options import Command, with_options
+from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.physics.measures import CUT, FRICTION, OFFSET, SPEED, SPIN
 
-MOST_SPIN = 100.0
-"""The largest spin J that an option takes; what a cue gives is seldom beyond 2."""
-
-MOST_CUT = 90.0
-
-
-class Hit(NamedTuple):
-    """A hit as it was typed: angles in degrees, right above 0 and left below.
-
-    Parameters
-    ----------
-    cut
-        cut angle: above 0 the object ball goes to the right, below 0 to the left.
-    topspin
-        J_y: 1 in natural roll, 0 for stun, below 0 for draw.
-    side
-        J_z: above 0 for right english, below 0 for left english.
-    mu, friction
-        of the two balls, and the law of it.
-    """
-
-    cut: float
-    topspin: float
-    side: float
-    mu: float
-    friction: str
-
-    @property
-    def angle(self) -> float:
-        """The cut angle without its side, in radians."""
-        return math.radians(abs(self.cut))
-
-    @property
-    def side_in_frame(self) -> float:
-        """J_z of this hit, or of its mirror image where the cut is to the left.
-
-        No decimal is sin(30 degrees) to the last bit, and what is left over would be a slip, to
-        which the law of the text gives its full throw.
-        """
-        from evenbreak.physics import gearing_side
-
-        side = -self.side if self.cut < 0.0 else self.side
-        without_slip = float(gearing_side(self.angle))
-        return without_slip if abs(side - without_slip) < 1e-12 else side
-
-    @property
-    def turn(self) -> str:
-        """To which side the object ball is cut; a full hit counts as a cut to the right."""
-        return "left" if self.cut < 0.0 else "right"
-
-    @property
-    def other_turn(self) -> str:
-        """The other side."""
-        return "right" if self.cut < 0.0 else "left"
-
-    @property
-    def english(self) -> str | None:
-        """'outside' or 'inside'; 'left' or 'right' for a full hit; None without english."""
-        if self.side == 0.0:
-            return None
-        if self.cut == 0.0:
-            return "right" if self.side > 0.0 else "left"
-        return "inside" if (self.side > 0.0) == (self.cut > 0.0) else "outside"
-
-    @property
-    def text(self) -> str:
-        """What is hit how, in a sentence.
-
-        >>> Hit(30.0, 1.0, -0.3, 0.0556, "limited").text
-        'A cut of 30 degrees to the right; natural roll, outside (left) english.'
-        """
-        size = abs(self.cut)
-        degrees = f"{size:g} degree{'' if size == 1.0 else 's'}"
-        cut = f"A cut of {degrees} to the {self.turn}" if self.cut else "A full hit"
-        return f"{cut}; {spin_text(self.topspin)}, {self._english_text}."
-
-    @property
-    def _english_text(self) -> str:
-        if self.english is None:
-            return "no english"
-        hand = "right" if self.side > 0.0 else "left"
-        return f"{self.english} english" if self.cut == 0.0 else f"{self.english} ({hand}) english"
-
-    def as_answer(self) -> dict[str, Any]:
-        """Return what was asked, as the first quantities of an answer."""
-        return {
-            "cut_deg": self.cut,
-            "topspin": self.topspin,
-            "side": self.side,
-            "english": self.english,
-            "mu": self.mu,
-            "friction": self.friction,
-        }
+if TYPE_CHECKING:
+    from evenbreak.answers.hit import Hit
+    from evenbreak.answers.shot_units import Units
+    from evenbreak.physics import SlipFriction
 
 
-def spin_text(topspin: float) -> str:
-    """Return what players call a spin J_y.
+_FRICTION = (
+    click.option(
+        "--friction",
+        type=click.Choice(["limited", "shepard"]),
+        default="limited",
+        help="limited: it ends when the balls no longer slip; shepard: the law of the source "
+        "text, without that limit.",
+    ),
+    click.option(
+        "--mu",
+        type=FRICTION,
+        help="Friction between the two balls: a number for any speed, or by-speed, which falls "
+        "with the speed as measured (Alciatore's fit).  [default: 4/72 = 0.0556]",
+    ),
+)
+_HIT = (
+    *_FRICTION,
+    click.option(
+        "--speed",
+        type=SPEED,
+        help="Speed of the cue ball at the hit; friction then falls with it (--mu by-speed).",
+    ),
+    click.option(
+        "--side",
+        type=SPIN,
+        default=0.0,
+        help="Sidespin: right english above 0, left english below.",
+    ),
+    click.option(
+        "--topspin",
+        type=SPIN,
+        default=1.0,
+        help="1 is natural roll, 0 stun, below 0 draw.",
+    ),
+    click.option(
+        "--cut",
+        type=CUT,
+        required=True,
+        help="Cut angle, to the left below 0; 90 is the limit of thin cuts.",
+    ),
+)
 
-    >>> spin_text(1.0), spin_text(0.0), spin_text(-0.5), spin_text(-1.0)
-    ('natural roll', 'stun', 'draw (-0.50)', 'reverse natural roll')
-    """
-    named = {1.0: "natural roll", 0.0: "stun", -1.0: "reverse natural roll"}
-    if topspin in named:
-        return named[topspin]
-    return f"{'topspin' if topspin > 0.0 else 'draw'} ({decimals(topspin)})"
+
+def friction_options(command: Command) -> Command:
+    """Add the options --mu and --friction."""
+    return with_options(command, *_FRICTION)
 
 
 def hit_options(command: Command) -> Command:
-    """Add the options --cut, --topspin, --side, --mu and --friction."""
-    for option in (
-        click.option(
-            "--friction",
-            type=click.Choice(["limited", "shepard"]),
-            default="limited",
-            show_default=True,
-            help="Let friction end when the slip does, or be the law of the source text.",
-        ),
-        click.option(
-            "--mu",
-            metavar="MU",
-            type=Measure(0.0, 1.0, "0.0556"),
-            default=4.0 / 72.0,
-            help="Friction between the two balls.  [default: 4/72 = 0.0556]",
-        ),
-        click.option(
-            "--side",
-            metavar="J",
-            type=Measure(-MOST_SPIN, MOST_SPIN, "-0.3"),
-            default=0.0,
-            show_default=True,
-            help="Sidespin: right english above 0, left below; outside on a cut to the other side.",
-        ),
-        click.option(
-            "--topspin",
-            metavar="J",
-            type=Measure(-MOST_SPIN, MOST_SPIN, "1"),
-            default=1.0,
-            show_default=True,
-            help="1 is natural roll, 0 stun, below 0 draw.",
-        ),
-        click.option(
-            "--cut",
-            metavar="DEGREES",
-            type=Measure(-MOST_CUT, MOST_CUT, "30"),
-            required=True,
-            help="Cut angle, 0 to 90, the limit of thin cuts; below 0 to the left.",
-        ),
-    ):
-        command = option(command)
-    return command
+    """Add the options --cut, --topspin, --side, --speed, --mu and --friction; see `hit_of`."""
+    return with_options(command, *_HIT)
+
+
+def hit_of(
+    units: Units,
+    *,
+    cut: float,
+    topspin: float,
+    side: float,
+    speed: float | None,
+    mu: float | SlipFriction | None,
+    friction: str,
+) -> Hit:
+    """Return the hit that the options describe."""
+    from evenbreak.answers.hit import Hit
+    from evenbreak.physics import BALL_FRICTION, SlipFriction
+
+    if mu is None:
+        mu = BALL_FRICTION if speed is None else SlipFriction()
+    elif isinstance(mu, SlipFriction) and speed is None:
+        refuse("--mu by-speed needs the speed of the cue ball at the hit; give --speed too")
+    elif not isinstance(mu, SlipFriction) and speed is not None:
+        refuse(
+            f"--speed {speed:g} changes nothing with --mu {mu:g}, which holds at any speed; leave "
+            "one of them out"
+        )
+    pace = None if speed is None else speed * units.speed.size
+    return Hit(cut, topspin, side, mu, friction, pace)
+
+
+def tip_options(**offset: Any) -> Callable[[Command], Command]:
+    """Return a decorator that adds --offset and --side-offset; `offset` is more about the first."""
+    side = "How far the tip hits to the right of the centre; below 0 to the left."
+    up = "How far the tip hits above the centre, in ball radii; below 0 for draw."
+    options = (
+        click.option("--side-offset", type=OFFSET, default=0.0, help=side),
+        click.option("--offset", type=OFFSET, help=up, **offset),
+    )
+    return lambda command: with_options(command, *options)

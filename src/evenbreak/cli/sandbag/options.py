@@ -1,118 +1,56 @@
-"""What the commands of `evenbreak sandbag` have in common: their league, and their numbers."""
+"""What the commands of `evenbreak sandbag` share: options, and the ladders that they ask about."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
-
 import click
 
-from evenbreak.cli.kit.callbacks import Command, number, refuse
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.ladders.ladder import Ladder
-    from evenbreak.handicaps.systems.system import System
-
-DOUBLINGS = 4
-"""How far a rating may be off: to where the odds of a game are 16 to 1."""
-
-wants_chart: Callable[[Command], Command] = click.option(
-    "--chart",
-    "chart_name",
-    metavar="NAME_OR_FILE",
-    help="The chart that says the races.  [default: the system's own]",
-)
-"""The option --chart."""
-
-wants_system: Callable[[Command], Command] = click.option(
-    "--system",
-    "system_name",
-    default="npl",
-    show_default=True,
-    metavar="NAME",
-    help="How ratings move.",
-)
-"""The option --system."""
+from evenbreak import handicaps
+from evenbreak.cli.kit.options import Command, with_options
+from evenbreak.cli.kit.systems import chart_for
+from evenbreak.cli.kit.values import Number, refuse
 
 
-def between(low: float, high: float) -> Callable[..., float | None]:
-    """Return the callback of an option that is a number from low to high."""
-
-    def read(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
-        if value is None:
-            return None
-        wanted = f"; give a number from {low:g} to {high:,.15g}"
-        return number(str(value), low, high, wanted, ctx=ctx, param=param)
-
-    return read
+def between(low: float, high: float) -> Number:
+    """Return the type of an option that is a number from low to high."""
+    return Number(low, high, f"; give a number from {low:g} to {high:,.15g}")
 
 
-wants_alpha: Callable[[Command], Command] = click.option(
-    "--alpha",
-    default="0.01",
-    show_default=True,
-    metavar="P",
-    callback=between(1e-9, 0.5),
-    help="The chance that an honest player is ever flagged, at most.",
-)
-"""The option --alpha."""
-
-wants_honest: Callable[[Command], Command] = click.option(
-    "--honest",
-    type=click.Choice(["any", "established"]),
-    default="any",
-    show_default=True,
-    help="Who counts as honest: players of any skill, or those rated as rightly as ratings are.",
-)
-"""The option --honest."""
-
-wants_day_sd: Callable[[Command], Command] = click.option(
-    "--day-sd",
-    default="0",
-    show_default=True,
-    metavar="POINTS",
-    callback=between(0.0, 10_000.0),
-    help="How much the form of honest players varies from day to day.",
-)
-"""The option --day-sd."""
+def watch_options(command: Command) -> Command:
+    """Add the options that say how the watch judges players."""
+    return with_options(
+        command,
+        click.option(
+            "--day-sd",
+            default="0",
+            metavar="POINTS",
+            type=between(0.0, 10_000.0),
+            help="How much the form of honest players varies from day to day (standard deviation).",
+        ),
+        click.option(
+            "--honest",
+            type=click.Choice(["any", "established"]),
+            default="any",
+            help="Who counts as honest: players of any skill, or players whose ratings are as "
+            "accurate as ratings are in the long run.",
+        ),
+        click.option(
+            "--alpha",
+            default="0.01",
+            metavar="P",
+            type=between(1e-9, 0.5),
+            help="The largest chance that an honest player is ever flagged.",
+        ),
+    )
 
 
-def found_system(name: str) -> System:
-    """Return the system of this name, or refuse it."""
+def watched_ladder(
+    system: handicaps.System, chart_name: str | None, day_sd: float
+) -> tuple[handicaps.Ladder, list[str]]:
+    """Return the ladder whose rating errors the watch assumes, and warnings about its chart."""
     from evenbreak.errors import InputError
-    from evenbreak.handicaps.systems.catalogue import system_of
 
+    chart, warnings = chart_for(system, chart_name)
     try:
-        return system_of(name)
-    except InputError as error:
-        refuse(f"--{error}")
-
-
-def found_chart(name: str) -> Chart:
-    """Return the chart of rating differences of this name or file, or refuse it."""
-    from evenbreak.files.chart import find_chart
-    from evenbreak.handicaps.charts.chart import Chart
-
-    found = find_chart(name)
-    if not isinstance(found, Chart):
-        refuse(f"--chart {name!r} is a chart of skill levels; give one of rating differences")
-    return found
-
-
-def watched_ladder(system: System, chart: Chart | None, day_sd: float) -> Ladder:
-    """Return the ladder whose law of rating errors the watch goes by, or refuse such a form."""
-    from evenbreak.errors import InputError
-    from evenbreak.handicaps.ladders.ladder import Ladder
-
-    try:
-        return Ladder(system, chart, day_sd=day_sd)
+        return handicaps.Ladder(system, chart, day_sd=day_sd), warnings
     except InputError as error:
         refuse(f"--{str(error).replace('_', '-', 1)}")
-
-
-def wide_ladder(system: System, chart: Chart | None) -> Ladder:
-    """Return the ladder of a system against opponents who are rated rightly, a wide one."""
-    from evenbreak.handicaps.ladders.ladder import Ladder
-
-    return Ladder(system, chart, widest=round(DOUBLINGS * system.scale.points_per_doubling))

@@ -1,1 +1,1 @@
-"""Charts: which race for which difference of ratings or levels; audits, designs, fair races."""
+"""Charts of races by rating difference or skill level: audits, designs, fair races."""

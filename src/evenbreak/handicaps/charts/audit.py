@@ -1,25 +1,27 @@
-"""The audit of a chart: how fair its races are, and which scale and which tilt it was made for.
+"""The audit of a chart: how fair its races are, and which scale and tilt it was made for.
 
-A race m:n is even at one game probability only, and on a scale of s points a doubling of the
-odds that is the gap of s·e points, where e = log2(p / (1 - p)) at W(p; m, n) = 1/2. A chart
-cuts between two races somewhere from the gap at which the first is even to the gap at which
-the second is: with tilt t at s·((1 - t)·e_k + t·e_(k-1)). So tilt 0 makes each race even where
-its band begins, 1/2 in its middle (at each cut both races are about equally unfair, one to
-either player), 1 where it ends. The cuts are linear in s and s·t: least squares gives both.
+A race m:n is even at one game probability only. If s points double the odds, that is a rating
+difference of s·e points, where e = log2(p / (1 - p)) at W(p; m, n) = 1/2. The cut between two
+neighbouring races of a chart lies between the differences at which they are even: with tilt t
+at s·((1 - t)·e_k + t·e_(k-1)). So tilt 0 makes each race even at the start of its band, 1/2 in
+the middle (on either side of a cut the races are about equally unfair, to one player and to the
+other), 1 at the end. The cuts are linear in s and s·t, and least squares gives both.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import betaincinv
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow
 from evenbreak.matches.parameters import in_shape
 from evenbreak.matches.win import race_win_probability
@@ -35,11 +37,11 @@ class ChartFit:
     points_per_doubling
         the rating points that double the odds of a game.
     tilt
-        where in its band a race is even: 0 where it begins, 1/2 in its middle, 1 where it
-        ends. Of tilt 0 the stronger player is never the underdog, of tilt 1 the weaker.
+        where in its band a race is even: 0 at the start, 1/2 in the middle, 1 at the end.
+        With tilt 0 the stronger player is never the underdog, with tilt 1 the weaker never is.
     misfit
-        how far the chart's cuts lie from those of scale and tilt, root mean square, in
-        points; rounding to whole points alone makes 0.29.
+        how far the chart's cuts are from those of scale and tilt (root mean square), in
+        points; rounding to whole points alone gives 0.29.
     """
 
     points_per_doubling: float
@@ -56,16 +58,16 @@ class AuditRow:
     difference_from, difference_to, stronger_needs, weaker_needs
         the row; `difference_to` is None where it has no end.
     p_win_low, p_win_middle, p_win_high
-        P(the stronger player wins the race | the ratings are right and the difference is
-        the row's first, that in its middle, its last); None where the row has no end.
+        P(the stronger player wins the race | the ratings are right) at the first difference
+        of the row, in its middle, and at its last; None where the row is open-ended.
     even_difference
         the difference in points at which the race is even.
     even_place
-        where in its band that is: 0 where the band begins (half a point before its first
-        whole point), 1 where it ends; outside the band below 0 or above 1. None for a row
-        that begins at 0 or has no end.
+        where in its band that is: 0 at the start of the band (half a point before its first
+        whole point), 1 at its end; below 0 or above 1 outside the band. None for a row that
+        begins at 0 or is open-ended.
     unfairness
-        the largest `|P - 1/2|` of the band's ends.
+        the larger `|P - 1/2|` of the two ends of the band.
     monotone
         whether the race is harder for the stronger player than those of all earlier rows.
     """
@@ -85,25 +87,24 @@ class AuditRow:
 
 @dataclass(frozen=True)
 class ChartAudit:
-    """How fair a chart is, row by row, and what scale and tilt fit it.
+    """How fair a chart is, row by row, and which scale and tilt fit it.
 
     Parameters
     ----------
     name
-        what the chart is called.
+        the name of the chart.
     scale
-        the scale on which the chances are worked out.
+        the scale of the ratings, by which the chances are calculated.
     fit
-        that scale with the tilt that fits the chart best on it; None where the chart has
-        a single row.
+        that scale with the tilt that fits the chart best on it; None for a chart of one row.
     best_fit
-        the scale and the tilt that fit the chart best together; None where its cuts do not
-        tell them.
+        the scale and the tilt that together fit the chart best; None where its cuts do not
+        determine them.
     rows
-        the rows by where they begin.
+        the rows in increasing order.
     gaps, overlaps
-        the differences (first, last) in no row, and in more than one; the last is None
-        where there is no end.
+        the differences (first, last) in no row, and in more than one row; last is None for
+        an open end.
     """
 
     name: str
@@ -119,14 +120,26 @@ class ChartAudit:
         """The most unfair row, the first of equals."""
         return max(self.rows, key=lambda row: row.unfairness)
 
+    @property
+    def p_win(self) -> Floats:
+        """P(the stronger player wins) at each difference from 1 on that a row with an end has."""
+        chances = [np.empty(0)]
+        for row in self.rows:
+            if row.difference_to is not None:
+                points = np.arange(max(row.difference_from, 1), row.difference_to + 1)
+                p = self.scale.win_probability(points)
+                needs = row.stronger_needs, row.weaker_needs
+                chances.append(np.asarray(race_win_probability(p, *needs)))
+        return np.concatenate(chances)
 
-def audit(chart: Chart | ChartDraft, *, scale: Any = None) -> ChartAudit:
+
+def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
     """Return how fair a chart of rating differences is, and the scale and tilt that fit it.
 
     Parameters
     ----------
     chart
-        the chart, or its rows as a `ChartDraft` where they have gaps or overlaps.
+        the chart or its name in `CHARTS`; a `ChartDraft` if its rows have gaps or overlaps.
     scale
         what the ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the
         odds; None for the scale that fits the chart best.
@@ -134,29 +147,29 @@ def audit(chart: Chart | ChartDraft, *, scale: Any = None) -> ChartAudit:
     Raises
     ------
     InputError
-        if the chart has no rows or a row ends before it begins, or if no scale is given and
-        the chart does not tell one (it has fewer than three rows, or its races do not get
-        harder).
+        if there is no such chart, it has no rows, a row ends before it begins, or no scale is
+        given and the chart does not determine one (it has fewer than three rows, or its races
+        do not get harder).
 
     Notes
     -----
-    Source: Table 5.6 and the two equations before it; the gap at which a race is even, P5.5.
+    Source: Table 5.6 and the two equations before it; P5.5 for where a race is even.
 
-    >>> from evenbreak.handicaps import chart
-    >>> report = audit(chart("npl_10"))
+    >>> report = audit("npl_10")
     >>> round(report.best_fit.points_per_doubling, 1), round(report.best_fit.tilt, 2)
     (30.1, 0.49)
-    >>> row = audit(chart("fargo_r6_hot"), scale="fargo").rows[3]
+    >>> row = audit("fargo_r6_hot", scale="fargo").rows[3]
     >>> row.stronger_needs, row.weaker_needs, round(row.even_difference, 2)
     (7, 4, 86.09)
     """
+    chart = chart if isinstance(chart, ChartDraft) else chart_of(chart)
     rows = _in_order(chart)
     even = even_doublings([row.stronger_needs for row in rows], [row.weaker_needs for row in rows])
     cuts = np.array([row.difference_from - 0.5 for row in rows[1:]])
     best = _best_fit(even, cuts)
     if scale is None and best is None:
         raise InputError(
-            f"scale is missing, and chart {chart.name!r} does not tell one; give npl, fargo, "
+            f"scale is missing, and chart {chart.name!r} does not determine one; give npl, fargo, "
             "elo, or the points that double the odds"
         )
     used = _fitted(best) if best and scale is None else scale_of(scale)
@@ -170,16 +183,20 @@ def audit(chart: Chart | ChartDraft, *, scale: Any = None) -> ChartAudit:
     )
 
 
-def even_doublings(m: ArrayLike, n: ArrayLike) -> Any:
-    """Return how often the odds of a game must double to make the race m:n even, elementwise.
+@overload
+def even_doublings(m: float, n: float) -> float: ...
+@overload
+def even_doublings(m: ArrayLike, n: ArrayLike) -> Floats: ...
+def even_doublings(m: Any, n: Any) -> Any:
+    """Return how many times the odds of a game must double to make the race m:n even.
 
-    Times the points that double the odds, that is the rating difference at which the race is
-    even: positive where player 1 needs more games.
+    Multiplied by the points that double the odds, this is the rating difference at which the
+    race is even: positive where player 1 needs more games.
 
     Parameters
     ----------
     m, n
-        the games that player 1 and player 2 need, 1 or more.
+        the games that player 1 and player 2 need, 1 or more; numbers or arrays.
 
     Notes
     -----
@@ -197,18 +214,18 @@ def even_doublings(m: ArrayLike, n: ArrayLike) -> Any:
 def _in_order(chart: Chart | ChartDraft) -> list[ChartRow]:
     rows = sorted(chart.rows, key=lambda row: row.difference_from)
     if not rows:
-        raise InputError(f"chart {chart.name!r} has no rows; give one for each span of differences")
+        raise InputError(f"chart {chart.name!r} has no rows; give one for each range")
     for row in rows:
         if row.difference_to is not None and row.difference_to < row.difference_from:
             raise InputError(
                 f"a row goes from {row.difference_from} to {row.difference_to}; "
-                "let it end where it begins or later"
+                "give an end that is not before its start"
             )
     return rows
 
 
-def _best_fit(even: NDArray[np.float64], cuts: NDArray[np.float64]) -> ChartFit | None:
-    """Return the scale and the tilt whose cuts come nearest, by least squares."""
+def _best_fit(even: Floats, cuts: Floats) -> ChartFit | None:
+    """Return the scale and the tilt whose cuts are nearest, by least squares."""
     columns = np.column_stack([even[1:], -np.diff(even)])
     (points, tilted), _, rank, _ = np.linalg.lstsq(columns, cuts)
     if rank < 2 or not points > 0.0:
@@ -221,12 +238,12 @@ def _best_fit(even: NDArray[np.float64], cuts: NDArray[np.float64]) -> ChartFit 
 
 
 def _fitted(fit: ChartFit) -> Scale:
-    """Return the scale of a fit, which may be as odd as the chart."""
+    """Return the scale of a fit."""
     return Scale(f"{fit.points_per_doubling:.4g} points", fit.points_per_doubling)
 
 
-def _fit_on(points: float, even: NDArray[np.float64], cuts: NDArray[np.float64]) -> ChartFit | None:
-    """Return a scale with the tilt whose cuts come nearest."""
+def _fit_on(points: float, even: Floats, cuts: Floats) -> ChartFit | None:
+    """Return a scale with the tilt whose cuts are nearest."""
     step = points * np.diff(even)
     if not step.any():
         return None
@@ -235,9 +252,7 @@ def _fit_on(points: float, even: NDArray[np.float64], cuts: NDArray[np.float64])
     return ChartFit(points, tilt, float(np.sqrt(np.mean((above - tilt * step) ** 2))))
 
 
-def _audited(
-    rows: Sequence[ChartRow], even: NDArray[np.float64], scale: Scale
-) -> Iterator[AuditRow]:
+def _audited(rows: Sequence[ChartRow], even: Floats, scale: Scale) -> Iterator[AuditRow]:
     first = np.array([row.difference_from for row in rows], dtype=float)
     last = np.array([row.difference_to for row in rows], dtype=float)  # None becomes NaN
     ends = np.isfinite(last)
@@ -271,7 +286,7 @@ Spans = tuple[tuple[int, int | None], ...]
 def _gaps_and_overlaps(rows: Sequence[ChartRow]) -> tuple[Spans, Spans]:
     gaps: list[tuple[int, int | None]] = []
     overlaps: list[tuple[int, int | None]] = []
-    free: int | None = 0  # the first difference above all rows so far; None: there is none
+    free: int | None = 0  # the first difference above all rows so far; None: one is open-ended
     for first, last, _, _ in rows:
         if free is not None and first > free:
             gaps.append((free, first - 1))

@@ -1,20 +1,19 @@
-"""Charts: how far apart two ratings are says which race is played."""
+"""Charts by rating difference: which race two players of given ratings play."""
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from evenbreak.checks import whole
+from evenbreak.arrays import Ints
+from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.rows import ChartRow, row_faults
+from evenbreak.handicaps.charts.rows import ChartRow, catalogue_rows, row_faults
 
 CHARTS = {
     "fargo_r6_hot": "Fargo R6 Hot",
@@ -25,6 +24,8 @@ CHARTS = {
 }
 """The charts that come with the package: the title of each, by name."""
 
+_WHOLE_POINTS = "whole points (round the two ratings before you subtract them)"
+
 
 @dataclass(frozen=True)
 class Chart:
@@ -33,17 +34,17 @@ class Chart:
     Parameters
     ----------
     name
-        what the chart is called.
+        the name of the chart.
     rows
-        the rows in the order of the differences, each a `ChartRow` or its four values.
-        The first begins at 0 and is an even race, since of two equal ratings neither is
-        the stronger; each next one begins where the last one ended; the last has no end.
+        the rows in increasing order, each a `ChartRow` or its four values. The first one
+        begins at 0 with an even race, since neither of two equal players is the stronger;
+        each of the others begins one point after the row before it; the last is open-ended.
 
     Raises
     ------
     InputError
-        if a row breaks these rules, or the stronger player needs fewer games in it than
-        the weaker; it says which.
+        if a row breaks these rules, or the stronger player needs fewer games in it than the
+        weaker; the message says which row.
 
     Notes
     -----
@@ -60,7 +61,7 @@ class Chart:
     def __post_init__(self) -> None:
         rows = [_checked(row, f"row {i}") for i, row in enumerate(_rows(self.rows), 1)]
         if not rows:
-            raise InputError("rows is empty; give a row for each span of differences")
+            raise InputError("rows is empty; give a row for each range of differences")
         for _, fault in row_faults(rows):
             raise InputError(fault)
         object.__setattr__(self, "rows", tuple(rows))
@@ -72,14 +73,14 @@ class Chart:
         ----------
         difference
             rating of player 1 minus rating of player 2, in whole points; where it is
-            negative, player 2 is the stronger and the race is turned round.
+            negative, player 2 is the stronger and the race is reversed.
 
         Raises
         ------
         InputError
-            if the difference is not a whole number. A chart has no row between 5 and 6,
-            and rounding two ratings first is not the same as rounding their difference,
-            so that is left to whoever knows which the league does.
+            if the difference is not a whole number. A chart has no row between 5 and 6, and
+            rounding both ratings is not the same as rounding their difference, so the caller
+            must do what the league does.
 
         >>> chart("npl_10").race(5), chart("npl_10").race(6), chart("npl_10").race(-6)
         ((5, 5), (5, 4), (4, 5))
@@ -87,14 +88,13 @@ class Chart:
         Traceback (most recent call last):
         ...
         evenbreak.errors.InputError: difference is 5.5; give whole points (round the two
-        ratings before you subtract)
+        ratings before you subtract them)
         """
-        points = _whole_points(difference)
-        row = next(row for row in reversed(self.rows) if row.difference_from <= abs(points))
-        needs = row.stronger_needs, row.weaker_needs
-        return needs if points >= 0 else needs[::-1]
+        points = whole(difference, "difference", at_least=None, wanted=_WHOLE_POINTS)
+        m, n = self.races(points)
+        return int(m), int(n)
 
-    def races(self, differences: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def races(self, differences: ArrayLike) -> tuple[Ints, Ints]:
         """Return (m, n), two arrays: the games that player 1 and player 2 need, elementwise.
 
         Parameters
@@ -111,7 +111,7 @@ class Chart:
         >>> m, n
         (array([5, 5, 4]), array([5, 4, 5]))
         """
-        points = _array_of_points(differences)
+        points = whole_numbers(differences, "differences", wanted=_WHOLE_POINTS)
         needs = np.array([row[2:] for row in self.rows])
         starts = [row.difference_from for row in self.rows]
         place = np.searchsorted(starts, np.abs(points), side="right") - 1
@@ -141,41 +141,12 @@ def _checked(row: ChartRow, name: str) -> ChartRow:
     )
 
 
-def _whole_points(difference: Any) -> int:
-    try:
-        points = int(difference)
-        right = bool(points == difference) and not isinstance(difference, str | bytes)
-    except (TypeError, ValueError, OverflowError):
-        right = False
-    if not right:
-        raise InputError(
-            f"difference is {difference!r}; give whole points (round the two ratings before "
-            "you subtract)"
-        )
-    return points
-
-
-def _array_of_points(differences: ArrayLike) -> NDArray[np.float64]:
-    try:
-        array = np.asarray(differences)
-        points = array.astype(float) if array.dtype.kind in "iuf" else np.array(np.nan)
-    except ValueError:  # rows of different lengths
-        points = np.array(np.nan)
-    wrong = ~(np.isfinite(points) & (points == np.floor(points)))
-    if wrong.any():
-        held = f"hold {points[wrong].flat[0]:g}" if points.ndim else f"are {differences!r}"
-        raise InputError(
-            f"differences {held}; give whole points (round the ratings before you subtract)"
-        )
-    return points
-
-
 def chart(name: str) -> Chart:
     """Return a chart that comes with the package, by its name in `CHARTS`.
 
-    `npl_8`, `npl_10`, `npl_12` and `npl_20` are the National Pool League's charts, short
-    to very long; `fargo_r6_hot` is a chart of races to 6 and more for Fargo ratings, of which
-    100 points double the odds.
+    `npl_8`, `npl_10`, `npl_12` and `npl_20` are the National Pool League's charts, from short
+    to very long; `fargo_r6_hot` is a chart of races to 6 and more for Fargo ratings (100 points
+    double the odds).
 
     Raises
     ------
@@ -196,11 +167,4 @@ def chart(name: str) -> Chart:
 
 @cache
 def _read(name: str) -> Chart:
-    text = (
-        files("evenbreak.handicaps.charts").joinpath("catalogue", f"{name}.csv").read_text("utf-8")
-    )
-    rows = [
-        ChartRow(int(start), int(end) if end else None, int(stronger), int(weaker))
-        for start, end, stronger, weaker in list(csv.reader(text.splitlines()))[1:]
-    ]
-    return Chart(name, rows)
+    return Chart(name, [ChartRow(*row) for row in catalogue_rows(name)])

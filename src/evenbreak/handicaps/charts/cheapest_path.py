@@ -1,9 +1,9 @@
-"""The cheapest way through the races of a chart, by dynamic programming over the differences.
+"""The cheapest path through the races of a chart, by dynamic programming over the differences.
 
-Races go down, differences across. A path holds one race for each difference and never steps
-back to an easier one; the first `evens` races are all even, and a path holds one of them.
-A limit on the rows of the chart is one on the different races of its path: the best total is
-then kept for each number of rows used so far.
+In the arrays races go down and differences across. A path has one race for each difference and
+never steps back to an easier one; the first `evens` races are all even, and a path has just one
+of them. A limit on the rows of the chart limits the different races of its path: the best
+total is then kept for each number of rows used so far.
 """
 
 from __future__ import annotations
@@ -11,31 +11,29 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import InputError
-
-Floats = NDArray[np.float64]
 
 
 class NoChartError(InputError):
     """No chart keeps the limits."""
 
 
-def _cheapest(cost: Floats, evens: int, rows: int | None) -> NDArray[np.int64]:
-    """Return the path of the least total cost, of no step back; a place for each difference.
+def _cheapest(cost: Floats, evens: int, rows: int | None) -> Ints:
+    """Return the path of least total cost, as the place of a race for each difference.
 
-    It holds `rows` races at the most, or any number of them where that is None.
+    It has at most `rows` different races; any number of them if that is None.
     """
     races, differences = cost.shape
-    best = np.empty((differences, rows or 1, races))  # in so many rows, or in fewer
+    best = np.empty((differences, rows or 1, races))  # in that many rows, or fewer
     best[0] = cost[:, 0]
     for d in range(1, differences):
         easier = np.minimum.accumulate(best[d - 1], axis=1)
-        if rows is not None:  # a step begins a row
+        if rows is not None:  # a step to another race begins a row
             easier[1:] = easier[:-1].copy()
             easier[0] = np.inf
-        easier[:, :evens] = np.inf  # of even races none is harder: no step between
+        easier[:, :evens] = np.inf  # no steps between even races: none is harder
         best[d] = np.minimum(best[d - 1], easier) + cost[:, d]
     path = np.empty(differences, dtype=np.int64)
     left = 0 if rows is None else rows - 1
@@ -43,7 +41,7 @@ def _cheapest(cost: Floats, evens: int, rows: int | None) -> NDArray[np.int64]:
     if not np.isfinite(best[-1, left, here]):
         more = "more races" if rows is None else "more races, or more rows"
         raise NoChartError(
-            "no chart keeps these limits with races that get harder as the difference grows; "
+            "no chart within these limits has races that get harder as the difference grows; "
             f"allow longer matches or {more}"
         )
     for d in range(differences - 1, 0, -1):
@@ -56,17 +54,17 @@ def _cheapest(cost: Floats, evens: int, rows: int | None) -> NDArray[np.int64]:
     return path
 
 
-def _mean(values: Floats, path: NDArray[np.int64]) -> float:
+def _mean(values: Floats, path: Ints) -> float:
     return float(values[path, np.arange(path.size)].mean())
 
 
 def cheapest_within(
     cost: Floats, length: Floats, evens: int, budget: float, rows: int | None = None
-) -> NDArray[np.int64]:
-    """Return the cheapest path among all no longer than itself, its mean length in the budget.
+) -> Ints:
+    """Return a path within a budget for the mean length, the cheapest of all no longer than it.
 
-    With a price on each game the cheapest path of all is such a path; the price is the
-    least at which it keeps the budget. `rows` limits the different races; None: no limit.
+    Each game is given a price, the lowest at which the cheapest path keeps the budget. `rows`
+    limits the number of different races; None: no limit.
     """
     path = _cheapest(cost, evens, rows)
     if _mean(length, path) <= budget:
@@ -75,8 +73,8 @@ def cheapest_within(
     shortest = _mean(length, path)
     if shortest > budget:
         raise NoChartError(
-            f"mean_games is {budget:g}, and the shortest chart that keeps the limits has a mean "
-            f"of {shortest:.2f} games; give so many or more, or allow shorter races"
+            f"mean_games is {budget:g}, but the shortest chart within the limits has a mean of "
+            f"{shortest:.2f} games; give that or more, or allow shorter races"
         )
     low, high = 0.0, 1.0
     for _ in range(50):
@@ -95,7 +93,7 @@ def cheapest_within(
 def without_the_worst(
     cost: Floats, length: Floats, evens: int, budget: float, rows: int | None = None
 ) -> Floats:
-    """Return the costs with those above the least possible largest cost made infinite."""
+    """Return the costs, made infinite where they exceed the smallest possible largest cost."""
     levels = np.unique(cost[np.isfinite(cost)])
     low, high = 0, len(levels) - 1
     while low < high:

@@ -1,27 +1,29 @@
-"""The best chart for a scale: which race for each difference of ratings, under limits.
+"""The fairest chart for a scale: which race for each rating difference, within limits.
 
-All races that the limits allow are put in the order of the differences at which they are
-even, the hardest for the stronger player last. A chart is a path through them that never
-steps back as the difference grows. Each whole-point difference costs what the race there
-misses the target by, so the best path follows by dynamic programming over the differences:
+All allowed races are ordered by the difference at which they are even, so the hardest for the
+stronger player comes last. A chart is a path through them that never steps back as the
+difference grows. Each whole-point difference costs as much as the race there misses the
+target, so dynamic programming over the differences finds the best path:
 
     best(d, r) = cost(d, r) + min over races r' no harder than r of best(d - 1, r')
 
-A limit on the rows is kept by a best total for each number of rows so far.
+For a limit on the number of rows, the best total is kept for each number of rows so far.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
+from evenbreak.checks import whole
 from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.match_rules import play_of
+from evenbreak.handicaps.charts.match_rules import match_rules
 from evenbreak.handicaps.charts.race_limits import RaceLimits
+from evenbreak.handicaps.charts.similar_lengths import SimilarLengths
 
 
 def design(
-    play: Any,
+    rules: Any,
     limits: RaceLimits,
     *,
     target: float = 0.5,
@@ -30,38 +32,41 @@ def design(
     up_to: int | None = None,
     mean_games: float | None = None,
     rows: int | None = None,
+    spread: int | None = None,
     name: str = "design",
 ) -> Chart:
-    """Return the fairest chart for a scale among all that the limits allow.
+    """Return the fairest chart for a scale among all charts within limits.
 
     Parameters
     ----------
-    play
+    rules
         what ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the
-        odds; or a `Play`, which also says by how much a race is won and who breaks.
+        odds; or a `MatchRules`, which also says how a match is won and who breaks.
     limits
-        which races it may hold.
+        which races the chart may hold.
     target
         the chance that the stronger player should have.
     tilt
-        where in its band a race should meet the target: 1/2 in its middle, 0 where the band
-        begins (the stronger never has less, if an allowed race makes that so), 1 where it
-        ends (he never has more). Chances above the target cost 1 / (2 - 2 tilt), those
-        below cost 1 / (2 tilt) of what they miss it by, so 1 each at 1/2.
+        where in its band a race should meet the target: 1/2 in the middle, 0 at the start
+        (the stronger player never has a smaller chance, if an allowed race makes that
+        possible), 1 at the end (never a larger one). Each point of chance above the target
+        costs 1 / (2 - 2 tilt), each point below it 1 / (2 tilt); both are 1 at tilt 1/2.
     criterion
-        'mean': the least mean cost over the whole-point differences from 0 to `up_to`;
-        'worst': the least largest cost, and of all such charts that of the least mean.
+        'mean' makes the mean cost over the whole-point differences from 0 to `up_to` as
+        small as possible; 'worst' the largest cost, then the mean.
     up_to
-        the last difference that counts; None for that at which the hardest allowed race is
-        even (W = 1/2).
+        the last difference that counts; None for the one at which the hardest allowed race
+        is even (W = 1/2).
     mean_games
-        the most that the mean length over those differences may be, in games. The chart is
-        then the fairest of all no longer than itself, which may be shorter than this.
+        the largest mean length over those differences, in games. The chart is then the
+        fairest of all charts no longer than itself; it may be shorter than this limit.
     rows
-        the most rows it may have; None for any number. With a limit the chart is the best of
-        all charts of no more rows.
+        the most rows it may have; None for any number.
+    spread
+        how much the longest matches of its races may differ, in games; None for any length
+        within the limits. Printed charts have a spread of 2.
     name
-        what the chart is called.
+        the name of the chart.
 
     Returns
     -------
@@ -72,20 +77,19 @@ def design(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have, no chart keeps the limits, or there
-        are too many races and differences to go through.
+        if a parameter is out of range, no chart keeps the limits, or there are too many races
+        and differences to try.
 
     Notes
     -----
-    Source: the rule before Table 5.6 and P5.5, here over all differences at once.
+    Source: the rule before Table 5.6 and P5.5, applied to all differences at once.
 
     >>> from evenbreak.handicaps import RaceLimits
     >>> chart = design("npl", RaceLimits((5, 7), weaker_least=2), up_to=40)
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
     [(0, 3, 3), (8, 4, 3), (20, 5, 3), (29, 4, 2), (40, 5, 2)]
     """
-    candidates = Candidates(play_of(play), limits, up_to)
-    return candidates.fairest(
+    return races_to_try(rules, limits, spread, up_to).fairest(
         target=target,
         tilt=tilt,
         criterion=criterion,
@@ -95,27 +99,37 @@ def design(
     )
 
 
-def nearest_chart(
-    play: Any, limits: RaceLimits, *, up_to: int | None = None, name: str = "nearest"
-) -> Chart:
-    """Return the chart that gives each difference the race with W nearest 1/2.
+def races_to_try(
+    rules: Any, limits: RaceLimits, spread: int | None, up_to: int | None
+) -> Candidates | SimilarLengths:
+    """Return the races that a design tries, all together or in groups of similar length."""
+    low, high = limits.games
+    if spread is None or high - low <= whole(spread, "spread"):
+        return Candidates(match_rules(rules), limits, up_to)
+    return SimilarLengths(match_rules(rules), limits, spread, up_to)
 
-    Equal players play the longest even race, and no other even race comes into the chart;
-    apart from that each difference is looked at by itself, so it may step back to an easier
-    race as the difference grows. Beyond `up_to` the last race stays.
+
+def nearest_chart(
+    rules: Any, limits: RaceLimits, *, up_to: int | None = None, name: str = "nearest"
+) -> Chart:
+    """Return the chart that has at each difference the race with W nearest 1/2.
+
+    Equal players play the longest even race, and the chart has no other even race. Apart from
+    that each difference is treated by itself, so the chart may step back to an easier race as
+    the difference grows. Beyond `up_to` the last race stays.
 
     Parameters
     ----------
-    play, limits, up_to, name
-        as `design` takes them.
+    rules, limits, up_to, name
+        as for `design`.
 
     Notes
     -----
-    Source: P5.5 and the rule before Table 5.6. The charts of the National Pool League are
-    those of games=(N - 3, N - 1) and weaker_least=2, nearly row by row.
+    Source: P5.5 and the rule before Table 5.6. With games=(N - 3, N - 1) and weaker_least=2 it
+    gives the charts of the National Pool League, nearly row by row.
 
     >>> chart = nearest_chart("npl", RaceLimits((5, 7), weaker_least=2), up_to=49)
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
     [(0, 4, 4), (7, 4, 3), (20, 5, 3), (29, 4, 2), (40, 5, 2), (49, 6, 2)]
     """
-    return Candidates(play_of(play), limits, up_to).nearest(name)
+    return Candidates(match_rules(rules), limits, up_to).nearest(name)

@@ -1,8 +1,8 @@
 """The races that come nearest to the chance that a player should have.
 
-All races up to a length are worth knowing at once: W(m, n), player 1's chance when he
-needs m games and player 2 needs n, follows from W(m - 1, n) and W(m, n - 1), with who
-breaks next where the break matters: all races that can last L games from those of L - 1.
+All races up to a given length are solved together. W(m, n), the chance of player 1 if player 1
+needs m games and player 2 needs n, follows from W(m - 1, n) and W(m, n - 1), and from who breaks
+next where the break matters; so all races that can last L games follow from those of L - 1.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from evenbreak.checks import one_of, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
+from evenbreak.handicaps.charts.race_limits import games_range
 from evenbreak.matches.races import next_breaks, race_odds
 
 _TIE = 1e-9
@@ -23,7 +24,7 @@ _TIE = 1e-9
 
 @dataclass(frozen=True)
 class FairRace:
-    """One race and what it comes to.
+    """One race with its chance and its length.
 
     Parameters
     ----------
@@ -45,17 +46,19 @@ class FairRace:
 
 
 class _Fixed(NamedTuple):
-    """What one of the two players needs, whatever the other does."""
+    """The games that one of the two players needs in all races."""
 
     player: int
     games: int
 
     def m(self, longest: int) -> int:
-        """Return what player 1 needs in the race that can last so long."""
+        """Return what player 1 needs in the race that can last `longest` games."""
         return self.games if self.player == 1 else longest + 1 - self.games
 
 
-class _Candidate(NamedTuple):
+class Candidate(NamedTuple):
+    """The race m:n, its longest match, and how far its chance is from the target."""
+
     distance: float
     longest: int
     m: int
@@ -77,15 +80,15 @@ def fair_races(
     Parameters
     ----------
     rack
-        who wins a game: a `Rack`, or P(player 1 wins a game) where the break does not
+        the chances in a game: a `Rack`, or P(player 1 wins a game) where the break does not
         matter.
     games
-        (lo, hi): the races m:n with lo <= m + n - 1 <= hi, the longest they can last.
+        (lo, hi): the races m:n whose longest match, m + n - 1 games, has lo to hi games.
     race_to
-        instead: what the stronger player needs (player 1, if the two are equal); the
-        weaker needs as many at most.
+        instead: what the stronger player needs (player 1, if the two are equal); the weaker
+        player needs at most as many.
     target
-        P(player 1 wins the race) that is aimed at.
+        the P(player 1 wins the race) to aim at.
     top
         how many races to return; fewer if there are no more.
     breaks
@@ -96,14 +99,13 @@ def fair_races(
     Returns
     -------
     list of FairRace
-        by the distance from the target; of races within 1e-9 of each other's distance
-        the shortest first (by the longest they can last), then the smaller `race_1`.
+        by distance from the target. Where distances are equal within 1e-9, the race with
+        the shortest longest match comes first, then the one with the smaller `race_1`.
 
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have, or not just one of `games` and
-        `race_to` is given.
+        if a parameter is out of range, or not exactly one of `games` and `race_to` is given.
 
     Notes
     -----
@@ -123,14 +125,8 @@ def fair_races(
         raise InputError("breaks is missing: with p2 the break matters; give winner_breaks, ...")
     one_of(first_breaker, "first_breaker", (1, 2))
     target, top = probability(target, "target"), whole(top, "top", at_least=1)
-    if (games is None) == (race_to is None):
-        raise InputError(f"games is {games!r} and race_to is {race_to!r}; give just one of the two")
-    if games is None:
-        fixed = _Fixed(_stronger(rack), whole(race_to, "race_to", at_least=1))
-        low, high = fixed.games, 2 * fixed.games - 1
-    else:
-        fixed = None
-        low, high = _span(games)
+    low, high = longest_matches(games, race_to)
+    fixed = None if race_to is None else _Fixed(_stronger(rack), low)
     rows = _win_rows(rack, high, breaks, first_breaker)
     return [
         _describe(rack, m, n, breaks, first_breaker)
@@ -139,28 +135,43 @@ def fair_races(
 
 
 def _stronger(rack: Rack) -> int:
-    """Return the stronger player, 1 if they are equal."""
-    # With p2 given, player 1 is the stronger if he holds his break more often.
+    """Return the stronger player; 1 if they are equal."""
+    # With p2 given, it is the one who wins more often on their own break.
     even = rack.chance(2) if rack.p2 is None else rack.p2
     return 1 if rack.p1 >= even else 2
 
 
-def _span(games: tuple[int, int] | None) -> tuple[int, int]:
-    if games is None or len(games) != 2:
-        raise InputError(f"games is {games!r}; give the pair (lo, hi)")
-    low, high = (whole(limit, "games", at_least=1) for limit in games)
-    if low > high:
-        raise InputError(f"games is {games!r}; give the smaller number first")
-    return low, high
+def longest_matches(games: tuple[int, int] | None, race_to: int | None) -> tuple[int, int]:
+    """Return the fewest and the most games of the longest match in the races allowed.
+
+    Parameters
+    ----------
+    games, race_to
+        as for `fair_races`.
+
+    Raises
+    ------
+    InputError
+        if not exactly one of the two is given, or it is out of range.
+
+    >>> longest_matches(None, 7), longest_matches((7, 13), None)
+    ((7, 13), (7, 13))
+    """
+    if (games is None) == (race_to is None):
+        raise InputError(f"games is {games!r} and race_to is {race_to!r}; give exactly one of them")
+    if games is None:
+        needs = whole(race_to, "race_to", at_least=1)
+        return needs, 2 * needs - 1
+    return games_range(games)
 
 
 def _win_rows(
     rack: Rack, high: int, breaks: BreakFormat | None, first_breaker: int
 ) -> Iterator[list[float]]:
-    """Yield P(player 1 wins m:n) for m = 1, 2, ... and m + n - 1 = 1; then for 2, ... to `high`."""
+    """Yield P(player 1 wins m:n) for m = 1, 2, ...: first with m + n - 1 = 1, then 2, to `high`."""
     steps = next_breaks(rack, breaks)
     first = first_breaker - 1 if rack.break_matters else 0
-    # rows[b]: the chances when b breaks, from m = 0 (he has won) to n = 0 (he has lost).
+    # rows[b]: player 1's chances when b breaks, from m = 0 (won already) to n = 0 (lost).
     rows = [[1.0, 0.0] for _ in steps]
     for _ in range(high):
         rows = [
@@ -179,8 +190,8 @@ def _win_rows(
 
 def _nearest(
     rows: Iterable[list[float]], low: int, fixed: _Fixed | None, target: float, top: int
-) -> list[_Candidate]:
-    """Return the races nearest to the target in their order, `top` of them at least."""
+) -> list[Candidate]:
+    """Return at least `top` of the races nearest to the target, in order."""
     distances = [
         (longest, m, abs(row[m - 1] - target))
         for longest, row in enumerate(rows, start=1)
@@ -188,19 +199,19 @@ def _nearest(
         for m in (range(1, longest + 1) if fixed is None else [fixed.m(longest)])
     ]
     furthest = nsmallest(top, (distance for _, _, distance in distances))[-1] + _TIE
-    return _shortest_of_ties(
+    return shortest_of_ties(
         sorted(
-            _Candidate(distance, longest, m, longest + 1 - m)
+            Candidate(distance, longest, m, longest + 1 - m)
             for longest, m, distance in distances
             if distance <= furthest
         )
     )
 
 
-def _shortest_of_ties(candidates: list[_Candidate]) -> list[_Candidate]:
-    """Return sorted candidates with those of practically one distance the shortest first."""
-    ordered: list[_Candidate] = []
-    tied: list[_Candidate] = []
+def shortest_of_ties(candidates: list[Candidate]) -> list[Candidate]:
+    """Return sorted candidates, with the shortest first among those of practically one distance."""
+    ordered: list[Candidate] = []
+    tied: list[Candidate] = []
     for candidate in candidates:
         if tied and candidate.distance > tied[0].distance + _TIE:
             ordered += sorted(tied, key=lambda one: one[1:])
@@ -212,5 +223,5 @@ def _shortest_of_ties(candidates: list[_Candidate]) -> list[_Candidate]:
 def _describe(
     rack: Rack, m: int, n: int, breaks: BreakFormat | None, first_breaker: int
 ) -> FairRace:
-    law = race_odds(m, n, rack.p1, rack.p2, breaks, first_breaker)
+    law = race_odds(m, n, rack, breaks, first_breaker)
     return FairRace(m, n, law.p_win_1, law.mean, law.quantile(0.9))

@@ -1,4 +1,4 @@
-"""Charts of races of one length: whoever plays, the table is taken for as many games."""
+"""Charts of races of one length: every match can last equally many games."""
 
 from __future__ import annotations
 
@@ -13,43 +13,39 @@ from evenbreak.handicaps.charts.race_limits import RaceLimits
 _LONGEST = 999
 
 
-def fixed_length_chart(games: Any, scale: Any = "npl", *, name: str | None = None) -> Chart:
-    """Return the chart of the races that last so many games at most, each where it is most even.
+def fixed_length_chart(games: Any, scale: Any = "npl") -> Chart:
+    """Return the chart whose races all last at most a given number of games.
 
-    At each difference it has the race m:n with m + n - 1 = games whose chance to be won is
-    nearest 1/2. The chart ends with the race in which the weaker player needs one game.
+    At each difference it has the race m:n with m + n - 1 = games that is nearest to even. The
+    chart ends with the race in which the weaker player needs one game. For nine games it is
+    named 'fixed_9'.
 
     Parameters
     ----------
     games
-        the longest that a match may last, an odd whole number up to 999: with an even one two equal
-        players would have no even race.
+        the most games of a match, an odd whole number up to 999. An even number would leave
+        no even race for equal players.
     scale
         what differences mean: 'npl', 'fargo', 'elo', a `Scale`, or the points that double the
         odds.
-    name
-        what the chart is called; None: 'fixed_9' for nine games.
 
     Raises
     ------
     InputError
-        if games is not such a number, or there is no such scale.
+        if games is not such a number, or the scale is unknown.
 
     Notes
     -----
-    Source: the rule before Table 5.6, within one sum m + n.
+    Source: the rule before Table 5.6, for a single sum m + n.
 
     >>> chart = fixed_length_chart(5)
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
     [(0, 3, 3), (17, 4, 2), (56, 5, 1)]
     """
-    longest = whole(games, "games", at_least=1)
+    longest = whole(games, "games", at_least=1, at_most=_LONGEST)
     if longest % 2 == 0:
         raise InputError(
-            f"games is {longest}, in which two equal players have no even race; give "
+            f"games is {longest}, which leaves no even race for equal players; give "
             f"{longest - 1} or {longest + 1}"
         )
-    if longest > _LONGEST:
-        raise InputError(f"games is {longest}; give {_LONGEST} or less")
-    called = f"fixed_{longest}" if name is None else name
-    return nearest_chart(scale, RaceLimits((longest, longest)), name=called)
+    return nearest_chart(scale, RaceLimits((longest, longest)), name=f"fixed_{longest}")

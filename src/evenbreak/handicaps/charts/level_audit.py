@@ -1,8 +1,8 @@
-"""The audit of a chart of skill levels: the ratings that it takes the levels for, and how well.
+"""The audit of a chart by skill level: the ratings that it implies for the levels.
 
-The race of two levels is even at one gap in strength. If the chart were consistent, each level
-would have one rating, and every one of those gaps would be the difference of two ratings; least
-squares finds the ratings that come nearest to that.
+The race between two levels is even at one difference in strength. If the chart were consistent,
+each level would have a rating, and all those differences would be differences of two ratings.
+Least squares finds the ratings that come nearest to that.
 """
 
 from __future__ import annotations
@@ -12,9 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.handicaps.charts.audit import even_doublings
+from evenbreak.handicaps.charts.chart_of import level_chart_of
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale, scale_of
@@ -22,26 +23,26 @@ from evenbreak.ratings.scale import Scale, scale_of
 
 @dataclass(frozen=True)
 class LevelCell:
-    """What the race of two skill levels is worth.
+    """What the race between two skill levels is worth.
 
     Parameters
     ----------
     level, opponent_level, needs, opponent_needs
-        the two levels, the higher first, and the games that each needs.
+        the two levels, the higher one first, and the games that each needs.
     p_win_low, p_win_middle, p_win_high
-        P(the player of the higher level wins | the ratings of the two are as near to each
-        other as the levels allow, in the middle of the levels, as far apart as the levels
-        allow). Of two players of one level, the stronger is meant.
+        P(the player of the higher level wins) if the two players are as close as their
+        levels allow, in the middle of their levels, and as far apart as the levels allow.
+        For two players of the same level: P(the stronger wins).
     even_difference
         the difference in points at which the race is even.
     difference
-        the difference in points between the ratings of the two levels; what lies between
-        it and `even_difference` is what the chart gives to one of the two.
+        the difference in points between the ratings of the two levels; if it is smaller than
+        `even_difference`, the chart favours the lower level, if larger the higher.
     unfairness
-        `|p_win_middle - 1/2|`; of two players of one level, 0.
+        `|p_win_middle - 1/2|`; 0 for two players of the same level.
     monotone
-        whether the race is harder for the higher level than that against the next higher
-        opponent, and than that of the next lower level against the same opponent.
+        whether the race is harder for the higher level than the race against the next higher
+        opponent, and than the race of the next lower level against the same opponent.
     """
 
     level: int
@@ -59,21 +60,21 @@ class LevelCell:
 
 @dataclass(frozen=True)
 class LevelAudit:
-    """How fair a chart of skill levels is, and what it takes the levels for.
+    """How fair a chart by skill level is, and which ratings it implies.
 
     Parameters
     ----------
     name
-        what the chart is called.
+        the name of the chart.
     scale
-        the scale of the ratings; the chart itself tells none.
+        the scale of the ratings; the chart itself does not determine one.
     levels, ratings
-        the skill levels, and the rating of the middle of each in points, the lowest 0.
+        the skill levels, and the rating in the middle of each in points, 0 for the lowest.
     misfit
-        how far the gaps of the chart lie from the differences of these ratings, root mean
-        square over the pairs of different levels, in points.
+        how far the differences at which the races are even are from the differences of these
+        ratings (root mean square over the pairs of different levels), in points.
     cells
-        the pairs of levels, the higher of the two first.
+        the pairs of levels, the higher one first.
     """
 
     name: str
@@ -89,38 +90,37 @@ class LevelAudit:
         return max(self.cells, key=lambda cell: cell.unfairness)
 
 
-def audit_levels(chart: LevelChart, *, scale: Any = "npl") -> LevelAudit:
-    """Return how fair a chart of skill levels is, and the ratings that fit it best.
+def audit_levels(chart: LevelChart | str, *, scale: Any = "npl") -> LevelAudit:
+    """Return how fair a chart by skill level is, and the ratings that fit it best.
 
-    A level is taken to reach half-way to the next ones, the lowest and the highest as far to
-    the outside as to the inside.
+    Each level is assumed to reach halfway to its neighbours; the lowest and the highest reach
+    as far outwards as inwards.
 
     Parameters
     ----------
     chart
-        the chart.
+        the chart, or its name in `LEVEL_CHARTS`.
     scale
-        in which points to give the ratings: 'npl', 'fargo', 'elo', a `Scale` or the points
-        that double the odds. No chance depends on it.
+        the scale of the ratings: 'npl', 'fargo', 'elo', a `Scale` or the points that double
+        the odds. The chances do not depend on it.
 
     Raises
     ------
     InputError
-        if there is no such scale.
+        if the chart or the scale is unknown.
 
     Notes
     -----
-    The gap at which a race is even: P5.5. Every pair of levels weighs the same.
+    Where a race is even: P5.5. Every pair of levels has the same weight.
 
-    >>> from evenbreak.handicaps import level_chart
-    >>> report = audit_levels(level_chart("apa_8ball"), scale="fargo")
+    >>> report = audit_levels("apa_8ball", scale="fargo")
     >>> [round(rating) for rating in report.ratings]
     [0, 44, 101, 149, 184, 223]
     """
-    used = scale_of(scale)
+    used, chart = scale_of(scale), level_chart_of(chart)
     needs = np.array(chart.needs)
     even = even_doublings(needs, needs.T)
-    # With every pair there once, and even[j, i] = -even[i, j], the mean of a row is the
+    # Every pair counts once, and even[j, i] = -even[i, j]; so the mean of a row is the
     # least-squares rating of its level.
     strength = even.mean(axis=1)
     gaps = strength[:, None] - strength[None, :]
@@ -137,9 +137,7 @@ def audit_levels(chart: LevelChart, *, scale: Any = "npl") -> LevelAudit:
     )
 
 
-def _cells(
-    chart: LevelChart, even: NDArray[np.float64], strength: NDArray[np.float64], scale: Scale
-) -> Iterator[LevelCell]:
+def _cells(chart: LevelChart, even: Floats, strength: Floats, scale: Scale) -> Iterator[LevelCell]:
     half = np.diff(strength) / 2.0
     below, above = (np.r_[half[:1], half], np.r_[half, half[-1:]]) if len(half) else ([0.0],) * 2
     low, high = strength - below, strength + above

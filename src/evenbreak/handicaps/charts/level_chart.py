@@ -1,23 +1,23 @@
-"""Charts of skill levels: the levels of the two players say which race is played."""
+"""Charts by skill level: which race two players of given levels play."""
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from evenbreak.checks import whole
+from evenbreak.arrays import Ints
+from evenbreak.checks import together, whole, whole_numbers
 from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.rows import catalogue_rows
 
 LEVEL_CHARTS = {"apa_8ball": "APA 8-ball"}
-"""The charts of skill levels that come with the package: the title of each, by name."""
+"""The charts by skill level that come with the package: the title of each, by name."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +27,9 @@ class LevelChart:
     Parameters
     ----------
     name
-        what the chart is called.
+        the name of the chart.
     levels
-        the skill levels, rising whole numbers.
+        the skill levels, increasing whole numbers.
     needs
         `needs[i][j]`: the games that a player of level `levels[i]` needs against one of level
         `levels[j]`.
@@ -37,8 +37,8 @@ class LevelChart:
     Raises
     ------
     InputError
-        if the levels do not rise, `needs` is not a square of that size, or the higher of two
-        levels needs fewer games than the lower; it says which.
+        if the levels do not increase, `needs` is not a square of that size, or the higher of
+        two levels needs fewer games than the lower; the message says which.
 
     >>> two = LevelChart("two", [3, 4], [[2, 2], [3, 3]])
     >>> two.race(4, 3), two.race(3, 4), two.race(4, 4)
@@ -55,7 +55,7 @@ class LevelChart:
             raise InputError("levels is empty; give the skill levels of the chart")
         for below, above in pairwise(levels):
             if below >= above:
-                raise InputError(f"level {above} comes after {below}; give rising levels")
+                raise InputError(f"level {above} comes after {below}; give increasing levels")
         object.__setattr__(self, "levels", levels)
         object.__setattr__(self, "needs", _needs(self.needs, levels))
 
@@ -65,7 +65,7 @@ class LevelChart:
         Parameters
         ----------
         level_1, level_2
-            the skill levels of the two.
+            the skill levels of the two players.
 
         Raises
         ------
@@ -79,60 +79,45 @@ class LevelChart:
         ...
         evenbreak.errors.InputError: level_1 is 1; give a level of the chart: 2, 3, 4, 5, 6, 7
         """
-        i, j = self._place(level_1, "level_1"), self._place(level_2, "level_2")
+        wanted = self._wanted
+        mine = whole(level_1, "level_1", at_least=None, wanted=wanted)
+        theirs = whole(level_2, "level_2", at_least=None, wanted=wanted)
+        i, j = int(self._places(mine, "level_1")), int(self._places(theirs, "level_2"))
         return self.needs[i][j], self.needs[j][i]
 
-    def _place(self, level: Any, name: str) -> int:
-        try:
-            return self.levels.index(level)
-        except ValueError:  # of an array too: its comparisons have no one truth
-            raise InputError(f"{name} is {level!r}; {self._remedy}") from None
-
     @property
-    def _remedy(self) -> str:
-        return f"give a level of the chart: {', '.join(map(str, self.levels))}"
+    def _wanted(self) -> str:
+        return f"a level of the chart: {', '.join(map(str, self.levels))}"
 
-    def races(
-        self, levels_1: ArrayLike, levels_2: ArrayLike
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def races(self, levels_1: ArrayLike, levels_2: ArrayLike) -> tuple[Ints, Ints]:
         """Return (m, n), two arrays: the games that player 1 and player 2 need, elementwise.
 
         Parameters
         ----------
         levels_1, levels_2
-            the skill levels of the two, of shapes that broadcast together.
+            the skill levels of the two players, of shapes that broadcast together.
 
         Raises
         ------
         InputError
-            if the chart lacks one of the levels, or the shapes do not broadcast.
+            if the chart does not have one of the levels, or the shapes do not broadcast.
 
         >>> level_chart("apa_8ball").races([5, 3], 3)
         (array([4, 2]), array([2, 2]))
         """
         i, j = self._places(levels_1, "levels_1"), self._places(levels_2, "levels_2")
+        together(levels_1=i, levels_2=j)
         needs = np.array(self.needs)
-        try:
-            return needs[i, j], needs[j, i]
-        except IndexError:
-            raise InputError(
-                f"levels_1 and levels_2 have shapes {i.shape} and {j.shape}; "
-                "give shapes that broadcast together"
-            ) from None
+        return needs[i, j], needs[j, i]
 
-    def _places(self, levels: ArrayLike, name: str) -> NDArray[np.int64]:
+    def _places(self, levels: ArrayLike, name: str) -> Ints:
+        array = whole_numbers(levels, name, wanted=self._wanted)
         known = np.array(self.levels)
-        try:
-            array = np.asarray(levels)
-            numbers = array.dtype.kind in "iuf"
-        except ValueError:  # rows of different lengths
-            numbers = False
-        if not numbers:
-            raise InputError(f"{name} is {levels!r}; {self._remedy}")
         place = np.minimum(np.searchsorted(known, array), len(known) - 1)
         wrong = known[place] != array
         if wrong.any():
-            raise InputError(f"{name} holds {array[wrong].flat[0]}; {self._remedy}")
+            held = f"holds {array[wrong].flat[0]:g}" if array.ndim else f"is {levels!r}"
+            raise InputError(f"{name} {held}; give {self._wanted}")
         return place
 
 
@@ -141,8 +126,8 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
     rows = [tuple(row) if hasattr(row, "__iter__") else () for row in needs]
     if len(rows) != len(levels) or any(len(row) != len(levels) for row in rows):
         raise InputError(
-            f"needs is not a square for {len(levels)} levels; give a row for each level, "
-            "with the games needed against each level"
+            f"needs is not a square for {len(levels)} levels; give a row for each level, with "
+            "the games needed against each level"
         )
     square = tuple(
         tuple(
@@ -156,24 +141,24 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
             if square[i][j] < square[j][i]:
                 raise InputError(
                     f"level {higher} needs {square[i][j]} games against level {lower}, which "
-                    f"needs {square[j][i]}; the higher level needs as many at least"
+                    f"needs {square[j][i]}; the higher level must need at least as many"
                 )
     return square
 
 
 def level_chart(name: str) -> LevelChart:
-    """Return a chart of skill levels that comes with the package, by its name in `LEVEL_CHARTS`.
+    """Return a chart by skill level that comes with the package, by its name in `LEVEL_CHARTS`.
 
     `apa_8ball` is the American Poolplayers Association's chart for 8-ball.
 
     Raises
     ------
     InputError
-        if no chart of skill levels has this name.
+        if no chart by skill level has this name.
 
     Notes
     -----
-    Source: the chart of games that must be won, as leagues print it (APA 8-ball).
+    Source: the games-must-win chart for APA 8-ball, as leagues print it.
 
     >>> level_chart("apa_8ball").levels
     (2, 3, 4, 5, 6, 7)
@@ -185,10 +170,6 @@ def level_chart(name: str) -> LevelChart:
 
 @cache
 def _read(name: str) -> LevelChart:
-    text = (
-        files("evenbreak.handicaps.charts").joinpath("catalogue", f"{name}.csv").read_text("utf-8")
-    )
-    rows = [tuple(map(int, row)) for row in list(csv.reader(text.splitlines()))[1:]]
-    needs = {(own, other): games for own, other, games, _ in rows}
-    levels = sorted({row[0] for row in rows})
+    needs = {(own, other): games for own, other, games, _ in catalogue_rows(name)}
+    levels = sorted({own for own, _ in needs})
     return LevelChart(name, levels, [[needs[own, other] for other in levels] for own in levels])

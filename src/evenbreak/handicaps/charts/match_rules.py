@@ -1,19 +1,18 @@
-"""How the matches of a chart are played, and what each race comes to at each difference.
+"""How matches are won and who breaks, and the chance and length of each race at each difference.
 
-Arrays over races go down, arrays over differences across: shape (races, differences). Plain
-races have closed forms. With X the games that player 1 wins of the first k (as if all were played),
+Arrays have races down and differences across: shape (races, differences). Plain races have
+closed forms. With X the games that player 1 wins of the first k, if all of them were played,
 
     W(p; m, n) = I_p(m, n)
     E[games]   = (m / p) I_p(m + 1, n) + (n / q) I_q(n + 1, m)
     P(games <= k) = P(X >= m) + P(k - X >= n),  k < m + n - 1
 
-(the mean from k C(k - 1, m - 1) = m C(k, m)). Races that must be won by more, or in which
-the break counts, are played out one by one.
+(the mean follows from k C(k - 1, m - 1) = m C(k, m)). Races that must be won by more than one
+game, or in which the break matters, are solved one by one.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -22,7 +21,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import betainc
 
-from evenbreak.checks import whole
+from evenbreak.arrays import Floats
+from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.race import Race
@@ -33,15 +33,13 @@ from evenbreak.matches.quantiles import TIE
 from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.ratings.scale import Scale, scale_of
 
-Floats = NDArray[np.float64]
-
 _MOST_DOUBLINGS = 24.0
-"""No race that is listed is even at more doublings: 1000:1 is so at 10.5."""
+"""Every race is even at fewer doublings of the odds than this: 1000:1 at 10.5."""
 
 
 @dataclass(frozen=True)
-class Play:
-    """How the matches of a league are played.
+class MatchRules:
+    """How the matches of a league are won, who breaks, and what ratings mean.
 
     Parameters
     ----------
@@ -49,21 +47,20 @@ class Play:
         what rating differences mean: 'npl', 'fargo', 'elo', a `Scale`, or the points that
         double the odds.
     win_by
-        by how many games a race must be won; 1 is the plain race.
+        by how many games a race must be won; 1 for the plain race.
     breaks
         who breaks next; needed where `break_points` is not 0.
     break_points
-        what the break is worth: who breaks plays like one rated so many points higher. It
-        may be negative. Who breaks first is drawn by lot or lag, so that either does with
-        chance 1/2.
+        what the break is worth: the breaker plays like somebody rated that many points
+        higher (lower, if negative). Either player breaks first with chance 1/2.
 
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter is out of range.
 
-    >>> play = Play("npl")
-    >>> play.win([4, 2], [2, 1], [0, 30]).round(3).tolist()
+    >>> rules = MatchRules("npl")
+    >>> rules.win([4, 2], [2, 1], [0, 30]).round(3).tolist()
     [[0.188, 0.461], [0.25, 0.444]]
     """
 
@@ -75,8 +72,7 @@ class Play:
     def __post_init__(self) -> None:
         object.__setattr__(self, "scale", scale_of(self.scale))
         object.__setattr__(self, "win_by", whole(self.win_by, "win_by", at_least=1))
-        if not (isinstance(self.break_points, int | float) and math.isfinite(self.break_points)):
-            raise InputError(f"break_points is {self.break_points!r}; give a finite number")
+        number(self.break_points, "break_points")
         if self.break_points and self.breaks is None:
             raise InputError(
                 "breaks is missing: with break_points the break matters; give winner_breaks, ..."
@@ -90,11 +86,11 @@ class Play:
 
     @property
     def is_plain(self) -> bool:
-        """Whether a match is a plain race in which the break does not count."""
+        """Whether a match is a plain race in which the break does not matter."""
         return self.win_by == 1 and not self.break_points
 
     def win(self, m: ArrayLike, n: ArrayLike, differences: ArrayLike) -> Floats:
-        """Return P(player 1 wins m:n | his rating is higher by each of the differences).
+        """Return P(player 1 wins m:n | player 1 is rated higher by each of the differences).
 
         Parameters
         ----------
@@ -133,7 +129,7 @@ class Play:
         return np.asarray(m * betainc(m + 1, n, p) / p + n * betainc(n + 1, m, q) / q)
 
     def ends_within(self, m: ArrayLike, n: ArrayLike, differences: ArrayLike, games: int) -> Floats:
-        """Return P(the match takes at most so many games), as `win` does."""
+        """Return P(the match takes at most `games` games), as `win` does."""
         points = np.asarray(differences, dtype=float)
         if not self.is_plain:
             return np.array(
@@ -162,7 +158,7 @@ class Play:
         return np.array([self._even_difference(*race) for race in _pairs(m, n)])
 
     def _even_difference(self, m: int, n: int) -> float:
-        """Narrow the place where W falls through 1/2 down, on a grid in a grid."""
+        """Find where W passes through 1/2, by grids within grids."""
         if m == n:
             return 0.0
         least = -_MOST_DOUBLINGS * self.points
@@ -174,13 +170,12 @@ class Play:
         return low + width / 2.0
 
     def _matches(self, m: int, n: int, points: Floats) -> list[Race]:
-        """Return the race at all differences, once for each player who may break first."""
+        """Return the race at all differences, once for each possible first breaker."""
         if not self.break_points:
-            return [Race(m, n, Rack(self.scale.win_probability(points)), win_by=self.win_by)]
-        rack = Rack(
-            self.scale.win_probability(points + self.break_points),
-            self.scale.win_probability(self.break_points - points),
-        )
+            return [Race(m, n, self.scale.rack(points), win_by=self.win_by)]
+        own = self.scale.rack(points + self.break_points)
+        other = self.scale.rack(self.break_points - points)
+        rack = Rack(own.p1, other.p1, q1=own.q1, q2=other.q1)
         return [
             Race(m, n, rack, breaks=self.breaks, first_breaker=first, win_by=self.win_by)
             for first in (1, 2)
@@ -195,13 +190,13 @@ class Play:
         return ended
 
 
-def play_of(play: Any) -> Play:
-    """Return a `Play`, or plain races on a scale.
+def match_rules(rules: Any) -> MatchRules:
+    """Return `rules` if it is a `MatchRules`, else those of plain races on that scale.
 
-    >>> play_of("fargo").points
+    >>> match_rules("fargo").points
     100.0
     """
-    return play if isinstance(play, Play) else Play(play)
+    return rules if isinstance(rules, MatchRules) else MatchRules(rules)
 
 
 def _columns(m: ArrayLike, n: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:

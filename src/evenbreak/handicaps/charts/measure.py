@@ -10,31 +10,31 @@ import numpy as np
 
 from evenbreak.checks import number_probability, whole
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.match_rules import play_of
+from evenbreak.handicaps.charts.chart_of import chart_of
+from evenbreak.handicaps.charts.match_rules import match_rules
 
 _TIE = 1e-9
 
 
 @dataclass(frozen=True)
 class ChartMeasure:
-    """How fair the matches of a chart are and how long, over all whole-point differences.
+    """How fair and how long the matches of a chart are, over all whole-point differences.
 
-    Each difference from 0 to `up_to` counts alike.
+    Every difference from 0 to `up_to` has the same weight.
 
     Parameters
     ----------
     up_to
         the largest difference, in points.
     mean_unfairness, worst_unfairness
-        mean and largest `|P(the stronger wins) - target|`. At 0 neither is the stronger, and
-        that counts as no unfairness.
+        mean and largest `|P(the stronger player wins) - target|`. At 0, where neither player
+        is the stronger, it counts as 0.
     worst_difference
-        where it is largest.
+        the difference at which it is largest.
     mean_games
         the mean length of a match.
     games_p90
-        within how many games 9 of 10 matches end, at whatever difference: the largest of
-        their 90 % quantiles.
+        the number of games within which 9 of 10 matches end, at every difference.
     """
 
     up_to: int
@@ -45,51 +45,50 @@ class ChartMeasure:
     games_p90: int
 
 
-def last_difference(chart: Chart, play: Any) -> int:
-    """Return the last whole-point difference at which the chart's last race favours the stronger.
+def last_difference(chart: Chart | str, rules: Any) -> int:
+    """Return the last whole-point difference at which the chart's last race is not too easy.
 
-    That is where the race of the row without an end is even: what a chart was made for.
+    There the race of the open-ended last row is even; beyond it the stronger player is the
+    favourite at every difference. It marks the range that a chart was made for.
 
-    >>> from evenbreak.handicaps import chart
-    >>> last_difference(chart("npl_8"), "npl")
+    >>> last_difference("npl_8", "npl")
     52
     """
-    row = chart.rows[-1]
-    even = float(play_of(play).even_differences([row.stronger_needs], [row.weaker_needs])[0])
+    row = chart_of(chart).rows[-1]
+    even = float(match_rules(rules).even_differences([row.stronger_needs], [row.weaker_needs])[0])
     return max(math.floor(even + _TIE), 1)
 
 
 def measure_chart(
-    chart: Chart, play: Any, *, up_to: int | None = None, target: float = 0.5
+    chart: Chart | str, rules: Any, *, up_to: int | None = None, target: float = 0.5
 ) -> ChartMeasure:
-    """Return how fair a chart's matches are and how long.
+    """Return how fair and how long a chart's matches are.
 
     Parameters
     ----------
     chart
-        a chart of rating differences.
-    play
-        what ratings mean and how matches are played, as `design` takes it.
+        a chart by rating difference, or its name in `CHARTS`.
+    rules
+        what ratings mean and how matches are played, as for `design`.
     up_to
-        the last difference that counts; None for `last_difference(chart, play)`.
+        the last difference that counts; None for `last_difference(chart, rules)`.
     target
         the chance that the stronger player should have.
 
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter is out of range.
 
-    >>> from evenbreak.handicaps import chart
-    >>> measured = measure_chart(chart("npl_10"), "npl")
+    >>> measured = measure_chart("npl_10", "npl")
     >>> round(measured.mean_unfairness, 4), round(measured.worst_unfairness, 4)
     (0.0288, 0.0817)
     >>> round(measured.mean_games, 2), measured.games_p90
     (6.68, 9)
     """
-    play = play_of(play)
+    rules, chart = match_rules(rules), chart_of(chart)
     target = number_probability(target, "target")
-    last = last_difference(chart, play) if up_to is None else whole(up_to, "up_to", at_least=1)
+    last = last_difference(chart, rules) if up_to is None else whole(up_to, "up_to", at_least=1)
     unfair, mean_games, games_p90 = [], [], 0
     for row in chart.rows:
         end = last if row.difference_to is None else min(last, row.difference_to)
@@ -97,9 +96,9 @@ def measure_chart(
             break
         points = np.arange(row.difference_from, end + 1)
         race = [row.stronger_needs], [row.weaker_needs]
-        unfair.append(np.abs(play.win(*race, points)[0] - target))
-        mean_games.append(play.mean_games(*race, points)[0])
-        games_p90 = max(games_p90, int(play.games_quantile(*row[2:], points, 0.9).max()))
+        unfair.append(np.abs(rules.win(*race, points)[0] - target))
+        mean_games.append(rules.mean_games(*race, points)[0])
+        games_p90 = max(games_p90, int(rules.games_quantile(*row[2:], points, 0.9).max()))
     missed = np.concatenate(unfair)
     missed[0] = 0.0
     return ChartMeasure(

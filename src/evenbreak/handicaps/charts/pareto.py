@@ -1,4 +1,4 @@
-"""What fairness costs in length: charts of which none is both fairer and shorter."""
+"""What fairness costs in length: the fairest charts for every length."""
 
 from __future__ import annotations
 
@@ -10,32 +10,33 @@ from itertools import count
 from typing import Any, NamedTuple
 
 from evenbreak.checks import one_of, whole
-from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.charts.cheapest_path import NoChartError
-from evenbreak.handicaps.charts.match_rules import play_of
+from evenbreak.handicaps.charts.design import races_to_try
+from evenbreak.handicaps.charts.match_rules import match_rules
 from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
 from evenbreak.handicaps.charts.race_limits import RaceLimits
 
 _TIE = 1e-9
 _STEP = 0.5
-"""Between the limits on the mean length, in games."""
+"""Games between one limit on the mean length and the next."""
 
 
 @dataclass(frozen=True)
 class ParetoChart:
-    """A chart among others, by unfairness and length.
+    """One chart of a list, with its unfairness and its length.
 
     Parameters
     ----------
     chart
-        the chart; a designed one is called by its limit ('games_p90 8' or 'mean_games 6.5'),
-        by 'fairest' where it has none, or by 'as npl_10' where it is no longer than that.
+        the chart; a designed one is named after its limit ('games_p90 8' or 'mean_games
+        6.5'), 'fairest' if it has none, or 'as npl_10' if it is no longer than that chart.
     measure
-        how fair it is and how long.
+        how fair and how long it is.
     beaten_by
-        the name of the fairest chart here that is no longer, by the mean and by the 90 %
-        length, and fairer, or as fair and shorter; None: nothing here beats it.
+        the name of the fairest chart of the list that is fairer and no longer, by the mean
+        and by the 90% length, or as fair and shorter; None if there is none.
     """
 
     chart: Chart
@@ -44,56 +45,57 @@ class ParetoChart:
 
 
 def pareto(
-    play: Any,
+    rules: Any,
     limits: RaceLimits,
     *,
-    beside: Sequence[Chart] = (),
+    beside: Sequence[Chart | str] = (),
     criterion: str = "mean",
     target: float = 0.5,
     up_to: int | None = None,
     rows: int | None = None,
+    spread: int | None = None,
     watch: Callable[[int], object] | None = None,
 ) -> list[ParetoChart]:
-    """Return what fairness costs in length: the fairest charts, by how long they may be.
+    """Return what fairness costs in length: the fairest charts for every length.
 
     Parameters
     ----------
-    play, limits, target
-        as `design` takes them.
+    rules, limits, target
+        as for `design`.
     beside
-        printed charts to place among them. To each belongs 'as' its name: the fairest
-        chart that the limits allow and that is no longer.
+        printed charts, or their names in `CHARTS`, to place among them. Each is joined by the
+        fairest chart within the limits that is no longer, named 'as' with its name.
     criterion
         'mean' or 'worst': which unfairness counts.
     up_to
-        the last difference that counts; None for the last at which every chart beside still
-        favours the weaker (or, without one, the hardest allowed race).
+        the last difference that counts; None for the smallest `last_difference` of the charts
+        beside (without any, where the hardest allowed race is even).
     rows
         the most rows of a designed chart; None for any number.
+    spread
+        how much the longest matches of a designed chart may differ, as for `design`.
     watch
-        called after each chart designed, with how many there are so far.
+        called after each chart designed, with the number of charts so far.
 
     Returns
     -------
     list of ParetoChart
-        by their mean length, the longest first: the fairest chart of all; the fairest by
-        each limit on the 90 % length; by limits on the mean length, half a game apart; and
-        the charts beside. Of the designed charts those are left out that another one beats.
+        by their mean length, the longest first: the fairest chart of all; the fairest for
+        each limit on the 90% length; for limits on the mean length, half a game apart; and
+        the charts beside. A designed chart that another one beats is left out.
 
     Raises
     ------
     InputError
         as `design` does.
 
-    >>> from evenbreak.handicaps import chart
-    >>> npl_8 = chart("npl_8")
-    >>> for one in pareto("npl", RaceLimits((5, 7), weaker_least=2), beside=[npl_8])[:4]:
-    ...     told = one.measure
+    >>> for one in pareto("npl", RaceLimits((5, 7), weaker_least=2), beside=["npl_8"])[:4]:
+    ...     found = one.measure
     ...     print(
     ...         one.chart.name,
-    ...         round(told.mean_unfairness, 4),
-    ...         round(told.mean_games, 2),
-    ...         told.games_p90,
+    ...         round(found.mean_unfairness, 4),
+    ...         round(found.mean_games, 2),
+    ...         found.games_p90,
     ...         one.beaten_by,
     ...     )
     npl_8 0.0306 5.1 7 fairest
@@ -101,17 +103,17 @@ def pareto(
     games_p90 6 0.0424 4.54 6 None
     mean_games 4.5 0.0429 4.46 7 None
     """
-    play = play_of(play)
+    rules, charts = match_rules(rules), [chart_of(chart) for chart in beside]
     criterion = one_of(criterion, "criterion", ("mean", "worst"))
-    if up_to is None and beside:
-        up_to = min(last_difference(chart, play) for chart in beside)
+    if up_to is None and charts:
+        up_to = min(last_difference(chart, rules) for chart in charts)
     elif up_to is not None:
         up_to = whole(up_to, "up_to", at_least=1)
-    candidates = Candidates(play, limits, up_to)
+    candidates = races_to_try(rules, limits, spread, up_to)
     last = int(candidates.points[-1])
 
     def measured(chart: Chart) -> _Measured:
-        return _Measured(chart, measure_chart(chart, play, up_to=last, target=target))
+        return _Measured(chart, measure_chart(chart, rules, up_to=last, target=target))
 
     designed = count(1)
 
@@ -122,15 +124,14 @@ def pareto(
         return measured(one)
 
     made = [fairest(), *_shorter_and_shorter(fairest)]
-    printed = [measured(chart) for chart in beside]
+    printed = [measured(chart) for chart in charts]
     for one in printed:
-        with suppress(NoChartError):  # the limits allow none that is as short
-            told = one.measure
+        with suppress(NoChartError):  # no chart within the limits is that short
             made.append(
                 fairest(
                     f"as {one.chart.name}",
-                    mean_games=told.mean_games + _TIE,
-                    games_p90=told.games_p90,
+                    mean_games=one.measure.mean_games + _TIE,
+                    games_p90=one.measure.games_p90,
                 )
             )
     every = [*printed, *_without_copies(made)]
@@ -146,14 +147,14 @@ class _Measured(NamedTuple):
     measure: ChartMeasure
 
     def bad(self, criterion: str) -> tuple[float, float, int]:
-        """Return what should be small: unfairness, mean and 90 % length."""
-        told = self.measure
-        unfair = told.mean_unfairness if criterion == "mean" else told.worst_unfairness
-        return unfair, told.mean_games, told.games_p90
+        """Return what should be small: unfairness, mean and 90% length."""
+        found = self.measure
+        unfair = found.mean_unfairness if criterion == "mean" else found.worst_unfairness
+        return unfair, found.mean_games, found.games_p90
 
 
 def _shorter_and_shorter(fairest: Callable[..., _Measured]) -> Iterator[_Measured]:
-    """Yield the fairest charts under tighter and tighter limits, of either kind."""
+    """Yield the fairest charts under tighter and tighter limits on either length."""
     longest = fairest().measure
     with suppress(NoChartError):
         games = longest.games_p90
@@ -170,12 +171,12 @@ def _shorter_and_shorter(fairest: Callable[..., _Measured]) -> Iterator[_Measure
 
 
 def _without_copies(made: Sequence[_Measured]) -> list[_Measured]:
-    """Return the charts, the first of those with the same rows."""
+    """Return the charts, only the first of those with the same rows."""
     return list({tuple(one.chart.rows): one for one in reversed(made)}.values())[::-1]
 
 
 def _beaten_by(one: _Measured, every: Sequence[_Measured], criterion: str) -> str | None:
-    """Return the name of the fairest chart that is nowhere worse and somewhere better."""
+    """Return the name of the fairest chart that is better in one respect and worse in none."""
     bad = one.bad(criterion)
     better = [
         (other.bad(criterion), other.chart.name)

@@ -3,9 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
+
+
+def games_range(games: Any) -> tuple[int, int]:
+    """Return the pair (lo, hi) if it holds two whole numbers, the smaller first.
+
+    >>> games_range((5, 7))
+    (5, 7)
+    """
+    if not isinstance(games, tuple | list) or len(games) != 2:
+        raise InputError(f"games is {games!r}; give the pair (lo, hi)")
+    low, high = (whole(limit, "games", at_least=1) for limit in games)
+    if low > high:
+        raise InputError(f"games is {games!r}; give the smaller number first")
+    return low, high
 
 
 @dataclass(frozen=True)
@@ -15,20 +30,20 @@ class RaceLimits:
     Parameters
     ----------
     games
-        (lo, hi): the races m:n with lo <= m + n - 1 <= hi, the longest they can last (won
-        by 1).
+        (lo, hi): the races m:n whose longest match, m + n - 1 games if won by 1, has lo to
+        hi games.
     stronger_least, weaker_least
         the fewest games that the stronger and the weaker player may need. The stronger
-        never needs fewer than the weaker.
+        player never needs fewer than the weaker.
     games_p90
-        within how many games 9 of 10 matches must end, at every difference; None for no
-        such limit.
+        the number of games within which 9 of 10 matches must end, at every difference;
+        None for no such limit.
 
     Raises
     ------
     InputError
-        if a limit is not a whole number from 1 on, `lo` is above `hi`, or no race between
-        equal players is left.
+        if a limit is not a whole number from 1 up, `lo` is above `hi`, or no even race is
+        left.
 
     >>> RaceLimits((5, 7), weaker_least=3).races
     ((3, 3), (4, 3), (4, 4), (5, 3))
@@ -40,11 +55,7 @@ class RaceLimits:
     games_p90: int | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.games, tuple | list) or len(self.games) != 2:
-            raise InputError(f"games is {self.games!r}; give the pair (lo, hi)")
-        low, high = (whole(limit, "games", at_least=1) for limit in self.games)
-        if low > high:
-            raise InputError(f"games is {self.games!r}; give the smaller number first")
+        low, high = games_range(self.games)
         object.__setattr__(self, "games", (low, high))
         for name in ("stronger_least", "weaker_least"):
             object.__setattr__(self, name, whole(getattr(self, name), name, at_least=1))
@@ -54,13 +65,13 @@ class RaceLimits:
         if max(least, (low + 2) // 2) > (high + 1) // 2:
             shortest = max(2 * least - 1, low + 1 - low % 2)
             raise InputError(
-                f"games is {self.games!r}, and no even race within them lets each player need "
-                f"{least} or more; give a second number of {shortest} or more"
+                f"games is {self.games!r}, which leaves no even race to {least} or more; give a "
+                f"second number of {shortest} or more"
             )
 
     @property
     def races(self) -> tuple[tuple[int, int], ...]:
-        """The races (m, n), m of the stronger player, the shorter first."""
+        """The races (m, n), m for the stronger player, the shortest first."""
         low, high = self.games
         return tuple(
             (m, longest + 1 - m)

@@ -1,13 +1,14 @@
-"""Leagues that nobody enters or leaves: what players who meet only each other can come to.
+"""Leagues that nobody enters or leaves.
 
-A ladder has opponents without end, whose errors have nothing to do with the player's own. In a
-closed league the points that one wins another has lost, and who began together moves together:
+A ladder has an endless supply of opponents whose errors have nothing to do with the player's own.
+In a closed league the points that one player wins another has lost, and players who started
+together move together:
 
-- two players who meet only each other: the sum of their ratings stays, so the two errors are
-  opposite, and the difference of the ratings is a chain on a line;
-- many players who began with the right ratings and all play every night: by moves of one point
-  either way all errors are even after an even number of nights and odd after an odd one, so a
-  rating difference is always even.
+- two players who meet only each other: the sum of their ratings stays the same, so the two errors
+  are opposite, and the difference of the ratings is a chain on a line;
+- many players who started with the right ratings and all play every night: with moves of one
+  point either way all errors are even after an even number of nights and odd after an odd one, so
+  rating differences are always even.
 """
 
 from __future__ import annotations
@@ -15,10 +16,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -28,16 +30,13 @@ from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.handicaps.systems.match_table import MatchTable, match_table
 from evenbreak.stats.summary import Distribution
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
 _SETTLED = 1e-14
 _ROUNDS = 1000
 
 
 @dataclass(frozen=True)
 class ClosedPair:
-    """Two players who play match after match against each other and nobody else.
+    """Two players who play only each other, match after match.
 
     It is a game without an end: a state is the rating of player 1 less that of player 2, in
     whole points, from -widest to widest; a match that would lead beyond moves nobody.
@@ -45,26 +44,26 @@ class ClosedPair:
     Parameters
     ----------
     system
-        by which the ratings move: a `System` or its name.
+        how the ratings move: a `System` or its name.
     chart
         the races by rating difference; None: the system's own.
     skill_difference
         player 1's skill less player 2's, in points.
     start
-        the difference of the ratings at first, in whole points.
+        the difference of the ratings at the start, in whole points.
     widest
         the largest difference, in points; None: as `match_table` has it.
 
     Raises
     ------
     InputError
-        if there is no such system, or a number is not such a one.
+        if there is no such system, or a number has a value that it cannot have.
 
     Notes
     -----
-    The pair of equal players that begins with equal ratings has the standard deviation 3.04
-    on chart 10, where an open ladder has 4.63: what one player is overrated by, the other is
-    underrated by, so that the chart sees twice the error.
+    A pair of equal players with equal ratings at the start has the standard deviation 3.04 on
+    chart 10, where an open ladder has 4.63: one player is over-rated by as much as the other is
+    under-rated, so the chart sees twice the error.
 
     >>> from evenbreak.handicaps import chart
     >>> pair = ClosedPair("npl", chart("npl_10"))
@@ -75,7 +74,7 @@ class ClosedPair:
     """
 
     system: Any
-    chart: Chart | None = None
+    chart: Chart | str | None = None
     _: KW_ONLY
     skill_difference: float = 0.0
     start: int = 0
@@ -97,7 +96,7 @@ class ClosedPair:
         return match_table(self.system, self.chart, widest=self.widest)
 
     @cached_property
-    def _chances(self) -> NDArray[np.float64]:
+    def _chances(self) -> Floats:
         return self.table.chances(self.system.scale.win_probability(self.skill_difference))
 
     def moves(self, state: int) -> Mapping[int, float]:
@@ -122,11 +121,11 @@ class ClosedPair:
         }
 
     def winner(self, state: int) -> None:  # noqa: ARG002
-        """Return None: the two go on for ever."""
+        """Return None: the two play on forever."""
         return
 
     def law(self) -> Distribution:
-        """Return the stochastic limit of the rating difference, begun at `start`."""
+        """Return the stochastic limit of the rating difference, from `start`."""
         limit: dict[Any, float] = dict(stochastic_limit(chain_of(self)))
         ordered = sorted(limit.items())
         return Distribution(tuple(x for x, _ in ordered), tuple(chance for _, chance in ordered))
@@ -134,30 +133,32 @@ class ClosedPair:
     def error_law(self) -> Distribution:
         """Return the stochastic limit of player 1's rating error, in points.
 
-        The sum of the two ratings is taken to be that of the two skills; player 2's error is
-        then the opposite of player 1's.
+        The sum of the two ratings is assumed to be that of the two skills, so that player 2's
+        error is the opposite of player 1's.
 
         Raises
         ------
         InputError
-            if the system does not keep the sum of the ratings.
+            if the sum of the ratings changes under the system.
         """
         if not self.system.conserving:
             raise InputError(
-                f"system is {self.system.name}, under which the sum of two ratings does not stay; "
-                "ask for the law of their difference"
+                f"system is {self.system.name}, under which the sum of two ratings changes; use "
+                "law(), the distribution of their difference"
             )
         law = self.law()
         errors = tuple((float(x) - self.skill_difference) / 2.0 for x in law.values)
         return Distribution(errors, law.probability)
 
 
-def in_step_law(system: Any, chart: Chart | None = None, *, widest: Any = None) -> Distribution:
-    """Return the law of rating errors in a closed league whose players began right together.
+def in_step_law(
+    system: Any, chart: Chart | str | None = None, *, widest: Any = None
+) -> Distribution:
+    """Return the rating errors in a closed league whose players all started correctly rated.
 
-    Many equal players begin with the right ratings, all of them play every night against
-    somebody drawn by lot, and no two errors are alike but in parity: given a player's error,
-    the opponent's is one of those that an even number of steps leads to.
+    Many equal players start with the right ratings, and every night all of them play somebody
+    drawn at random. Two errors have nothing in common but their parity: given a player's error,
+    the opponent's is one that differs from it by an even number of steps.
 
     Parameters
     ----------
@@ -170,14 +171,14 @@ def in_step_law(system: Any, chart: Chart | None = None, *, widest: Any = None) 
     ------
     InputError
         if moves may be even multiples of the smallest step, so that nothing keeps the players
-        in step, or the system does not conserve the sum of ratings.
+        in step, or the sum of ratings changes under the system.
     AccuracyError
-        if the law does not settle.
+        if the iteration does not converge.
 
     Notes
     -----
-    The law is the symmetric fixed point, as that of `Ladder` with equally skilled opponents; it
-    is the average over even and odd nights.
+    The result is the symmetric fixed point, as for `Ladder` with equally skilled opponents,
+    averaged over even and odd nights.
 
     >>> from evenbreak.handicaps import chart
     >>> round(in_step_law("npl", chart("npl_10")).sd, 2)
@@ -191,7 +192,7 @@ def in_step_law(system: Any, chart: Chart | None = None, *, widest: Any = None) 
     if not by.conserving or unit == 0 or not (steps // unit % 2).all():
         raise InputError(
             f"system is {by.name}, whose players do not stay in step; give one that moves both "
-            "players of a match by the same odd number of points, or ask for the law of a ladder"
+            "players of a match by the same odd number of points, or use a Ladder"
         )
     chances = table.chances(0.5)
     moved = np.stack([np.where(table.moves[..., 0] == step, chances, 0).sum(1) for step in steps])
@@ -203,9 +204,9 @@ def in_step_law(system: Any, chart: Chart | None = None, *, widest: Any = None) 
     for _ in range(_ROUNDS):
         met = in_step @ law
         after = long_run_law(steps // unit, ((by_pair @ law) / met).T)
-        # Rounding would tilt it, and a tilt grows: see docs/explanation/ladder.md.
+        # Rounding would make it lopsided, and that grows: see docs/explanation/ladder.md.
         after = (after + after[::-1]) / 2.0
         if np.abs(after - law).max() <= _SETTLED:
             return Distribution(tuple(errors.tolist()), tuple(after.tolist()))
         law = after
-    raise AccuracyError(f"the law still changes after {_ROUNDS} rounds; give another chart")
+    raise AccuracyError(f"the errors still change after {_ROUNDS} rounds; give another chart")

@@ -1,35 +1,30 @@
 """Systems side by side: how accurate they are, how fast, how fair, how long, how stable.
 
-Systems differ in their scale, so errors are told in points and in doublings of the odds: 30
+Systems differ in their scales, so errors are given in points and in doublings of the odds: 30
 points of the NPL are one doubling, and so are 100 of Fargo's.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.inflation import inflation
 from evenbreak.handicaps.ladders.ladder import Ladder
-from evenbreak.handicaps.ladders.opponent_pairs import meetings_of
+from evenbreak.handicaps.ladders.opponent_pairs import opponent_pairs_of
 from evenbreak.handicaps.ladders.opponents import EQUAL_SKILL, Opponents, stretched
 from evenbreak.handicaps.ladders.settling import settling
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE, better_off, unfairness
-from evenbreak.handicaps.systems.step import step_system
 from evenbreak.ratings.scale import SCALES
 
-if TYPE_CHECKING:
-    from evenbreak.handicaps.charts.chart import Chart
-
 NEAR = 1.0 / 6.0
-"""Settled is within so much of a doubling: 5 points of the NPL's 30."""
+"""A rating within this share of a doubling is settled: 5 points of the NPL's 30."""
 
 
 class SystemRow(NamedTuple):
-    """What is to be said of a system on a chart.
+    """A system on a chart in the long run.
 
     Parameters
     ----------
@@ -40,15 +35,15 @@ class SystemRow(NamedTuple):
         of the odds.
     settling_mean, settling_p90
         matches that a rating takes from one doubling too low to within a sixth of a doubling:
-        the mean, and how many are enough for nine in ten.
+        the mean, and the number that is enough for nine in ten.
     favourite
-        the mean chance to win of whoever is favoured by the errors; 0.5 is a fair night.
+        the mean chance to win of the player whom the errors favour; 0.5 is fair.
     clear_favourite
-        the share of matches in which the favourite has a chance of 60 % or more.
+        the share of matches in which the favourite has a chance of 60% or more.
     games
         the mean number of games in a match.
     inflation
-        points by which a match raises the sum of the two ratings, on average.
+        how many points a match adds to the sum of the two ratings, on average.
     """
 
     system: str
@@ -63,41 +58,20 @@ class SystemRow(NamedTuple):
     inflation: float
 
 
-class StepPoint(NamedTuple):
-    """What a step size is worth.
-
-    Parameters
-    ----------
-    step
-        points that each match moves a rating.
-    sd
-        the standard deviation of the rating error in the long run, in points.
-    settling_mean
-        matches that a rating takes on average from one doubling too low to within a sixth.
-    on_front
-        whether no other step listed is at least as good in both and better in one.
-    """
-
-    step: int
-    sd: float
-    settling_mean: float
-    on_front: bool
-
-
 def mean_games(ladder: Ladder) -> float:
-    """Return the mean number of games in a match of a player whose error has the ladder's law.
+    """Return the mean number of games in a match, over the ladder's rating errors.
 
     >>> from evenbreak.handicaps import chart
     >>> round(mean_games(Ladder("npl", chart("npl_10"))), 2)
     7.29
     """
-    meetings = meetings_of(ladder)
-    games = np.maximum(meetings.table.games, 0).sum(axis=2)
-    return float(np.asarray(ladder.law().probability, float) @ meetings.mean_of(games))
+    pairs = opponent_pairs_of(ladder)
+    games = np.maximum(pairs.table.games, 0).sum(axis=2)
+    return float(np.asarray(ladder.law().probability, float) @ pairs.mean_of(games))
 
 
-def system_row(ladder: Ladder) -> SystemRow:
-    """Return what is to be said of one ladder's system and chart, as `compare_systems` does."""
+def _row(ladder: Ladder) -> SystemRow:
+    """Return a ladder's row."""
     points = ladder.system.scale.points_per_doubling
     sd = ladder.law().sd
     settled = settling(ladder, -round(points), round(NEAR * points))
@@ -125,19 +99,19 @@ def compare_systems(
 ) -> list[SystemRow]:
     """Return a row for each system, in the order given.
 
-    All is exact but for rounding, and conditional on players whose skill stays.
+    Everything is exact up to rounding, and conditional on players whose skill does not change.
 
     Parameters
     ----------
     systems
         for each row a `System` or its name, or a pair of it and a `Chart` (None: its own).
     opponents
-        whom players meet; by default equally good ones whose ratings err as their own do.
-        Their points are those of the National Pool League's scale, 30 of which double the odds;
-        on other scales as many are taken as mean the same.
+        who players meet; by default equally good players with rating errors like their own.
+        Their points are those of the National Pool League's scale, 30 of which double the odds,
+        and are converted to the scale of each system.
     day_sd, match_sd
-        fluctuation of every player's form, in *doublings of the odds*, so that it is the same
-        for all scales.
+        how much every player's form varies, in *doublings of the odds*, so that it is the same
+        on all scales.
 
     Raises
     ------
@@ -148,7 +122,7 @@ def compare_systems(
 
     Notes
     -----
-    Settling is that of an established player: a newcomer schedule shortens it, see `settling`.
+    Settling is that of an established player; a newcomer schedule shortens it, see `settling`.
 
     >>> from evenbreak.handicaps import chart
     >>> for row in compare_systems([("npl", chart("npl_8")), ("npl", chart("npl_20"))]):
@@ -167,60 +141,12 @@ def compare_systems(
             day_sd=day_sd * points,
             match_sd=match_sd * points,
         )
-        rows.append(system_row(ladder))
+        rows.append(_row(ladder))
     return rows
 
 
-def step_front(
-    steps: Iterable[int],
-    chart: Chart | None = None,
-    *,
-    opponents: Opponents = EQUAL_SKILL,
-) -> list[StepPoint]:
-    """Return what each step size is worth, and which are not beaten: the Pareto front.
-
-    A long step is soon where it should be, and does not stay there.
-
-    Parameters
-    ----------
-    steps
-        points a match, whole numbers from 1 on.
-    chart
-        the races by rating difference on the NPL's scale; None: the NPL's regular chart.
-    opponents
-        as in `compare_systems`.
-
-    Raises
-    ------
-    InputError
-        if there is no step, or one is not such a number.
-
-    Notes
-    -----
-    How soon a long step settles depends on where it lands: from 30 points too low both 5 and 6
-    take five wins more than losses, so that the shorter of them is better in both.
-
-    >>> for point in step_front([1, 2, 4]):
-    ...     print(point.step, round(point.sd, 2), round(point.settling_mean, 1), point.on_front)
-    1 4.42 62.7 True
-    2 6.22 31.9 True
-    4 9.03 16.8 True
-    """
-    listed, found = [], []
-    for step in steps:
-        ladder = Ladder(step_system(step), chart, opponents=opponents)
-        points = ladder.system.scale.points_per_doubling
-        mean = settling(ladder, -round(points), round(NEAR * points)).mean
-        listed.append(int(step))
-        found.append((ladder.law().sd, mean))
-    if not found:
-        raise InputError("steps is empty; give one step or more, such as 1")
-    front = zip(listed, found, on_front(found), strict=True)
-    return [StepPoint(step, *both, on_front=best) for step, both, best in front]
-
-
 def on_front(points: Sequence[tuple[float, float]]) -> list[bool]:
-    """Return which pairs no other pair beats: is at least as low in both, and lower in one.
+    """Return which pairs no other pair beats by being as low in both numbers and lower in one.
 
     >>> on_front([(4.4, 62.7), (10.0, 13.0), (11.0, 13.5)])
     [True, True, False]

@@ -1,36 +1,33 @@
-"""The chain of a ladder over all rating errors, whichever of them its start can reach.
+"""The chain of a ladder over all rating errors, whether or not its start can reach them.
 
-A ladder as a game begins at no error, and by steps of 3 it never comes to an error of 1. A
-newcomer may begin anywhere; so the chain here has every error from -widest to widest.
+As a game a ladder starts at no error, and with steps of 3 it never comes to an error of 1. A
+newcomer may start anywhere, so the chain here has every error from -widest to widest.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.chains import Chain, chain_from_arrays
-from evenbreak.errors import InputError
+from evenbreak.checks import whole
 from evenbreak.handicaps.ladders.error_walk import walk_matrix
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.ladder import Ladder
 
 
-def move_matrix(ladder: Ladder, factor: int = 1) -> NDArray[np.float64]:
+def move_matrix(ladder: Ladder, factor: int = 1) -> Floats:
     """Return P(error j after the match | error i before it), shape (errors, errors).
 
-    Rows are the errors before. Moves are multiplied by the factor of a newcomer. A move beyond
-    an end is not made.
+    Rows are the errors before. Moves are multiplied by a newcomer's factor; a move beyond an end
+    is not made.
     """
     if factor == 1 or not ladder.drift:
         return walk_matrix(ladder.steps * factor, ladder.kernel)
-    # The factor is one of the match's moves, not of the skill that grows meanwhile.
+    # The factor applies to the moves, not to the skill that grows meanwhile.
     steady = replace(ladder, drift=0.0)
     shift, chance = -np.sign(ladder.drift), abs(ladder.drift)
     grown = np.tile([1.0 - chance, chance], (len(ladder.errors), 1))
@@ -39,26 +36,26 @@ def move_matrix(ladder: Ladder, factor: int = 1) -> NDArray[np.float64]:
 
 
 def chain_of_errors(ladder: Ladder) -> Chain:
-    """Return the chain of a ladder, its states all errors in points in their order."""
+    """Return the chain of a ladder; its states are all errors in points, in order."""
     matrix = move_matrix(ladder)
     before, after = np.nonzero(matrix)
-    # Chances that add up to 1 may come out above it by a rounding.
+    # Chances that add up to 1 may exceed it by a rounding error.
     chances = np.minimum(matrix[before, after], 1.0)
     return chain_from_arrays(ladder.errors.tolist(), before, after, chances, start=0)
 
 
 def unit_of(ladder: Ladder) -> int:
-    """Return the number of points of which all moves that can happen are multiples."""
+    """Return the greatest common divisor of all moves that can happen, in points."""
     return math.gcd(*_moves(ladder))
 
 
 def period_of(ladder: Ladder) -> int:
-    """Return the period that the matches give the error, away from the ends.
+    """Return the period of the error away from the ends.
 
-    An error comes back to itself only after a multiple of so many matches: 2 by moves of +-1 or
-    +-3, 3 by +2 and -1, 4 by +1 and -3, 1 by moves of one and two points either way. All moves
-    have the same remainder by the common divisor of their differences. A skill that drifts is
-    left out: it breaks the period, but by a seldom point only slowly.
+    An error returns to itself only after a multiple of so many matches: 2 for moves of +-1 or
+    +-3, 3 for +2 and -1, 4 for +1 and -3, 1 for moves of one and two points either way. All moves
+    leave the same remainder modulo the common divisor of their differences. Drift of the skill is
+    ignored: it breaks the period, but only slowly, by a point now and then.
     """
     if ladder.drift:
         ladder = replace(ladder, drift=0.0, day_sd=0.0, match_sd=0.0)
@@ -80,14 +77,5 @@ def error_on(widest: int, start: Any, what: str = "rating error") -> int:
     InputError
         if it is none.
     """
-    try:
-        error = int(start)
-        right = bool(error == start) and not isinstance(start, str | bytes)
-    except (TypeError, ValueError, OverflowError):
-        right = False
-    if not right or abs(error) > widest:
-        raise InputError(
-            f"start is {start!r}; give a {what} in whole points from {-widest} to {widest}, or a "
-            "larger widest"
-        )
-    return error
+    wanted = f"a {what} in whole points from {-widest} to {widest}, or a larger widest"
+    return whole(start, "start", at_least=-widest, at_most=widest, wanted=wanted)

@@ -1,47 +1,54 @@
-"""The law of rating errors that goes with a law of the opponents, and that is the same as it.
+"""The rating-error distribution that reproduces itself when opponents are drawn from it.
 
-The players of a night draw their deviations at its beginning; in its k-th match all of them
-have the same joint law of error and deviation. A round of the iteration takes the law of errors
-at the beginning of a night, sends all players through it, and asks which law at the beginning
-is the same again at the end.
+Every player draws their form for a night at its start; before its k-th match all players have
+the same joint distribution of error and form. One round of the iteration takes the errors at the
+start of a night, sends all players through the night against each other, and finds the
+distribution that is the same at its end as at its start.
 
-Averaged over the matches of a night, P(move | error) is a chain whose stationary law is the
-average law exactly: what flows into an error in a night is what flows out of it.
+Averaged over the matches of a night, P(move | error) is a chain whose stationary distribution is
+exactly the average one: what flows into an error during a night also flows out of it.
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.ladders.error_walk import long_run_law
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.pairing import Pairing
-
-    Floats: TypeAlias = NDArray[np.float64]
+from evenbreak.handicaps.ladders.pairing import Pairing
 
 _SETTLED = 1e-13
 _ROUNDS = 300
 
 
-class Night(NamedTuple):
-    """The matches that players have on a night, and the law of their deviations on it."""
+class NightModel(NamedTuple):
+    """The matches of a night: what each brings, the chance of each form, and how many there are."""
 
     pairing: Pairing
     weights: Floats
     matches: int
 
 
-class Settled(NamedTuple):
-    """What a ladder comes to: P(move | error), P(win | error), and the two laws of errors."""
+class LongRun(NamedTuple):
+    """A ladder in the long run.
 
-    steps: NDArray[np.int64]
+    Parameters
+    ----------
+    steps, kernel
+        the moves, and P(move | error), shape (errors, steps).
+    wins
+        P(win | error), shape (errors,).
+    law, opponents
+        the distributions of the player's error and of the opponents', shape (errors,).
+    changes
+        the largest change of a probability in each round of the iteration.
+    """
+
+    steps: Ints
     kernel: Floats
     wins: Floats
     law: Floats
@@ -49,39 +56,40 @@ class Settled(NamedTuple):
     changes: tuple[float, ...]
 
 
-def settled(night: Night, error: Floats | None, drift: float, *, conserving: bool) -> Settled:
-    """Return the law of a player's errors, and of his opponents' if it is not given.
+def long_run(night: NightModel, error: Floats | None, drift: float, *, conserving: bool) -> LongRun:
+    """Return the long run of a player's errors, and of the opponents' if theirs is not given.
 
     Parameters
     ----------
     night
         the matches.
     error
-        the law of the opponents' error; None: that of a player without drift, made symmetric.
+        the distribution of the opponents' error; None: that of a player without drift, made
+        symmetric.
     drift
-        points by which the player's skill rises with each match on average.
+        how many points the player's skill rises with each match on average.
     conserving
         whether the winner gains what the loser loses.
 
     Raises
     ------
     AccuracyError
-        if the law does not settle.
+        if the iteration does not converge.
 
     Notes
     -----
-    Among symmetric laws each round brings the change down to a hundredth or so. But where
-    opponents are a little better on average than they are rated, the player falls below his
-    own skill by a little more: without the symmetry, rounding errors grow until the law swings
-    to and fro between two skewed ones.
+    Among symmetric distributions each round reduces the change to about a hundredth. But if the
+    opponents are slightly better on average than they are rated, the player falls below their
+    own skill by slightly more. Without the symmetry, rounding errors would grow in this way until
+    the iteration swings between two skewed distributions.
 
-    Where opponents err as the player does and the system makes all ratings rise, errors are
-    those beyond the mean error of the league: else no law would stay.
+    If opponents err as the player does and the system makes all ratings rise, errors are
+    measured from the league's mean error; otherwise they would rise forever.
     """
     pairing = night.pairing
     if error is not None:
         each = pairing.moves(np.outer(error, night.weights))
-        return _as_told(night, [each] * night.matches, drift, error, ())
+        return _average_over_night(night, [each] * night.matches, drift, error, ())
     exact = np.zeros(len(pairing.errors))
     exact[len(exact) // 2] = 1.0
     chances = [pairing.moves(np.outer(exact, night.weights))] * night.matches
@@ -97,23 +105,24 @@ def settled(night: Night, error: Floats | None, drift: float, *, conserving: boo
         begun = again
     if changes[-1] > _SETTLED:
         raise AccuracyError(
-            f"the law still changes by {changes[-1]:.3g} after {_ROUNDS} rounds; "
-            "give the opponents' error, or opponents=NATURAL, who are rated rightly"
+            f"the rating errors still change by {changes[-1]:.3g} after {_ROUNDS} rounds; give the "
+            "opponents' error, or opponents=NATURAL, who are correctly rated"
         )
-    league = _as_told(night, chances, pace, exact, tuple(changes[1:]))
+    league = _average_over_night(night, chances, pace, exact, tuple(changes[1:]))
     met = (league.law + league.law[::-1]) / 2.0
-    moving = _as_told(night, chances, pace + drift, met, league.changes) if drift else league
-    return moving._replace(opponents=met)
+    if drift:
+        league = _average_over_night(night, chances, pace + drift, met, league.changes)
+    return league._replace(opponents=met)
 
 
-def _as_told(
-    night: Night,
+def _average_over_night(
+    night: NightModel,
     chances: list[Floats],
     fall: float,
     opponents: Floats,
     changes: tuple[float, ...],
-) -> Settled:
-    """Return what a ladder comes to by these chances in each match of a night."""
+) -> LongRun:
+    """Return the average over a night's matches, given the chances in each of them."""
     steps = night.pairing.steps
     joint = [np.outer(_beginning(night, chances, fall), night.weights)]
     for each in chances[:-1]:
@@ -121,15 +130,15 @@ def _as_told(
     average = _average(chances, joint)
     steps, moves = _falling(steps, average[:-1], fall)
     law = np.mean([one.sum(axis=1) for one in joint], axis=0)
-    return Settled(steps, moves.T, average[-1], law, opponents, changes)
+    return LongRun(steps, moves.T, average[-1], law, opponents, changes)
 
 
 def _against_the_same(
-    night: Night, fall: float, begun: Floats
+    night: NightModel, fall: float, begun: Floats
 ) -> tuple[list[Floats], list[Floats]]:
-    """Return the chances in each match against players with the player's own law, made even.
+    """Return the chances in each match against players with the same errors, made symmetric.
 
-    Also the joint laws of error and deviation before each match, so made even.
+    Also return the joint distribution of error and form before each match, made symmetric.
     """
     chances, laws = [], []
     joint = np.outer(begun, night.weights)
@@ -141,11 +150,11 @@ def _against_the_same(
     return chances, laws
 
 
-def _beginning(night: Night, chances: list[Floats], fall: float) -> Floats:
-    """Return the law of the errors that is the same at the end of a night as at its beginning.
+def _beginning(night: NightModel, chances: list[Floats], fall: float) -> Floats:
+    """Return the distribution of errors that is the same at the end of a night as at its start.
 
-    A night is a walk by what its matches move in sum: P(sum | error, deviation) is worked out
-    match by match, and averaged over the deviation.
+    A night moves a rating by the sum of its matches: P(sum | error, form) is worked out match by
+    match and averaged over the form.
     """
     sums, moved = _falling(night.pairing.steps, chances[0][:-1], fall)
     for each in chances[1:]:
@@ -153,20 +162,18 @@ def _beginning(night: Night, chances: list[Floats], fall: float) -> Floats:
     return long_run_law(sums, (moved @ night.weights).T)
 
 
-def _one_match_more(
-    sums: NDArray[np.int64], moved: Floats, steps: NDArray[np.int64], chances: Floats
-) -> tuple[NDArray[np.int64], Floats]:
-    """Return the sums of moves, and their chances, after a match by these steps and chances.
+def _one_match_more(sums: Ints, moved: Floats, steps: Ints, chances: Floats) -> tuple[Ints, Floats]:
+    """Return the sums of moves, and their chances, after one more match.
 
-    An error beyond an end moves as it would at that end; it is held there at the end of the
-    night. Held at once, an even number of matches could move an error by an odd number of
-    points, and how often it does so in ages would decide between even and odd errors.
+    An error beyond an end moves as it would at that end, and is held there only at the end of
+    the night. If it were held at once, an even number of matches could move an error by an odd
+    number of points; that happens once in ages, but it would decide between even and odd errors.
     """
     many, far = moved.shape[1], int(np.abs(sums).max())
     reached = np.unique(sums[:, None] + steps)
     after = np.zeros((len(reached), *moved.shape[1:]))
     beyond = np.pad(chances, ((0, 0), (far, far), (0, 0)), mode="edge")
-    # Where moves are of many sizes this is most of the work: without copies it fits a cache.
+    # With moves of many sizes this is most of the work; without copies it fits a cache.
     both = np.empty(moved.shape[1:])
     for total, before in zip(sums.tolist(), moved, strict=True):
         here = beyond[:, far + total : far + total + many]
@@ -176,19 +183,19 @@ def _one_match_more(
 
 
 def _average(chances: list[Floats], joint: list[Floats]) -> Floats:
-    """Return P(move | error) on the average of the matches, and P(win | error) last."""
+    """Return P(move | error) averaged over the matches, and P(win | error) last."""
     flow = sum(
         ((each * law).sum(axis=2) for each, law in zip(chances, joint, strict=True)),
         start=np.zeros(chances[0].shape[:2]),
     )
     weight = np.sum(joint, axis=(0, 2))
     known = weight > 0.0
-    # Where a law is smaller than any float, one deviation is as good as another.
+    # Where the weight is smaller than any float, one form is as good as another.
     return np.where(known, flow / np.where(known, weight, 1.0), chances[0].mean(axis=2))
 
 
-def _after(joint: Floats, steps: NDArray[np.int64], chances: Floats) -> Floats:
-    """Return the joint law after a match; an error that would go beyond an end stays."""
+def _after(joint: Floats, steps: Ints, chances: Floats) -> Floats:
+    """Return the joint distribution after a match; an error that would pass an end stays."""
     after = np.zeros_like(joint)
     many = len(joint)
     for step, chance in zip(steps.tolist(), chances, strict=True):
@@ -200,10 +207,8 @@ def _after(joint: Floats, steps: NDArray[np.int64], chances: Floats) -> Floats:
     return after
 
 
-def _falling(
-    steps: NDArray[np.int64], chances: Floats, fall: float
-) -> tuple[NDArray[np.int64], Floats]:
-    """Return moves and chances if errors fall by so much besides, a whole point at a time.
+def _falling(steps: Ints, chances: Floats, fall: float) -> tuple[Ints, Floats]:
+    """Return moves and chances if errors also fall by `fall`, a whole point at a time.
 
     >>> _falling(np.array([-1, 1]), np.array([[0.5], [0.5]]), 0.25)[0].tolist()
     [-2, -1, 0, 1]
@@ -219,7 +224,7 @@ def _falling(
     return both, moved
 
 
-def _mean_move(night: Night, chances: list[Floats], joint: list[Floats]) -> float:
-    """Return the mean move of a rating, over the matches of a night."""
+def _mean_move(night: NightModel, chances: list[Floats], joint: list[Floats]) -> float:
+    """Return the mean move of a rating in a match of the night."""
     flow = _average(chances, joint)[:-1] @ np.mean([law.sum(axis=1) for law in joint], axis=0)
     return float(night.pairing.steps @ flow)

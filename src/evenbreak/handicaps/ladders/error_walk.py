@@ -1,4 +1,4 @@
-"""A rating error that moves with each match, as a game without an end, and its long-run law.
+"""A rating error that moves with each match, as a game without an end, and its long run.
 
 A move that would take the error beyond the end of the line is not made: the error stays.
 """
@@ -7,44 +7,39 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.chains.birth_death import birth_death_law
 from evenbreak.checks import number_probabilities
 from evenbreak.errors import InputError
 from evenbreak.game import ArcArrays
 from evenbreak.stats.summary import Distribution
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
 
 class ErrorWalk:
-    """What all ladders share: they are told by their moves and the chance of each at each error.
+    """What all ladders share; each defines its moves and the chance of each move at each error.
 
     It is a game without an end: a state is the rating error in whole points, from -widest to
-    widest, and it begins at 0.
+    widest, and it starts at 0.
     """
 
     @property
     @abstractmethod
-    def steps(self) -> NDArray[np.int64]:
-        """The moves that a match can bring, in points, from the lowest to the highest."""
+    def steps(self) -> Ints:
+        """The moves that a match can bring, in points, in increasing order."""
 
     @property
     @abstractmethod
-    def kernel(self) -> NDArray[np.float64]:
-        """P(move | error before the match); shape (errors, steps), before the ends hold it."""
+    def kernel(self) -> Floats:
+        """P(move | error before the match), shape (errors, steps), the ends not yet applied."""
 
     @property
-    def errors(self) -> NDArray[np.int64]:
+    def errors(self) -> Ints:
         """The rating errors, from -widest to widest."""
         half = len(self.kernel) // 2
         return np.arange(-half, half + 1)
@@ -80,7 +75,7 @@ class ErrorWalk:
     def arcs(self) -> ArcArrays | None:
         """Return the arcs in the order of the errors; None where not every error is reached."""
         steps, kernel = self.steps, self.kernel
-        # Beyond a certain win or loss there may be no way back to the start or out from it.
+        # Where a match is certainly won or lost there may be no way back to the start.
         if math.gcd(*steps.tolist()) != 1 or not (kernel > 0.0).all() or np.abs(steps).max() > 1:
             return None
         chances = walk_matrix(steps, kernel)
@@ -88,11 +83,11 @@ class ErrorWalk:
         return ArcArrays(self.errors.tolist(), sources, targets, chances[sources, targets])
 
     def law(self) -> Distribution:
-        """Return the law of the rating error in the long run: the stochastic limit.
+        """Return the distribution of the rating error in the long run: the stochastic limit.
 
-        Where all moves are multiples of a number g of points, no match takes an error from one
-        remainder by g to another. A skill knows nothing of g, so each remainder is equally
-        likely at the beginning; the law is the average over the g limits.
+        If all moves are multiples of g points, no match takes an error from one remainder
+        modulo g to another. The skill has nothing to do with g, so each remainder is equally
+        likely at the start; the result is the average of the g limits.
         """
         chances = long_run_law(self.steps, self.kernel)
         return Distribution(tuple(self.errors.tolist()), tuple(chances.tolist()))
@@ -100,12 +95,12 @@ class ErrorWalk:
 
 @dataclass(frozen=True)
 class RatingLadder(ErrorWalk):
-    """A ladder of your own: up a point with a match won, down a point with one lost.
+    """A ladder of your own: up a point for a match won, down a point for one lost.
 
     Parameters
     ----------
     wins
-        P(the player wins the match | his rating error is i), for i = -widest ... widest: an
+        P(the player wins the match | the rating error is i) for i = -widest ... widest: an
         odd number of chances, three or more.
 
     Raises
@@ -137,19 +132,19 @@ class RatingLadder(ErrorWalk):
         return len(self.wins) // 2
 
     @property
-    def steps(self) -> NDArray[np.int64]:
+    def steps(self) -> Ints:
         """A point down or a point up."""
         return np.array([-1, 1])
 
     @cached_property
-    def kernel(self) -> NDArray[np.float64]:
+    def kernel(self) -> Floats:
         """P(lost | error) and P(won | error); shape (errors, 2)."""
         wins = np.array(self.wins)
         return np.column_stack([1.0 - wins, wins])
 
 
-def long_run_law(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the stationary law of a walk by these moves; shape (errors,).
+def long_run_law(steps: Ints, kernel: Floats) -> Floats:
+    """Return the stationary distribution of a walk by these moves, shape (errors,).
 
     Parameters
     ----------
@@ -166,7 +161,7 @@ def long_run_law(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArr
     unit = math.gcd(*steps.tolist())
     law = np.zeros(len(kernel))
     if unit == 0:
-        raise InputError("no match moves a rating; give a system that moves by a point or more")
+        raise InputError("no match moves a rating; give a system that moves them by whole points")
     middle = len(kernel) // 2
     for first in range(unit):
         places = slice((middle + first) % unit, None, unit)
@@ -174,8 +169,8 @@ def long_run_law(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArr
     return law
 
 
-def _law_of_class(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the law of a walk whose moves have no common divisor."""
+def _law_of_class(steps: Ints, kernel: Floats) -> Floats:
+    """Return the stationary distribution of a walk whose moves have no common divisor."""
     if len(kernel) == 1:
         return np.ones(1)
     if np.abs(steps).max() == 1:
@@ -190,11 +185,11 @@ def _law_of_class(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDAr
     return _limit_from_the_middle(walk_matrix(steps, kernel))
 
 
-def _eliminated(matrix: NDArray[np.float64], band: int) -> NDArray[np.float64]:
-    """Return the stationary law by elimination without subtractions, row-stochastic as it is.
+def _eliminated(matrix: Floats, band: int) -> Floats:
+    """Return the stationary distribution of a row-stochastic matrix, without subtractions.
 
-    States are cut out from the highest down: what passes through one is handed on from those
-    below it to those below it (Grassmann, Taksar & Heyman 1985). Only the band is touched.
+    States are eliminated from the highest down: what passes through a state is passed on among
+    the states below it (Grassmann, Taksar & Heyman 1985). Only the band is touched.
     """
     many = len(matrix)
     left = np.ones(many)
@@ -214,8 +209,8 @@ def _eliminated(matrix: NDArray[np.float64], band: int) -> NDArray[np.float64]:
         return np.asarray(law / law.sum())
 
 
-def _limit_from_the_middle(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the limit, begun in the middle, of a walk with walls that no match crosses."""
+def _limit_from_the_middle(matrix: Floats) -> Floats:
+    """Return the limit, started in the middle, of a walk with walls that no match crosses."""
     from evenbreak.chains import chain_from_arrays, stochastic_limit
 
     matrix = np.minimum(matrix, 1.0)  # sums of chances may miss 1 by rounding
@@ -225,7 +220,7 @@ def _limit_from_the_middle(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(stochastic_limit(chain, many // 2).probability)
 
 
-def walk_matrix(steps: NDArray[np.int64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
+def walk_matrix(steps: Ints, kernel: Floats) -> Floats:
     """Return P(error j after the match | error i before it), shape (errors, errors).
 
     Rows are the errors before. A move that would lead beyond an end is not made.

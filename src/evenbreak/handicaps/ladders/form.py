@@ -1,31 +1,31 @@
-"""How much better or worse than his skill a player is today: normal, in whole points.
+"""Form: how much better or worse than their skill a player is today, normal, in whole points.
 
-Laws here are arrays over the whole points -k, ..., k; sums of independent deviations are
+Distributions are arrays over the whole points -k, ..., k. Sums of independent deviations are
 convolutions of such arrays, and so are averages of a smooth function over them.
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 from scipy.special import ndtr
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from evenbreak.arrays import Floats, Ints
 
 _FARTHEST = 8.3
-"""Standard deviations beyond which a normal law has no more than 1e-16."""
+"""Standard deviations beyond which a normal distribution has no more than 1e-16."""
+
 _FINE = 4.0
-"""Up to this many points of standard deviation a grid has every whole point."""
+"""Up to this standard deviation, in points, a grid has every whole point."""
+
 _FEW = 1 << 18
-"""Products up to which a sum is faster than a Fourier transform."""
+"""Up to this many products a sum is faster than a Fourier transform."""
 
 
-def deviations(sd: float) -> NDArray[np.float64]:
-    """Return the law of a normal deviation rounded to whole points, over -k, ..., k.
+def deviations(sd: float) -> Floats:
+    """Return the distribution of a normal deviation rounded to whole points, over -k, ..., k.
 
     >>> deviations(0.0), deviations(0.5)[3:8].round(4)
     (array([1.]), array([0.0013, 0.1573, 0.6827, 0.1573, 0.0013]))
@@ -33,17 +33,17 @@ def deviations(sd: float) -> NDArray[np.float64]:
     if sd < 0.01:  # no deviation rounds to a point then
         return np.ones(1)
     far = math.ceil(_FARTHEST * sd)
-    # Of the half below 0 no digit is lost, and the law is the same on both sides.
+    # Below 0 no digit is lost, and the two sides are alike.
     edges = ndtr((np.arange(-far, 1) - 0.5) / sd)
     below = np.diff(edges)
     law = np.concatenate([below, [2.0 * (0.5 - edges[-1])], below[::-1]])
     return np.asarray(law / law.sum())
 
 
-def difference_law(*sds: float) -> NDArray[np.float64]:
-    """Return the law of how much better one player's form is than another's, over -k, ..., k.
+def difference_law(*sds: float) -> Floats:
+    """Return the distribution of the difference of two players' forms, over -k, ..., k.
 
-    Each of the two has deviations of these standard deviations, all of them independent.
+    Each of the two has deviations with these standard deviations, all of them independent.
 
     >>> difference_law(0.0), difference_law(0.5)[8:13].round(4)
     (array([1.]), array([0.0266, 0.2152, 0.5156, 0.2152, 0.0266]))
@@ -54,14 +54,12 @@ def difference_law(*sds: float) -> NDArray[np.float64]:
     return law
 
 
-def deviation_grid(
-    law: NDArray[np.float64], doubling: float
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return points and chances that stand for a law over -k, ..., k in a mean over it.
+def deviation_grid(law: Floats, doubling: float) -> tuple[Ints, Floats]:
+    """Return points and weights that stand for a distribution over -k, ..., k in a mean.
 
-    Above 4 points of standard deviation the points are as far apart as half of it, or as half a
-    `doubling` of the odds if that is less: for a function as smooth as a chance to win the
-    trapezoidal rule is then exact to 1e-11.
+    Above a standard deviation of 4 points the spacing is half of it, or half a `doubling` of the
+    odds if that is less: for a function as smooth as a chance to win, the trapezoidal rule is
+    then exact to 1e-11.
 
     >>> points, chances = deviation_grid(deviations(8.0), 30.0)
     >>> len(points), round(float(chances @ points**2), 9)
@@ -75,12 +73,12 @@ def deviation_grid(
     return points, weights / weights.sum()
 
 
-def averages(values: NDArray[np.float64], law: NDArray[np.float64]) -> NDArray[np.float64]:
+def averages(values: Floats, law: Floats) -> Floats:
     """Return sum over k of law[k] values[..., i + k] for each i at which all of them are known.
 
     Notes
     -----
-    Few terms are added up; many go through a Fourier transform, whose error is some 1e-16 of
+    Few terms are added up; many go through a Fourier transform, whose error is about 1e-16 of
     the largest value.
 
     >>> averages(np.array([0.0, 1.0, 4.0, 9.0]), np.array([0.5, 0.5]))

@@ -1,25 +1,23 @@
-"""What happens to the sum of a league's ratings, and to ratings that skill runs away from.
+"""What happens to the sum of a league's ratings, and to ratings that a rising skill outruns.
 
-Where the winner gains what the loser loses, the sum of all ratings stays. The errors that
-newcomers bring then stay in the league for ever, spread over all of its players; only moves that
-are not answered by an opponent's can take them out. A newcomer's longer steps are such moves,
-and so is a system that gives the winner more than it takes from the loser: that adds to the sum
-with each match, and no match will ever tell.
+If the winner gains what the loser loses, the sum of all ratings stays the same. The errors that
+newcomers bring then stay in the league forever, spread over all players; only moves that the
+opponent's move does not balance can remove them. A newcomer's longer steps are such moves. So
+are the moves of a system that gives the winner more than it takes from the loser: they add to the
+sum with each match, and no result will ever show it.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.ladders.error_chain import error_on, move_matrix
-from evenbreak.handicaps.ladders.opponent_pairs import meetings_of
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.opponent_pairs import opponent_pairs_of
 
 _AT_THE_ENDS = 1e-6
 
@@ -30,12 +28,12 @@ class NewcomerInflation(NamedTuple):
     Parameters
     ----------
     brought
-        his rating error when he came.
+        the newcomer's rating error on arrival.
     made
-        what his longer steps are expected to add: the part of his moves that no opponent's
-        move answers.
+        what their longer steps are expected to add: the part of their moves that no opponent's
+        move balances.
     left
-        brought + made: what the league is left with, once he is established.
+        brought + made: what the league is left with once they are established.
     """
 
     brought: int
@@ -44,12 +42,12 @@ class NewcomerInflation(NamedTuple):
 
 
 class Lag(NamedTuple):
-    """How a rating follows a skill that grows.
+    """How a rating follows a rising skill.
 
     Parameters
     ----------
     drift
-        points that the skill rises with each match, on average.
+        how many points the skill rises with each match, on average.
     mean, sd
         of the rating error in the long run, in points; a negative mean is a rating that lags.
     """
@@ -60,31 +58,31 @@ class Lag(NamedTuple):
 
 
 def inflation(ladder: Ladder) -> float:
-    """Return by how much a match is expected to raise the sum of the two ratings, in points.
+    """Return how much a match raises the sum of the two ratings on average, in points.
 
-    The mean is over the matches of a player whose error has the ladder's law.
+    The mean is over the matches of a player whose error has the ladder's distribution.
 
     >>> from evenbreak.handicaps import Ladder
     >>> inflation(Ladder("npl")), round(inflation(Ladder("step 2 1")), 12)
     (0.0, 1.0)
     """
-    meetings = meetings_of(ladder)
-    both = meetings.mean_of(meetings.table.moves.sum(axis=2))
+    pairs = opponent_pairs_of(ladder)
+    both = pairs.mean_of(pairs.table.moves.sum(axis=2))
     return float(np.asarray(ladder.law().probability, dtype=float) @ both)
 
 
 def newcomer_inflation(ladder: Ladder, start: int) -> NewcomerInflation:
     """Return what a newcomer does to the sum of the league's rating errors.
 
-    Each mean is conditional on his error when he comes, and on established opponents as the
-    ladder has them.
+    Each mean is conditional on the error on arrival, and on established opponents as the ladder
+    has them.
 
     Parameters
     ----------
     ladder
-        how ratings move; its system says by how much longer a newcomer's steps are.
+        how ratings move; its system defines the newcomer's steps.
     start
-        the newcomer's rating less his skill, in whole points.
+        the newcomer's rating less their skill, in whole points.
 
     Raises
     ------
@@ -93,9 +91,9 @@ def newcomer_inflation(ladder: Ladder, start: int) -> NewcomerInflation:
 
     Notes
     -----
-    His k-th match moves him by f_k times what it moves an established player, and the opponent
-    once, so it adds (f_k - 1) times his mean move: a sum over the schedule, by propagating the
-    law of his error.
+    The k-th match moves a newcomer by f_k times what it moves an established player, and the
+    opponent once, so it adds (f_k - 1) times the newcomer's mean move: a sum over the schedule,
+    found by propagating the distribution of the error.
 
     >>> from evenbreak.handicaps import Ladder
     >>> weak = newcomer_inflation(Ladder("npl"), -30)
@@ -117,12 +115,12 @@ def newcomer_inflation(ladder: Ladder, start: int) -> NewcomerInflation:
 
 
 def lag(ladder: Ladder) -> Lag:
-    """Return how far the rating of a player lags whose skill drifts as the ladder says.
+    """Return how far the rating lags behind a skill that drifts as the ladder's does.
 
     Raises
     ------
     AccuracyError
-        if the ladder's ends hold the error: the skill runs away, or the ladder is too narrow.
+        if the ladder's ends hold the error: the skill outruns it, or the ladder is too narrow.
 
     >>> from evenbreak.handicaps import Ladder
     >>> following = lag(Ladder("npl", drift=0.1))
@@ -133,7 +131,8 @@ def lag(ladder: Ladder) -> Lag:
     share = float(law.probability[0] + law.probability[-1])
     if share > _AT_THE_ENDS:
         raise AccuracyError(
-            f"the ladder's ends hold the rating {share:.2g} of the time: the steps do not keep up "
-            f"with a drift of {ladder.drift:g} a match, or widest {ladder.widest} is too little"
+            f"the rating error is at the ladder's ends {share:.2g} of the time: the steps do not "
+            f"keep up with a drift of {ladder.drift:g} a match, or the ladder is too narrow; give "
+            f"a widest above {ladder.widest}"
         )
     return Lag(ladder.drift, law.mean, law.sd)

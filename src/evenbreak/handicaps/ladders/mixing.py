@@ -1,22 +1,24 @@
-"""How fast a ladder forgets where a rating began.
+"""How fast a ladder forgets where a rating started.
 
-By steps of one point either way an error is even after an even number of matches if it was even
-at first, for ever (but for the ends of the line, where it is once in ages): the chain has the
-period 2 and an eigenvalue at -1, or within rounding of it, and its powers do not settle. What
-settles is the average over two matches that follow each other. So the eigenvalue by -1 is set
-aside, and distances are those of the two-match average.
+With steps of one point either way an even error is even again after any even number of matches
+(except at the ends of the line, which are reached once in ages). The chain has the period 2 and an
+eigenvalue at -1, up to rounding, and its powers do not converge; the average over two successive
+matches does. So the eigenvalue near -1 is set aside, and distances are those of the two-match
+average.
 
-Other moves have other periods: up 2 points and down 1 has the period 3, with eigenvalues by all
-three roots of unity, and what settles is the average over three matches.
+Other moves have other periods: up 2 points and down 1 has the period 3, with eigenvalues near all
+three cube roots of unity, and the average over three matches converges.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import scipy.linalg
+from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.chains import stochastic_limit
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.ladders.error_chain import (
@@ -26,27 +28,23 @@ from evenbreak.handicaps.ladders.error_chain import (
     period_of,
     unit_of,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.handicaps.ladders.ladder import Ladder
 
 _MOST_MATCHES = 100_000
 
 
 def ladder_gap(ladder: Ladder) -> float:
-    """Return 1 minus the largest modulus of an eigenvalue, but for those of the period.
+    """Return the spectral gap: 1 minus the largest modulus of an eigenvalue.
 
-    Those are the ones by 1 and, by moves of a point either way, by -1. The distance of the average
-    over a period of matches from the limit falls like (1 - gap)^matches in the end, so that
-    log(2) / gap matches or so halve it.
+    The eigenvalues of the period are left out: the one near 1 and, with moves of a point either
+    way, the one near -1. The distance of the average over one period from the limit falls like
+    (1 - gap)^matches in the end, so about log(2) / gap matches halve it.
 
     Parameters
     ----------
     ladder
-        how the rating moves. Where all moves are multiples of some points, so are the errors that
-        count.
+        how the rating moves. If all moves are multiples of some number of points, only errors
+        that are multiples of it count.
 
     Raises
     ------
@@ -55,17 +53,17 @@ def ladder_gap(ladder: Ladder) -> float:
 
     Notes
     -----
-    Moves of one point either way have a spectrum that is symmetric about 0 but for the ends:
-    the gap is then 1 minus the largest eigenvalue below 1. The matrix is first scaled by the
-    roots of the limit, which makes that of a reversible chain symmetric and its eigenvalues
-    well conditioned. Source: Levin, Peres & Wilmer, Markov Chains and Mixing Times, chapter 12.
+    With moves of one point either way the spectrum is symmetric about 0 except for the ends, and
+    the gap is 1 minus the largest eigenvalue below 1. The matrix is first scaled by the square
+    roots of the limit, which makes a reversible chain symmetric and its eigenvalues well
+    conditioned. Source: Levin, Peres & Wilmer, Markov Chains and Mixing Times, chapter 12.
 
     >>> from evenbreak.handicaps import Ladder, chart
     >>> round(ladder_gap(Ladder("npl", chart("npl_10"))), 4)
     0.0217
     """
     law = np.asarray(ladder.law().probability, dtype=float)
-    # Errors that come about less often than this are beyond what any season will see.
+    # Errors rarer than this are never seen in any season.
     kept = (law > 1e-280) & (ladder.errors % max(unit_of(ladder), 1) == 0)
     root = np.sqrt(law[kept])
     scaled = move_matrix(ladder)[np.ix_(kept, kept)] * root[:, None] / root
@@ -81,18 +79,18 @@ def ladder_gap(ladder: Ladder) -> float:
     return gap
 
 
-def _eigenvalues(matrix: NDArray[np.float64]) -> NDArray[Any]:
+def _eigenvalues(matrix: Floats) -> NDArray[Any]:
     if np.abs(matrix - matrix.T).max() <= 1e-9:
         return np.asarray(scipy.linalg.eigvalsh((matrix + matrix.T) / 2.0))
     return np.asarray(scipy.linalg.eigvals(matrix))
 
 
 def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
-    """Return after how many matches a rating error is within `eps` of its limit law.
+    """Return after how many matches a rating error is within `eps` of the long run.
 
-    Within: in total variation, half the sum of the absolute differences, of the average over a
-    period of matches (that match and the next, by moves of a point either way); the law is
-    conditional on the error at the start, and the limit is that of errors begun there.
+    The distance is total variation, half the sum of the absolute differences, between the long
+    run and the average over one period of matches (that match and the next, with moves of a point
+    either way). Both are conditional on the error at the start.
 
     Parameters
     ----------
@@ -113,7 +111,7 @@ def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
     Notes
     -----
     Source: Levin, Peres & Wilmer, Markov Chains and Mixing Times, section 4.5. The distance
-    never grows, so that the first match within eps is the last one without.
+    never grows, so once within eps it stays there.
 
     >>> from evenbreak.handicaps import Ladder, chart
     >>> ladder = Ladder("npl", chart("npl_10"))
@@ -136,6 +134,6 @@ def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
             return matches
         average = matrix @ average
     raise AccuracyError(
-        f"the law is not within {eps:g} of its limit after {_MOST_MATCHES} matches; give a larger "
-        "eps"
+        f"the error is not within {eps:g} of the long run after {_MOST_MATCHES} matches; give a "
+        "larger eps"
     )

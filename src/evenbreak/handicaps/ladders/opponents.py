@@ -1,10 +1,10 @@
-"""Whom a player meets on a ladder: how good his opponents are, and how wrongly they are rated.
+"""Who a player meets on a ladder: how good the opponents are, and how far off their ratings are.
 
-An opponent has a skill and a rating, and his error is the rating less the skill. Two of the
-three are given, each by a law, and are independent of each other; the third follows.
+An opponent has a skill, a rating, and an error: the rating less the skill. Two of the three are
+given, each by a distribution, independent of each other; the third follows.
 
 Source: the two assumptions after Fig. 5.9 (opponents rated exactly; the autocorrelated model),
-and the distribution of actual and apparent ratings that is named there as a next step.
+and the distribution of actual and apparent ratings suggested there as a next step.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.checks import one_of
+from evenbreak.checks import floats, one_of
 from evenbreak.errors import InputError
 from evenbreak.stats.summary import Distribution
 
@@ -40,30 +40,30 @@ def farthest(law: Distribution) -> int:
 
 @dataclass(frozen=True)
 class Opponents:
-    """The opponents of a player, relative to his own skill.
+    """The opponents of a player, relative to the player's own skill.
 
     Parameters
     ----------
     spread
-        the law of an opponent's skill, or of his rating, less the player's skill, in whole
+        the distribution of an opponent's skill, or rating, less the player's skill, in whole
         points.
     error
-        the law of an opponent's rating error, his rating less his skill, in whole points,
-        whatever the spread says of him. None: the law that the player's own error has, made
-        symmetric; it is found self-consistently.
+        the distribution of an opponent's rating error, rating less skill, in whole points,
+        independent of the spread. None: that of the player's own error, made symmetric; it is
+        found self-consistently.
     given
-        'skill' or 'rating': which of the two the spread is the law of.
+        'skill' or 'rating': which of the two the spread is about.
 
     Raises
     ------
     InputError
-        if a value of a law is not a whole number, or `given` is neither word.
+        if a value of a distribution is not a whole number, or `given` is neither word.
 
     Notes
     -----
-    Given the skill, the rating is skill + error: two players of the same league, each rated a
-    bit wrong. Given the rating, the skill is rating - error: who sits across the table was
-    chosen by his rating, and nobody knows how good he is.
+    If the skill is given, the rating is skill + error: two players of the same league, each rated
+    a bit wrong. If the rating is given, the skill is rating - error: the opponent was chosen by
+    rating, and how good they are is unknown.
 
     >>> from evenbreak.stats import Distribution
     >>> around = Opponents(Distribution((-10, 0, 10), (0.25, 0.5, 0.25)))
@@ -83,18 +83,18 @@ class Opponents:
 
     @property
     def farthest(self) -> int:
-        """How far from the player's skill the spread goes, in points."""
+        """The largest distance of the spread from the player's skill, in points."""
         return farthest(self.spread)
 
 
 NATURAL = Opponents(error=_NOTHING)
-"""Opponents as good as the player and rated rightly: the natural law of Fig. 5.9."""
+"""Opponents as good as the player and correctly rated: the natural distribution of Fig. 5.9."""
 
 AUTOCORRELATED = Opponents(given="rating")
-"""Opponents rated at the player's skill, and in truth off by an error of his own law (model A)."""
+"""Opponents rated at the player's skill, with errors distributed like the player's (model A)."""
 
 EQUAL_SKILL = Opponents()
-"""Opponents as good as the player, each rated wrong by an error of his own law (model B)."""
+"""Opponents as good as the player, with errors distributed like the player's (model B)."""
 
 
 def opponents_of(
@@ -115,7 +115,7 @@ def opponents_of(
     given
         'rating' or 'skill': what `ratings` holds.
     error
-        the law of the opponents' rating errors; None: the player's own.
+        the distribution of the opponents' rating errors; None: the player's own.
 
     Raises
     ------
@@ -124,14 +124,14 @@ def opponents_of(
 
     Notes
     -----
-    Ratings are rounded to whole points before they are subtracted. That an opponent's error
-    does not depend on his rating is an assumption: in a league of much the same skill those
-    with the highest ratings are overrated more often than not.
+    Ratings are rounded to whole points before they are subtracted. That an opponent's error does
+    not depend on their rating is an assumption: among players of similar skill those with the
+    highest ratings are mostly over-rated.
 
     >>> opponents_of([70, 80, 80, 95], 80).spread.values
     (-10, 0, 15)
     """
-    points = np.rint(_finite(ratings, "ratings")) - np.rint(_finite(about, "about"))
+    points = np.rint(floats(ratings, "ratings")) - np.rint(floats(about, "about"))
     if not points.size:
         raise InputError("ratings is empty; give the rating of one opponent or more")
     values, counts = np.unique(points.ravel().astype(np.int64), return_counts=True)
@@ -139,7 +139,7 @@ def opponents_of(
 
 
 def stretched(opponents: Opponents, factor: float) -> Opponents:
-    """Return the same opponents on a scale on which so many times the points mean the same.
+    """Return the same opponents on a scale that has `factor` times as many points.
 
     >>> stretched(opponents_of([60, 80, 95], 80), 4).spread.values
     (-80, 0, 60)
@@ -154,14 +154,3 @@ def stretched(opponents: Opponents, factor: float) -> Opponents:
 
 def _stretched(law: Distribution, factor: float) -> Distribution:
     return Distribution.of([round(value * factor) for value in law.values], law.probability)
-
-
-def _finite(values: ArrayLike, name: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-    try:
-        array = np.asarray(values, dtype=float)
-        right = bool(np.isfinite(array).all())
-    except (TypeError, ValueError):
-        right = False
-    if not right:
-        raise InputError(f"{name} is {values!r}; give finite numbers of points")
-    return array

@@ -1,39 +1,35 @@
-r"""What a match brings a player at each rating error, against opponents of a given law.
+r"""What a match brings a player at each rating error, against a given distribution of opponents.
 
-Let the player's skill be 0, his rating error e, and his deviation on the night f. An opponent
-of rating r, error j and deviation g has the skill r - j, so that the two are
+Let the player's skill be 0, the rating error e, and the form on the night f. An opponent with
+rating r, error j and form g has the skill r - j, so the two are
 
     x = e - r           apart by their ratings: the race and the moves
     d = f - r + j - g   apart in truth: the chance of a game
 
-and P(move | e, f) is the sum over the opponents' law of P(move | x, d). Where the skill s is
-given, r = s + j: then x is a difference of e and j and d is none, so that the sum over (j, g)
-is a convolution over (e, f). Where the rating is given, only j - g counts, and the sum is a
-convolution over d. Deviations that a player does not keep for the night are averaged over
-beforehand.
+and P(move | e, f) is the sum over the opponents of P(move | x, d). If the skill s is given,
+r = s + j: then x depends on e - j and d on f - g, and the sum over (j, g) is a convolution over
+(e, f). If the rating is given, only j - g counts, and the sum is a convolution over d. Form that
+changes from match to match is averaged over beforehand.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.fft import irfftn, next_fast_len, rfftn
 
+from evenbreak.arrays import Floats, Ints
+from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.ladders.form import averages
 from evenbreak.handicaps.ladders.opponents import Opponents, farthest
 from evenbreak.handicaps.systems.match_table import MatchTable, known_table
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.handicaps.systems.system import System
+from evenbreak.handicaps.systems.system import System
 
 _FEW = 1 << 20
-"""Products up to which a sum is faster than a Fourier transform."""
+"""Up to this many products a sum is faster than a Fourier transform."""
 
 
 class Pairing(ABC):
@@ -46,12 +42,12 @@ class Pairing(ABC):
     widest
         the largest error.
     opponents
-        whom he meets.
+        who the player meets.
     blur
-        the law of the deviations that no player keeps for the night: of both, their difference;
-        over -k, ..., k.
+        the distribution of the difference of the two players' match-to-match form, over
+        -k, ..., k.
     days
-        the deviations f that a player may have for the night, evenly spaced, symmetric.
+        the forms f that a player may have for the night, evenly spaced, symmetric.
     """
 
     def __init__(
@@ -59,8 +55,8 @@ class Pairing(ABC):
         table: MatchTable,
         widest: int,
         opponents: Opponents,
-        blur: NDArray[np.float64],
-        days: NDArray[np.int64],
+        blur: Floats,
+        days: Ints,
     ) -> None:
         self.table = table
         self.errors = np.arange(-widest, widest + 1)
@@ -71,7 +67,7 @@ class Pairing(ABC):
         self.chance = np.array(opponents.spread.probability, dtype=float)
         real = table.games[..., 0] >= 0
         self.steps = np.unique(table.moves[..., 0][real])
-        first, self._race = _distinct(table.needs)
+        first, self._race = table.races
         self._races = replace(
             table,
             needs=table.needs[first],
@@ -83,23 +79,23 @@ class Pairing(ABC):
 
     @abstractmethod
     def _prepare(self) -> None:
-        """Work out what is the same for each law of the opponents."""
+        """Work out what does not depend on the opponents' errors."""
 
     @abstractmethod
-    def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return P(move | error, deviation) for each step, and P(win | error, deviation) last.
+    def moves(self, law: Floats) -> Floats:
+        """Return P(move | error, form) for each step, and P(win | error, form) last.
 
         Parameters
         ----------
         law
-            shape (errors, days): of the opponents' errors and deviations.
+            the joint distribution of the opponents' errors and forms, shape (errors, days).
 
         Returns
         -------
         array of shape (steps + 1, errors, days)
         """
 
-    def scores(self, low: int, high: int) -> NDArray[np.float64]:
+    def scores(self, low: int, high: int) -> Floats:
         """Return P(final score | race, skill difference), for differences from low to high.
 
         The chances are averaged over the blur; shape (races, outcomes, high - low + 1).
@@ -111,9 +107,9 @@ class Pairing(ABC):
 
     def add(
         self,
-        total: NDArray[np.float64],
-        ratings: NDArray[np.int64],
-        scores: NDArray[np.float64],
+        total: Floats,
+        ratings: Ints,
+        scores: Floats,
         weight: float,
     ) -> None:
         """Add P(move) and P(win), `weight` times, to a total of shape (steps + 1, x, days).
@@ -128,7 +124,7 @@ class Pairing(ABC):
         place = np.clip(ratings, -self.table.widest, self.table.widest) + self.table.widest
         chances = weight * scores[self._race[place]]
         which = np.searchsorted(self.steps, self.table.moves[place, :, 0])
-        # In the padding there is no move, and no chance of one either.
+        # The padding has no moves, and no chance of one either.
         which = np.minimum(which, len(self.steps) - 1)
         row = np.arange(len(place))
         for outcome in range(chances.shape[1]):
@@ -141,9 +137,9 @@ class SkillGiven(Pairing):
 
     def _prepare(self) -> None:
         widest, days = int(self.errors[-1]), self.days
-        # The table is as wide as the player's error, the opponent's, and how far he is apart.
+        # The table is as wide as the player's error, the opponent's, and the spread together.
         self._reach = reach = self.table.widest - widest - self.farthest
-        # All that can be the difference of two errors, and of two deviations.
+        # All differences of two errors, and of two forms.
         apart = np.arange(-widest - reach, widest + reach + 1)
         unit = int(days[1] - days[0]) if len(days) > 1 else 1
         between = unit * np.arange(-(len(days) - 1), len(days))
@@ -156,8 +152,8 @@ class SkillGiven(Pairing):
         self._size = tuple(next_fast_len(n, real=True) for n in self._by_difference.shape[1:])
         self._spectrum: NDArray[np.complex128] | None = None
 
-    def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the convolution of P(move | differences) with the law of the opponents."""
+    def moves(self, law: Floats) -> Floats:
+        """Return the convolution of P(move | differences) with the opponents' distribution."""
         middle = len(law) // 2
         law = law[middle - self._reach : middle + self._reach + 1]
         if law.size == 1:
@@ -184,15 +180,15 @@ class RatingGiven(Pairing):
 
     def _prepare(self) -> None:
         days = self.days
-        # The player's deviation less the opponent's rating, and the opponent's j - g.
+        # The player's form less the opponent's rating, and the opponent's j - g.
         self._far = int(days[-1] + self.farthest)
         self._hidden = int(self.errors[-1] + days[-1])
         reach = self._far + self._hidden
         self._scores = self.scores(-reach, reach)
         self._place = (self.errors[:, None] - days + self._hidden).ravel()
 
-    def moves(self, law: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return P(move) after an average over the opponents' skill on the night."""
+    def moves(self, law: Floats) -> Floats:
+        """Return P(move), averaged over the opponents' skill on the night."""
         hidden = np.bincount(self._place, law.ravel(), 2 * self._hidden + 1)
         scores = averages(self._scores, hidden.astype(float))
         total = np.zeros((len(self.steps) + 1, *law.shape))
@@ -207,8 +203,8 @@ def pairing_of(
     chart: Chart,
     widest: int,
     opponents: Opponents,
-    blur: NDArray[np.float64],
-    days: NDArray[np.int64],
+    blur: Floats,
+    days: Ints,
 ) -> Pairing:
     """Return the matches of a player against these opponents."""
     apart = widest + opponents.farthest
@@ -218,9 +214,3 @@ def pairing_of(
     reach = widest if opponents.error is None else min(farthest(opponents.error), widest)
     table = known_table(system, chart, widest=apart + reach)
     return SkillGiven(table, widest, opponents, blur, days)
-
-
-def _distinct(needs: NDArray[np.int64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return where each race of a table stands first, and which race is played at each place."""
-    _, first, race = np.unique(needs, axis=0, return_index=True, return_inverse=True)
-    return first, race.reshape(-1)

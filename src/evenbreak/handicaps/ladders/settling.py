@@ -1,28 +1,26 @@
-"""How many matches a player takes whose rating begins wrong until it is about right.
+"""How many matches a rating that starts wrong takes to become about right.
 
-Settled is the first match after which the rating error is within a band about 0. Its law comes
-from the chain of the errors with the band absorbing; under a newcomer schedule the first matches
-have chains of their own, and what is left after them goes on by the last.
+A rating settles with the first match after which its error is within a band around 0. The number
+of matches follows from the chain of errors with the band made absorbing. Under a newcomer schedule
+each stage has a chain of its own; a rating that has not settled by the end of the schedule goes on
+as that of an established player.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.chains import first_passage
 from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.ladders.error_chain import chain_of_errors, error_on, move_matrix
+from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.stats.summary import Distribution
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.handicaps.ladders.ladder import Ladder
 
 _TAIL = 1e-12
 _HORIZON = 100_000
@@ -37,11 +35,11 @@ class Settling:
     start
         the rating error before the first match, in points.
     within
-        an error of at most so many points counts as settled.
+        an error of at most this many points counts as settled.
     newcomer
         whether the first matches move by the system's newcomer schedule.
     mean, sd
-        of the number of matches, from linear solves: not cut anywhere.
+        of the number of matches, from linear solves, so not cut off anywhere.
     chances
         P(settled after t matches and not before), for t = 0, 1, ..., horizon.
     tail
@@ -58,25 +56,25 @@ class Settling:
 
     @property
     def matches(self) -> Distribution:
-        """The law of the number of matches; what is beyond the horizon is given to its end."""
+        """The distribution of the number of matches; the tail is added to the horizon."""
         *before, last = self.chances
         return Distribution(tuple(range(len(self.chances))), (*before, last + self.tail))
 
     @property
     def horizon(self) -> int:
-        """The most matches of which `chances` speaks."""
+        """The largest number of matches in `chances`."""
         return len(self.chances) - 1
 
     def after(self, matches: int) -> float:
-        """Return P(settled within so many matches), given the start."""
+        """Return P(settled within this many matches | the start)."""
         return min(math.fsum(self.chances[: whole(matches, "matches") + 1]), 1.0)
 
 
 def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = False) -> Settling:
-    """Return the law of the matches that a rating takes to come near the skill.
+    """Return how many matches a rating takes to come near the skill.
 
     Each probability is conditional on the error before the first match, and on opponents as
-    the ladder has them: their ratings have settled.
+    the ladder has them, whose ratings have settled.
 
     Parameters
     ----------
@@ -85,7 +83,7 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
     start
         the rating less the skill before the first match, in whole points.
     within
-        settled is the first error of at most so many points either way.
+        an error of at most this many points either way counts as settled.
     newcomer
         whether the player is new and moves by the system's newcomer schedule at first.
 
@@ -93,16 +91,15 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
     ------
     InputError
         if start is not on the ladder, within is not a whole number from 0 up, the rating may
-        never come so near (large steps may jump over the band for ever), or a newcomer is
-        asked for of a system without a schedule for newcomers.
+        never come so near (long steps may jump over the band forever), or newcomer is True for
+        a system without a newcomer schedule.
     AccuracyError
         if more than 1e-12 of the players take more than 100,000 matches.
 
     Notes
     -----
-    The band is made absorbing; the mean is the mean first passage time (Kemeny & Snell, Finite
-    Markov Chains, chapter III), after the matches of the schedule from whatever error the player
-    has then.
+    The band is made absorbing, and the mean is the mean first passage time (Kemeny & Snell,
+    Finite Markov Chains, chapter III), taken from the errors at the end of the newcomer schedule.
 
     >>> from evenbreak.handicaps import Ladder
     >>> ladder = Ladder("npl")
@@ -131,14 +128,14 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
         passage = first_passage(chain_of_errors(ladder), left / remaining, target)
         if not passage.certain or passage.mean is None or passage.variance is None:
             raise InputError(
-                f"within is {band}, and from an error of {error} the steps of {ladder.steps.max()} "
-                "may never come so near; give a wider band"
+                f"within is {band}, and steps of {ladder.steps.max()} from an error of {error} may "
+                "never come so near; give a wider band"
             )
         later, tail = passage.distribution(tail=_TAIL / remaining, max_steps=_HORIZON)
         if tail * remaining > _TAIL:
             raise AccuracyError(
-                f"from an error of {error} to one of {band} or less {_often(passage.mean)}; give a "
-                "wider band, a start that is nearer, or less drift"
+                f"from an error of {error} a rating {_too_long(passage.mean)} to come within "
+                f"{band}; give a wider band, a nearer start, or less drift"
             )
         gone = len(chances) - 1
         mean += remaining * (gone + passage.mean)
@@ -149,18 +146,18 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
     return Settling(error, band, newcomer, mean, sd, tuple(chances), tail_left)
 
 
-def _often(mean: float) -> str:
-    """Return how many matches are too many, by their mean; beyond sense it is not told."""
+def _too_long(mean: float) -> str:
+    """Return how long a rating takes, by the mean, without a number where that is huge."""
     if mean > _HORIZON:
-        return f"a rating hardly ever comes: in more than {_HORIZON:,} matches on average"
-    return f"more than {_HORIZON:,} matches may be needed ({mean:,.0f} on average)"
+        return f"needs more than {_HORIZON:,} matches on average"
+    return f"may need more than {_HORIZON:,} matches ({mean:,.0f} on average)"
 
 
 def _schedule(ladder: Ladder) -> tuple[tuple[int, int], ...]:
     if not ladder.system.newcomer_steps:
         raise InputError(
-            f"newcomer is asked for, and in the system {ladder.system.name} newcomers move like "
-            "all others; leave it out"
+            f"newcomer is True, but in the system {ladder.system.name} newcomers move like "
+            "everybody else; leave it out"
         )
     return ladder.system.newcomer_steps
 

@@ -1,9 +1,10 @@
 """Elo's update, game by game: each game counts, and the better player is expected to win more.
 
-Of a match in which player 1 wins a of the g games, at ratings that give him the chance e to win
-a game, his rating moves by k (a - e g) points, rounded to whole ones, and player 2's by as much
-the other way. So a winner may lose points: who needs seven games against two and wins 7:1 played
-no better than his rating says. The ratings are those before the match for all of its games.
+If player 1 wins a of the g games of a match, at ratings that give player 1 the chance e to win a
+game, player 1's rating moves by k (a - e g) points, rounded to whole points, and player 2's by as
+much the other way. So the winner of a match may lose points: a player who needs seven games to
+the opponent's two and wins 7:1 played no better than the rating. The ratings before the match
+hold for all of its games.
 
 Source: Elo, The Rating of Chessplayers, Past and Present (1978): the linear update.
 """
@@ -21,7 +22,7 @@ from evenbreak.ratings.scale import SCALES
 _SCALE = SCALES["elo"]
 
 _GAMES = 9
-"""The longest match of the chart by which the system is played where nobody names one."""
+"""The longest match of the system's own chart."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class _PerGame:
             raise InputError("the score is None; an update by games needs it")
         won, lost = match.games
         expected = _SCALE.win_probability(match.rating[0] - match.rating[1])
-        # Worked out once, so that rounding takes nothing from the sum of the two ratings.
+        # Rounded once, so that the sum of the two ratings stays the same.
         points = round(self.k * (won - expected * (won + lost)))
         return points, -points
 
@@ -41,8 +42,8 @@ class _PerGame:
 def elo_system(k: Any = 16) -> System:
     """Return the system in which each game of a match moves the ratings by Elo's update.
 
-    No league's chart is on Elo's scale: where nobody names one, the races are the most even
-    ones of nine games. Newcomers move like all others.
+    No league's chart is on Elo's scale, so the system's own chart has the most even races of at
+    most nine games. Newcomers move like everybody else.
 
     Parameters
     ----------
@@ -52,7 +53,7 @@ def elo_system(k: Any = 16) -> System:
     Raises
     ------
     InputError
-        if k is not such a number; its rule, if it is not told the score.
+        if k is not such a number; from its rule, if the score is missing.
 
     >>> rule = elo_system(16).rule
     >>> rule(PlayedMatch((1600, 1500), (5, 4), None)), rule(PlayedMatch((1600, 1500), (7, 1), None))
@@ -64,7 +65,7 @@ def elo_system(k: Any = 16) -> System:
         _SCALE,
         (),
         _PerGame(points),
-        f"{points} point{'s' * (points > 1)} for each game above what Elo's scale expects",
+        f"{points} point{'s' * (points > 1)} for each game won above expectation on Elo's scale",
         own_chart=fixed_length_chart(_GAMES, _SCALE),
         asks=("games",),
     )

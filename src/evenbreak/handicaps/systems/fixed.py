@@ -1,4 +1,4 @@
-"""Matches of one length: a point a match, by a chart whose races all last as many games."""
+"""Matches of one length: a point a match, on a chart whose races all last as many games."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from evenbreak.handicaps.systems.system import System
 
 
 def fixed_length_system(games: Any = 9) -> System:
-    """Return the National Pool League's system played by races of one longest length.
+    """Return the National Pool League's system with races that all have the same longest length.
 
-    Its rule is the same, for newcomers too; only the chart is `fixed_length_chart(games)`.
+    The rule is the same, for newcomers too; only the chart differs: `fixed_length_chart(games)`.
 
     Parameters
     ----------
     games
-        the longest that a match may last, an odd whole number up to 999.
+        the most games that a match may last, an odd whole number up to 999.
 
     Raises
     ------

@@ -1,13 +1,13 @@
-"""Steps by the margin of the score: the farther the loser was from home, the longer the step.
+"""Steps by the margin of the score: the further the loser was from winning, the longer the step.
 
-Of a race in which the loser needed r games and won l of them,
+If the loser needed r games and won l of them,
 
     points = ceil(most (r - l) / r)
 
-so a shut-out moves both by `most`, and a match that goes to the last game by 1 (while r is not
-below `most`). The share of the loser's own race is counted, not games: the weaker player needs
-fewer games and cannot lose by as many, so that by bare games the stronger of two players who are
-rated rightly would lose a fifth of a point a match at the race 5:4, and more than a point at 7:2.
+so a shutout moves both players by `most`, and a match that goes hill-hill by 1 (unless r is below
+`most`). What counts is the share of the loser's own race, not games: the weaker player needs
+fewer games and cannot lose by as many. If games counted, the stronger of two correctly rated
+players would lose a fifth of a point a match at the race 5:4, and more than a point at 7:2.
 """
 
 from __future__ import annotations
@@ -35,19 +35,19 @@ class _Margin:
 
 
 def margin_system(most: Any = 2) -> System:
-    """Return the system whose steps go by the margin of the score, up to `most` points.
+    """Return the system whose steps depend on the margin of the score, up to `most` points.
 
-    Scale and charts are those of the National Pool League. Newcomers move like all others.
+    Scale and charts are those of the National Pool League. Newcomers move like everybody else.
 
     Parameters
     ----------
     most
-        the points of a shut-out, a whole number from 1 to 1,000; 1 is a point a match.
+        the points of a shutout, a whole number from 1 to 1,000; 1 is a point a match.
 
     Raises
     ------
     InputError
-        if `most` is not such a one; its rule, if it is not told score and race.
+        if `most` is not such a number; from its rule, if score or race is missing.
 
     >>> rule = margin_system(2).rule
     >>> [rule(PlayedMatch((80, 75), (5, lost), (5, 5))) for lost in (0, 2, 3, 4)]
@@ -59,7 +59,7 @@ def margin_system(most: Any = 2) -> System:
         NPL.scale,
         NPL.charts,
         _Margin(points),
-        f"by the share of the loser's race that was left, up to {points} point{'s' * (points > 1)}",
+        f"up to {points} point{'s' * (points > 1)} a match, by the share of the loser's race left",
         own_chart=NPL.own_chart,
         asks=("games", "race"),
     )

@@ -1,12 +1,12 @@
-r"""What a match between two rated players can come to: one table by rating difference.
+r"""All final scores of a match between two rated players: one table by rating difference.
 
-At the difference x of two ratings the chart says the race m:n. A match ends m:k with k < n, or
-k:n with k < m, and the update rule says by how much each such score moves the two. Where p is
-the chance that player 1 wins a game, and q = 1 - p,
+At the difference x of two ratings the chart gives the race m:n. A match ends m:k with k < n, or
+k:n with k < m, and the update rule gives the points that each such score moves the two players.
+If p is the chance that player 1 wins a game, and q = 1 - p,
 
     P(m:k) = C(m - 1 + k, k) p^m q^k        P(k:n) = C(n - 1 + k, k) q^n p^k
 
-so that ladders and leagues need no more than this table and p.
+so ladders and leagues need only this table and p.
 
 Source: problem P5.5 (the chances of the final scores), Table 5.6 (charts).
 """
@@ -18,42 +18,44 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.special import gammaln, xlog1py, xlogy
+from numpy.typing import ArrayLike
+from scipy.special import gammaln, xlogy
 
-from evenbreak.checks import probability, whole
+from evenbreak.arrays import Bools, Floats, Ints, Places, short_repr
+from evenbreak.checks import complement, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.systems.system import PlayedMatch, System
 from evenbreak.matches.win import race_win_probability
 
 NOBODY = -1
-"""What stands in `games` where a race has fewer final scores than the table has places."""
+"""The filler of `games` where a race has fewer final scores than the table has room for."""
 
 _DOUBLINGS = 2.0
-"""How far a table goes where nobody says it: to where the odds of a game are 4 to 1."""
+"""How wide a table is by default: to where the odds of a game are 4 to 1."""
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class MatchTable:
     """All final scores of a system's matches, by rating difference; `match_table` makes it.
 
-    The first axis is the apparent rating difference x, player 1's rating less player 2's, from
-    -widest to widest. The moves are those of established players: `System.newcomer_steps` says
-    by which factor newcomers move.
+    The first axis is the rating difference x, player 1's rating less player 2's, from -widest to
+    widest. The moves are those of established players; newcomers move by the factors of
+    `System.newcomer_steps`.
 
     Parameters
     ----------
     system, chart
-        whose matches these are, and by which chart they are played.
+        the system and the chart of the matches.
     widest
         the largest difference, in points.
     needs
         shape (2 * widest + 1, 2): the race m:n.
     games
-        shape (2 * widest + 1, outcomes, 2): the games of each final score; player 1's wins
-        first (m:0, m:1, ..., m:n - 1), then player 2's (0:n, ..., m - 1:n), then -1:-1 where a
-        race has fewer.
+        shape (2 * widest + 1, outcomes, 2): the games of each final score: first player 1's wins
+        (m:0, m:1, ..., m:n - 1), then player 2's (0:n, ..., m - 1:n), then -1:-1 as padding.
     moves
         shape (2 * widest + 1, outcomes, 2): the points that player 1 and player 2 move; 0 in
         the padding.
@@ -73,13 +75,13 @@ class MatchTable:
     system: System
     chart: Chart
     widest: int
-    needs: NDArray[np.int64]
-    games: NDArray[np.int64]
-    moves: NDArray[np.int64]
-    won: NDArray[np.bool_]
+    needs: Ints
+    games: Ints
+    moves: Ints
+    won: Bools
 
-    def wins(self, p: ArrayLike) -> NDArray[np.float64]:
-        """Return P(player 1 wins the match | the difference, he wins each game with chance p).
+    def wins(self, p: ArrayLike) -> Floats:
+        """Return P(player 1 wins the match | rating difference, chance p to win a game).
 
         Parameters
         ----------
@@ -101,14 +103,14 @@ class MatchTable:
         array([0.637, 0.5  , 0.363])
         """
         game = np.asarray(probability(p, "p"))
-        races, place = self._races
+        first, place = self.races
         down = (slice(None), *(None,) * game.ndim)
-        m, n = races.T
+        m, n = self.needs[first].T
         by_race = np.asarray(race_win_probability(game, m[down], n[down]))
         return by_race[place]
 
-    def chances(self, p: ArrayLike) -> NDArray[np.float64]:
-        """Return P(each final score | the difference, player 1 wins each game with chance p).
+    def chances(self, p: ArrayLike) -> Floats:
+        """Return P(each final score | rating difference, player 1's chance p to win a game).
 
         Parameters
         ----------
@@ -118,8 +120,8 @@ class MatchTable:
         Returns
         -------
         numpy.ndarray
-            shape (2 * widest + 1, outcomes) followed by that of p; 0 in the padding. They add up
-            to 1 over the scores.
+            shape (2 * widest + 1, outcomes) followed by that of p; 0 in the padding. The chances
+            of all scores add up to 1.
 
         Raises
         ------
@@ -127,42 +129,44 @@ class MatchTable:
             if p is not a probability.
         """
         game = np.asarray(probability(p, "p"))
-        _, place = self._races
-        first = np.unique(place, return_index=True)[1]
+        first, place = self.races
         games, won = np.maximum(self.games[first], 0), self.won[first]
         a, b = games[..., 0], games[..., 1]
-        # The winner's last game comes last: only the games before it can be in any order.
+        # The winner wins the last game; only the games before it can be in any order.
         before, lost = np.maximum(np.where(won, a, b) - 1, 0), np.where(won, b, a)
         orders = gammaln(before + lost + 1) - gammaln(before + 1) - gammaln(lost + 1)
         down = (..., *(None,) * game.ndim)
-        log = orders[down] + xlogy(a[down], game) + xlog1py(b[down], -game)
+        log = orders[down] + xlogy(a[down], game) + xlogy(b[down], complement(game))
         by_race = np.where((a + b > 0)[down], np.exp(log), 0.0)
         return by_race[place]
 
     @cached_property
-    def _races(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """The races of the table, each once, and which of them is played at each difference."""
-        races, place = np.unique(self.needs, axis=0, return_inverse=True)
-        return races, place.reshape(-1)
+    def races(self) -> tuple[Places, Places]:
+        """Where each race of the table stands first, and which of them each difference has."""
+        _, first, place = np.unique(self.needs, axis=0, return_index=True, return_inverse=True)
+        return first, place.reshape(-1)
 
 
-def match_table(system: System, chart: Chart | None = None, *, widest: Any = None) -> MatchTable:
-    """Return all that a match of a system can come to, by the difference of the two ratings.
+def match_table(
+    system: System, chart: Chart | str | None = None, *, widest: Any = None
+) -> MatchTable:
+    """Return all final scores of a system's matches, by the difference of the two ratings.
 
     Parameters
     ----------
     system
         whose rule moves the ratings.
     chart
-        by which the races are given; None: the system's own.
+        which sets the races, or its name in `CHARTS`; None: the system's own.
     widest
-        the largest difference in points, a whole number from 1 on; None: two doublings of the
+        the largest difference in points, a whole number from 1 up; None: two doublings of the
         odds, 60 points in the National Pool League.
 
     Raises
     ------
     InputError
-        if a parameter is not such a one, or the rule gives what is no pair of whole points.
+        if a parameter has a value that it cannot have, or the rule does not return a pair of
+        whole points.
 
     >>> from evenbreak.handicaps import system_of
     >>> match_table(system_of("step 2")).moves[60].tolist()[4:6]
@@ -170,9 +174,7 @@ def match_table(system: System, chart: Chart | None = None, *, widest: Any = Non
     """
     if not isinstance(system, System):
         raise InputError(f"system is {system!r}; give a System, such as system_of('npl')")
-    by = system.usual_chart() if chart is None else chart
-    if not isinstance(by, Chart):
-        raise InputError(f"chart is {chart!r}; give a Chart, such as chart('npl_10')")
+    by = system.usual_chart() if chart is None else chart_of(chart)
     given = round(_DOUBLINGS * system.scale.points_per_doubling) if widest is None else widest
     size = whole(given, "widest", at_least=1)
     needs = np.column_stack(by.races(np.arange(-size, size + 1)))
@@ -184,11 +186,11 @@ def match_table(system: System, chart: Chart | None = None, *, widest: Any = Non
 
 
 known_table = lru_cache(maxsize=8)(match_table)
-"""`match_table` for one who asks again: the last tables are kept, which nobody can write into."""
+"""`match_table`, with the last tables kept; they are read-only."""
 
 
-def _scores(needs: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Return the final scores of each race and which of them player 1 wins."""
+def _scores(needs: Ints) -> tuple[Ints, Bools]:
+    """Return the final scores of each race, and which of them player 1 wins."""
     m, n = needs[:, 0, None], needs[:, 1, None]
     place = np.arange(needs.sum(axis=1).max())
     won = place < n
@@ -198,9 +200,7 @@ def _scores(needs: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.boo
     return np.where(real[..., None], np.stack([a, b], axis=2), NOBODY), won
 
 
-def _moves(
-    system: System, needs: NDArray[np.int64], games: NDArray[np.int64], won: NDArray[np.bool_]
-) -> NDArray[np.int64]:
+def _moves(system: System, needs: Ints, games: Ints, won: Bools) -> Ints:
     moves = np.zeros_like(games)
     size = len(needs) // 2
     for place, outcome in np.argwhere(games[..., 0] != NOBODY).tolist():

@@ -1,4 +1,4 @@
-"""Longer steps for newcomers, so that a first guess of their rating is mended soon."""
+"""Longer steps for newcomers, so that a first guess of their rating is soon corrected."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from evenbreak.checks import whole
 NEWCOMER_STEPS = ((10, 3), (20, 2))
 """The National Pool League's: 3 points a match for 10 matches, 2 for the next 20, then 1.
 
-As the league published them; they are not in the text.
+The league published them; they are not in the source text.
 """
 
 
 def step_after(played: int | None, steps: Sequence[tuple[int, int]] = NEWCOMER_STEPS) -> int:
-    """Return how many times an established player's points a player moves in his next match.
+    """Return the factor by which a player moves in the next match: 1 is an established player.
 
     Parameters
     ----------
     played
         matches before it; None: an established player.
     steps
-        (matches, factor) for each stage of a newcomer, as `System.newcomer_steps` has them.
+        (matches, factor) for each stage, as in `System.newcomer_steps`.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Steps: the winner goes up by so many points and the loser down, whatever the match was."""
+"""Steps: each match moves the winner up and the loser down by the same points every time."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ class _Step:
 def step_system(up: Any, down: Any = None) -> System:
     """Return the system in which the winner goes up by `up` points and the loser down by `down`.
 
-    Scale and charts are those of the National Pool League. Newcomers move like all others.
+    Scale and charts are those of the National Pool League. Newcomers move like everybody else.
 
     Parameters
     ----------
     up
         points, a whole number from 1 to 1,000.
     down
-        points, a whole number from 0 to 1,000; None: as many as `up`. Where it is another number
-        the league's mean rating moves with each match, by (up - down) / 2 for each of the two.
+        points, a whole number from 0 to 1,000; None: as many as `up`. With another number the
+        league's mean rating moves: each match adds up - down to the sum of the two ratings.
 
     Raises
     ------
     InputError
-        if a number is not such a one.
+        if a number is out of range.
 
     >>> step_system(2).rule(PlayedMatch((80, 75), (5, 3), (5, 5)))
     (2, -2)

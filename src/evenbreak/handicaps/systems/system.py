@@ -1,4 +1,4 @@
-"""What a handicap system is: a scale, the charts by which it is played, and how ratings move.
+"""What a handicap system is: a scale, the charts that set the races, and how ratings move.
 
 An update rule is a plain function from a match to the points that winner and loser move.
 """
@@ -22,14 +22,13 @@ class PlayedMatch(NamedTuple):
     Parameters
     ----------
     rating
-        the two ratings before the match; a rule reads no more from them than how far they are
-        apart.
+        the two ratings before the match; a rule may use only their difference.
     games
         games won; None where only the winner is known.
     race
         games needed; None where that is not known.
     played
-        matches that each had played before; None: an established player.
+        matches each had played before; None: an established player.
     """
 
     rating: tuple[float, float]
@@ -48,25 +47,26 @@ class System:
     Parameters
     ----------
     name
-        what the system is called; `system_of` finds it by that.
+        what the system is called; `system_of` finds it by this name.
     scale
         what a difference of its ratings means.
     charts
-        the names of the printed charts by which it is played; empty where there are none.
+        the names of the printed charts that set its races; may be empty.
     rule
-        from a match to the points that winner and loser move, in whole points.
+        from a match to the whole points that winner and loser move.
     in_words
-        the rule, for a person.
+        the rule in words.
     own_chart
-        the chart by which it is played where nobody names one; None: the first of `charts`.
+        the chart used if no other is named; None: the first of `charts`.
     asks
-        what the rule must know of a match besides who won: 'games', 'race', both or nothing.
+        what the rule must know about a match besides who won: 'games', 'race', both or nothing.
     conserving
-        whether the winner gains what the loser loses, once both are established. A player's
-        rating error then has a law that is the same when turned upside down.
+        whether the winner gains what the loser loses, once both are established. The
+        distribution of rating errors is then symmetric.
     newcomer_steps
-        (matches, factor) for each stage of a newcomer: in so many matches his moves are the
-        established player's times the factor. Empty: newcomers move like all others.
+        (matches, factor) for each stage of a newcomer: for that many matches a newcomer moves by
+        an established player's points times the factor. Empty: newcomers move like everybody
+        else.
     """
 
     name: str
@@ -85,7 +85,7 @@ class System:
         Raises
         ------
         InputError
-            if the rule returns what is no pair of whole points.
+            if the rule does not return a pair of whole points.
 
         >>> from evenbreak.handicaps import system_of
         >>> system_of("step 2 1").moves(PlayedMatch((80, 75), (5, 3), (5, 5)))
@@ -95,13 +95,13 @@ class System:
         pair = isinstance(points, tuple | list) and len(points) == 2
         if not pair or not all(isinstance(point, Integral) for point in points):
             raise InputError(
-                f"the rule of the system {self.name} moves ratings by {points!r}; let it return a "
-                "pair: the whole points of the winner and of the loser, such as (1, -1)"
+                f"the rule of the system {self.name} returned {points!r}; let it return a pair, "
+                "the whole points of the winner and of the loser, such as (1, -1)"
             )
         return int(points[0]), int(points[1])
 
     def usual_chart(self) -> Chart:
-        """Return the chart by which the system is played where nobody names one.
+        """Return the chart used if no other is named.
 
         Raises
         ------
@@ -115,11 +115,11 @@ class System:
         if self.own_chart is not None:
             return self.own_chart
         if not self.charts:
-            raise InputError(f"chart is not given, and the system {self.name} has none; give one")
+            raise InputError(f"the system {self.name} has no chart of its own; give one")
         return chart(self.charts[0])
 
     def known_charts(self) -> tuple[Chart, ...]:
-        """Return the printed charts of the system, and its own one where that is none of them.
+        """Return the printed charts of the system, and its own if that is not one of them.
 
         >>> from evenbreak.handicaps import system_of
         >>> [chart.name for chart in system_of("fixed 9").known_charts()]
@@ -131,18 +131,15 @@ class System:
 
 
 _MOST_POINTS = 1000
-"""No league moves ratings by more in a match."""
+"""No league moves a rating further in one match."""
 
 
 def points_of(value: Any, name: str, *, at_least: int = 1) -> int:
-    """Return the points by which a rule moves ratings, if they are whole and not out of reach.
+    """Return the points by which a rule moves ratings, if they are whole and in range.
 
     >>> points_of(5000, "up")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: up is 5000; give a whole number, 1000 or less
+    evenbreak.errors.InputError: up is 5000; give a whole number from 1 to 1000
     """
-    points = whole(value, name, at_least=at_least)
-    if points > _MOST_POINTS:
-        raise InputError(f"{name} is {points}; give a whole number, {_MOST_POINTS} or less")
-    return points
+    return whole(value, name, at_least=at_least, at_most=_MOST_POINTS)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.physics.offset import NATURAL_ROLL_OFFSET, ContactPoint, small_circle_point
-from evenbreak.plots.style import LINES
+from evenbreak.plots.style import LINES, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,16 +78,7 @@ def angle_arc(axes: Axes, point: ContactPoint, radius: float, name: str) -> None
 def name_point(
     axes: Axes, point: ContactPoint, name: str, beside: tuple[float, float], ha: str
 ) -> None:
-    """Mark a point, and write its name so many points of the page beside it."""
+    """Mark a point and write its name beside it, at an offset in typographic points."""
     axes.plot([point.y], [point.z], "ko", ms=4.5, zorder=4)
     box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
-    axes.annotate(
-        name,
-        (point.y, point.z),
-        beside,
-        textcoords="offset points",
-        fontsize=9.5,
-        ha=ha,
-        va="center",
-        bbox=box,
-    )
+    note(axes, name, (point.y, point.z), beside, fontsize=9.5, ha=ha, va="center", bbox=box)

@@ -9,7 +9,7 @@ import numpy as np
 
 from evenbreak.physics.offset import ContactPoint, gearing_tip, small_circle_point
 from evenbreak.physics.throw import gearing_side, throw_factor, throw_sensitivity
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, note
 from evenbreak.source_text.physics.ball_view import (
     ball_view,
     draw_line,
@@ -35,16 +35,16 @@ if TYPE_CHECKING:
 _SIDE = r"sidespin $J_{0z}$ = $R\omega_{0z}/V_0$"
 _TOPSPIN = r"topspin $J_{0y}$ = $R\omega_{0y}/V_0$"
 _POINTS = 121
-"""Of half a side of the contour plot."""
+"""Grid points from the centre of the contour plot to its edge."""
 _LARGEST_DRAWN = 8.0
-"""Contours of more than this crowd in the whole plot, where the inset shows them."""
+"""Contours above this would crowd the whole plot; the inset shows them."""
 _SMALLEST_ENLARGED = 2.0
 _NEAR = 1e-9
-"""How near the curve of a stun shot comes to its step."""
+"""How close to its step the curve of a stun shot is drawn."""
 
 
 def throw_factors() -> Figure:
-    """Fig. 4.4: the throw factor by sidespin, for stun and for more and more topspin or draw."""
+    """Fig. 4.4: the throw factor by sidespin, for stun and for increasing topspin or draw."""
     figure, axes = new_axes(
         _SIDE,
         r"throw factor $\cos\gamma$",
@@ -64,13 +64,7 @@ def throw_factors() -> Figure:
             label=f"{topspin:g}" + _NAMES.get(topspin, ""),
         )
     axes.plot([step], [0.0], "ko", ms=4, zorder=4)
-    axes.annotate(
-        r"$J_{0z}$ = $-\sin\alpha$",
-        (step, 0.0),
-        (12, -14),
-        textcoords="offset points",
-        fontsize=10,
-    )
+    note(axes, r"$J_{0z}$ = $-\sin\alpha$", (step, 0.0), (12, -14), fontsize=10)
     axes.axhline(0.0, color="0.7", lw=0.7, zorder=0)
     axes.set(xlim=(-LARGEST_SPIN, LARGEST_SPIN), ylim=(-1.08, 1.08))
     axes.legend(title="$|J_{0y}|$", loc="lower right", frameon=False, handlelength=3.5)
@@ -85,8 +79,8 @@ def sensitivity() -> Figure:
     """Fig. 4.5: how fast the throw factor changes with the spin; contours a factor 2 apart."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.3, 5.5), layout="constrained")
-    axes, inset = figure.subplots(1, 2, width_ratios=(5, 3.2))
+    figure = Figure(figsize=(9.3, 5.1), layout="constrained")
+    axes, inset = figure.subplots(1, 2, width_ratios=(5, 4.2))
     figure.suptitle(
         r"Sensitivity $F(J_0)$ of $\cos\gamma$, half-ball cut $\alpha$ = π/6; "
         "levels and spins chosen"
@@ -103,13 +97,13 @@ def sensitivity() -> Figure:
 
 
 def _contours(axes: Axes, across: tuple[float, float], up: float, levels: list[float]) -> None:
-    """Draw contours around the point where nothing slips, the grid finest there."""
+    """Draw contours around the point where nothing slips, where the grid is finest."""
     step = gearing_side(HALF_BALL)
     left, right = across
     side = step + np.concatenate([-_spread(step - left)[::-1], _spread(right - step)])
     topspin = np.concatenate([-_spread(up)[::-1], _spread(up)])
     found = throw_sensitivity(HALF_BALL, topspin[:, None], side)
-    # Logarithms, since between points of the grid they are straighter than the values.
+    # Between grid points logarithms are closer to linear than the values themselves.
     lines = axes.contour(
         side, topspin, np.log2(found), levels=np.log2(levels), colors="black", linewidths=0.9
     )
@@ -117,21 +111,24 @@ def _contours(axes: Axes, across: tuple[float, float], up: float, levels: list[f
     axes.set(xlim=across, ylim=(-up, up), aspect="equal", xlabel=_SIDE, ylabel=_TOPSPIN)
     axes.tick_params(direction="in", top=True, right=True)
     # The smallest contour of the whole plot has no room for its level; the inset names it.
-    places = [_place(level, up) for level in levels if level != _LARGEST_DRAWN or up == INSET]
+    named = [level for level in levels if level != _LARGEST_DRAWN or up == INSET]
+    places = [_place(level, up, right) for level in named]
     axes.clabel(lines, fmt=_power, fontsize=8.5, manual=places)
 
 
-def _place(level: float, up: float) -> tuple[float, float]:
-    """Return where a level is written: straight over the point where nothing slips, or beside.
+def _place(level: float, up: float, right: float) -> tuple[float, float]:
+    """Return where to write a level: straight above the point where nothing slips, or beside it.
 
-    The sensitivity falls as 1/r on every straight way out from there, so each contour is the
-    next one at twice the size.
+    The lower the level, the nearer to the horizontal, so that the names keep apart.
+
+    The sensitivity falls as 1/r along every ray from there, so each contour is the next one at
+    twice the size.
     """
     step = gearing_side(HALF_BALL)
-    for degrees in (90.0, 20.0, 8.0):
+    for degrees in (90.0, 50.0, 36.0, 22.0, 12.0, 9.0):
         way = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
         far = throw_sensitivity(HALF_BALL, way[1], step + way[0]) / level
-        if far * way[1] < 0.9 * up and far * way[0] < 1.1 * up:
+        if far * way[1] < 0.9 * up and far * way[0] < 0.9 * (right - step):
             break
     return step + far * way[0], far * way[1]
 
@@ -142,7 +139,7 @@ def _spread(end: float) -> NDArray[np.float64]:
 
 
 def _power(power: float) -> str:
-    """Return a power of 2 as players read it: 4, 1/4."""
+    """Return a power of 2 as a whole number or a fraction: 4, 1/4."""
     return f"{2.0**power:.0f}" if power >= 0.0 else f"1/{2.0**-power:.0f}"
 
 

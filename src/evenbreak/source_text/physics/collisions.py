@@ -1,4 +1,4 @@
-"""Section 4, P4.1 to P4.12 and P4.26, P4.27: friction between the balls, and none."""
+"""Section 4, P4.1 to P4.12 and P4.26, P4.27: hits with and without friction between the balls."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
+from evenbreak.physics.ball_friction import BALL_FRICTION
 from evenbreak.physics.collision import Collision, axis_tilt, collide
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.offset import NATURAL_ROLL_OFFSET, gearing_tip, offset_for
 from evenbreak.physics.slide import roll_velocity
 from evenbreak.physics.throw import (
-    BALL_FRICTION,
     aim,
     full_throw_cut,
     gearing_side,
@@ -22,7 +23,7 @@ from evenbreak.physics.throw import (
     throw_sensitivity,
 )
 from evenbreak.physics.units import DEGREE, FOOT, GRAVITY, INCH
-from evenbreak.source_text.physics.inputs import Answers, Inputs, crossing, slope
+from evenbreak.source_text.inputs import Answers, Inputs
 
 _HALF_BALL = math.asin(0.5)
 
@@ -32,7 +33,7 @@ def _spins(i: Inputs) -> tuple[float, float, float]:
 
 
 def _hit(i: Inputs) -> Collision:
-    """Return the hit by the law of friction that the text has."""
+    """Return the hit by the text's law of friction."""
     return collide(*_spins(i), speed=i.get("V_0", 1.0), friction="shepard")
 
 
@@ -51,7 +52,7 @@ def _upward_share(hit: Collision) -> float:
 
 
 def _along_centres(hit: Collision, vector: Any) -> Any:
-    """Return a vector of the frame of the shot in that of the line of centres."""
+    """Turn a vector from the frame of the shot to that of the line of centres."""
     sin, cos = math.sin(hit.cut), math.cos(hit.cut)
     x, y, z = vector
     return np.array([x * cos - y * sin, x * sin + y * cos, z])
@@ -87,12 +88,20 @@ def _spin_left(i: Inputs) -> float:
     return hit.ball.radius * float(hit.cue_spin[2])
 
 
+def _slope(function: Callable[[float], float], at: float) -> float:
+    """Return the derivative of a smooth function, to nine digits or more."""
+    step = 3e-4
+    near = function(at + step) - function(at - step)
+    far = function(at + 2.0 * step) - function(at - 2.0 * step)
+    return (8.0 * near - far) / (12.0 * step)
+
+
 def _by_topspin(i: Inputs) -> float:
-    return slope(lambda topspin: float(throw_factor(i["alpha"], topspin, i["Jz"])), i["Jy"])
+    return _slope(lambda topspin: float(throw_factor(i["alpha"], topspin, i["Jz"])), i["Jy"])
 
 
 def _by_side(i: Inputs) -> float:
-    return slope(lambda side: float(throw_factor(i["alpha"], i["Jy"], side)), i["Jz"])
+    return _slope(lambda side: float(throw_factor(i["alpha"], i["Jy"], side)), i["Jz"])
 
 
 def _aim(i: Inputs) -> float:
@@ -115,11 +124,6 @@ def _slowing(i: Inputs) -> float:
 def _tilt(i: Inputs) -> float:
     _, after, side = _rolling(i)
     return side / float(np.hypot(*after))
-
-
-def _deepest(i: Inputs) -> float:
-    hit = _hit(i)
-    return 0.5 * float(hit.delta_inelastic)
 
 
 def _energy_made(cut: float) -> float:
@@ -153,7 +157,7 @@ def _gained(i: Inputs, *, jump: bool) -> Any:
 
 
 def _contact(i: Inputs) -> float:
-    """Return y of the point of the cue ball that touches, over R: to the right of its middle."""
+    """Return y/R of the point of the cue ball that touches: to the right of its centre."""
     return -math.sin(i["alpha"])
 
 
@@ -165,7 +169,7 @@ ANSWERS: Answers = {
     ("Section 4", "deviation of 4 degrees over 8 feet, in"): lambda _: (
         8.0 * FOOT * math.tan(4.0 * DEGREE) / INCH
     ),
-    ("Section 4", "half a diamond, in"): lambda _: Table().length / 16.0 / INCH,
+    ("Section 4", "half a diamond, in"): lambda _: PoolTable().length / 16.0 / INCH,
     ("Section 4", "departure angle below 90, deg"): lambda _: (
         90.0 - collide(_HALF_BALL, 0.0).departure / DEGREE
     ),
@@ -216,14 +220,14 @@ ANSWERS: Answers = {
     ("P4.8", "F_grav/F_avg"): lambda i: GRAVITY * i["t"] / i["V_bx"],
     ("P4.9", "sin(gamma) of straight draw"): lambda i: _upward_share(_straight(i)),
     ("P4.9", "V_bz, in/s"): lambda i: _straight(i).upward / INCH,
-    # A flight is as long down as up.
+    # The ball falls for as long as it rises.
     ("P4.9", "t_max, s"): lambda i: 0.5 * _straight(i).jump().time,
     ("P4.9", "z_max, in"): lambda i: _straight(i).jump().height / INCH,
     ("P4.9", "x when it lands, in"): lambda i: _straight(i).jump().distance / INCH,
     ("P4.10", "E_inelastic/(M V_0^2)"): _of_hit("delta_inelastic", scale=0.5),
     ("P4.10", "least E_inelastic/(M V_0^2)"): _of_hit("delta_inelastic", scale=0.5),
     ("P4.10", "stun cut below which the text's law makes energy, deg"): lambda _: (
-        crossing(_energy_made, 0.01, 0.5) / DEGREE
+        brentq(_energy_made, 0.01, 0.5, xtol=1e-15) / DEGREE
     ),
     ("P4.11", "Delta_inelastic/V_0^2"): _of_hit("delta_inelastic"),
     ("P4.11", "Delta_elastic/V_0^2"): _of_hit("delta_elastic"),
@@ -246,4 +250,4 @@ ANSWERS: Answers = {
     ("P4.27", "y_tip/R in natural roll"): lambda i: gearing_tip(i["alpha"], i["z/R"]).y,
     ("P4.27", "y_tip/(-y_cp) at z = 7/5 R"): lambda i: gearing_tip(i["alpha"]).y / -_contact(i),
 }
-"""What the text answers."""
+"""How each quantity of these problems is computed."""

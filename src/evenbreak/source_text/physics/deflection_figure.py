@@ -15,7 +15,7 @@ from evenbreak.physics.deflection import (
     split_roll_cut,
     unit_slope_cut,
 )
-from evenbreak.plots.style import LINES, label_on, new_axes
+from evenbreak.plots.style import LINES, label_on, new_axes, note
 from evenbreak.source_text.physics.chosen import HALF_BALL
 
 if TYPE_CHECKING:
@@ -134,16 +134,8 @@ def _mark(axes: Axes, slope: Axes) -> None:
 def _letter(axes: Axes, point: MarkedPoint, height: float, beside: tuple[float, float]) -> None:
     cut = math.degrees(point.cut)
     axes.plot([cut], [height], "ko", ms=4.5, zorder=5, clip_on=False)
-    axes.annotate(
-        point.letter,
-        (cut, height),
-        beside,
-        textcoords="offset points",
-        fontsize=9,
-        weight="bold",
-        ha="center",
-        va="center",
-    )
+    bold = {"fontsize": 9, "weight": "bold", "ha": "center", "va": "center"}
+    note(axes, point.letter, (cut, height), beside, **bold)
 
 
 def _key(axes: Axes) -> None:

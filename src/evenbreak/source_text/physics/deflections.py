@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from evenbreak.physics.collision import collide
 from evenbreak.physics.deflection import (
@@ -24,13 +25,13 @@ from evenbreak.physics.objects import Ball
 from evenbreak.physics.rolling import kinetic_energy
 from evenbreak.physics.slide import roll_velocity
 from evenbreak.physics.units import DEGREE
-from evenbreak.source_text.physics.inputs import Answers, Inputs, crossing
+from evenbreak.source_text.inputs import Answers, Inputs
 
 _SMALL = 1e-5
-"""A cut, in radians, that is small enough for the limits of small cuts."""
+"""A cut, in radians, that stands for the limit of small cuts."""
 
 _FULL = 1e-9
-"""A cut that is hardly one."""
+"""A cut, in radians, of a nearly full hit."""
 
 _NATURAL, _STUN, _REVERSE = 1.0, 0.0, -1.0
 
@@ -67,7 +68,7 @@ def _largest(unit: float = 1.0) -> float:
 
 
 def _searched_largest() -> float:
-    return crossing(lambda cut: float(deflection_slope(cut)), 0.1, 1.0)
+    return float(brentq(deflection_slope, 0.1, 1.0, xtol=1e-15))
 
 
 def _half(topspin: float, unit: float = 1.0) -> float:
@@ -96,7 +97,7 @@ def _common_splits() -> list[float]:
     grid = np.linspace(-1.58, 1.58, 318)
     signs = np.sign([apart(float(spin)) for spin in grid])
     changes = np.flatnonzero(signs[1:] != signs[:-1])
-    return [crossing(apart, float(grid[k]), float(grid[k + 1])) for k in changes]
+    return [float(brentq(apart, grid[k], grid[k + 1], xtol=1e-15)) for k in changes]
 
 
 def _always_over(i: Inputs) -> float:
@@ -111,7 +112,9 @@ def _mean_slope(topspin: float) -> float:
 
 def _estimated_right_angle() -> float:
     """Return where twice the deflection of a stun shot is a right angle."""
-    return crossing(lambda cut: 2.0 * float(deflection(cut, _STUN)) - 0.5 * math.pi, 0.1, 1.5)
+    return float(
+        brentq(lambda cut: 2.0 * deflection(cut, _STUN) - 0.5 * math.pi, 0.1, 1.5, xtol=1e-15)
+    )
 
 
 def _estimate_error(i: Inputs) -> float:
@@ -119,7 +122,7 @@ def _estimate_error(i: Inputs) -> float:
 
 
 def _in(unit: float, function: Callable[[float], Any]) -> Callable[[Inputs], Any]:
-    """Return how to answer with an angle that depends on the topspin alone."""
+    """Return how to compute an angle that depends on the topspin alone."""
     return lambda i: function(i["Jy"]) / unit
 
 
@@ -211,4 +214,4 @@ ANSWERS: Answers = {
         DEGREE, right_angle_cut
     ),
 }
-"""What the text answers."""
+"""How each quantity of these problems is computed."""

@@ -23,7 +23,7 @@ from evenbreak.physics.friction import (
     sliding_speed,
     tip_friction_of,
 )
-from evenbreak.physics.objects import Ball, Cloth, Table
+from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import kinetic_energy
 from evenbreak.physics.table_speed import (
     TABLE_SPEEDS,
@@ -41,7 +41,7 @@ from evenbreak.physics.units import (
     INCH,
     OUNCE,
 )
-from evenbreak.source_text.physics.inputs import Answers, Inputs
+from evenbreak.source_text.inputs import Answers, Inputs
 
 _POOL = BALL_SETS["pool"]
 _CUBIC_INCH, _CUBIC_CENTIMETRE = INCH**3, CENTIMETRE**3
@@ -50,7 +50,7 @@ _ENERGY = OUNCE * INCH**2
 """One oz in^2/s^2 in joules."""
 
 _LONG = 1e3
-"""Seconds by which any block has stopped."""
+"""Seconds after which any block has stopped."""
 
 
 def _second_moment(first: int, second: int) -> float:
@@ -95,7 +95,7 @@ def _times_as_far(i: Inputs, factor: float) -> float:
 
 
 def _full_throw(i: Inputs) -> float:
-    # Any stun shot has it by the law of the text.
+    # By the text's law every stun shot has the full throw.
     return float(throw_angle(0.5, 0.0, mu=i["mu"], friction="shepard")) / DEGREE
 
 
@@ -140,20 +140,20 @@ ANSWERS: Answers = {
         -1.0 / roll_time(1.0, Cloth(mu_roll=i["mu_eff"])) / INCH
     ),
     ("P1.5", "way of the centre between the cushions, in"): lambda _: (
-        lag_distance(Table(), Ball()) / INCH
+        lag_distance(PoolTable(), Ball()) / INCH
     ),
     ("P1.5", "table speed over t^2, 1/s^2"): lambda _: table_speed(1.0),
     ("P1.5", "table speed"): lambda i: table_speed(i["t"]),
     ("P1.5", "table speed over t^2, rule of thumb, 1/s^2"): lambda _: table_speed(1.0),
     ("P1.5", "V_0 off the last cushion, in/s"): lambda i: lag_speed(i["t"]) / INCH,
     ("P1.5", "V_0 over the mean speed"): lambda i: (
-        lag_speed(i["t"]) * i["t"] / lag_distance(Table(), Ball())
+        lag_speed(i["t"]) * i["t"] / lag_distance(PoolTable(), Ball())
     ),
     ("P1.6", "mu of two balls"): lambda i: friction_of_throw(i["s"], i["D"]),
     ("P1.6", "full throw, deg"): _full_throw,
     ("P1.7", "mu of a tip that slips at b/R"): lambda i: tip_friction_of(i["b/R"]),
     ("P1.7", "b_max/R"): lambda i: miscue_offset(i["mu"]),
-    # What the text takes as given, and the library holds.
+    # Numbers that the text takes as given.
     ("Section 1", "diameter, in"): lambda i: (
         BALL_SETS[i["balls"]].diameters[int(i["n"]) - 1] / INCH
     ),
@@ -165,8 +165,8 @@ ANSWERS: Answers = {
     ("P1.2", "grams in an ounce"): lambda _: OUNCE / GRAM,
     ("Section 1", "table speed, least"): lambda i: TABLE_SPEEDS[i["class"]][0],
     ("Section 1", "table speed, most"): lambda i: TABLE_SPEEDS[i["class"]][1],
-    ("P1.5", "length of the playing area, in"): lambda _: Table().length / INCH,
-    ("P1.5", "width of the playing area, in"): lambda _: Table().width / INCH,
+    ("P1.5", "length of the playing area, in"): lambda _: PoolTable().length / INCH,
+    ("P1.5", "width of the playing area, in"): lambda _: PoolTable().width / INCH,
     ("P1.5", "g, in/s^2"): lambda _: GRAVITY / INCH,
 }
-"""What the text answers."""
+"""How each quantity of these problems is computed."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from evenbreak.physics.collision import axis_tilt, collide
 from evenbreak.physics.throw import throw_factor
-from evenbreak.plots.style import new_axes
+from evenbreak.plots.style import new_axes, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,14 +19,16 @@ if TYPE_CHECKING:
 
 _CUT = math.pi / 6.0
 _FRICTION = 0.2
-"""Between the balls, far too much, so that its effect is seen."""
+"""Friction between the balls, exaggerated to show its effect."""
 _OFFSET = 0.5
+_SPEED = 1.5
+"""The length of the arrow of V_0 in Fig. 4.2; the radius of a ball is 1."""
 
 Pair = Sequence[float]
 
 
 def friction_at_hit() -> Figure:
-    """Fig. 1.1: the forces on two balls that touch, and what friction makes them turn."""
+    """Fig. 1.1: the forces on two balls that touch, and the turn that friction gives them."""
     figure, axes = _sheet((-1.35, 3.35), (-1.5, 1.5), (7.4, 4.9))
     for x, way in ((0.0, -1.0), (2.0, 1.0)):
         _ball(axes, (x, 0.0))
@@ -52,7 +54,7 @@ def tip_forces() -> Figure:
     axes.plot(tip, _OFFSET + np.array([0.09, 0.05, -0.05, -0.09]), color="black", lw=1.2)
     axes.plot([touch[0], 0.0], [0.0, 0.0], ls=":", color="black", lw=0.9)
     axes.plot([touch[0], touch[0]], [0.0, _OFFSET], ls=":", color="black", lw=0.9)
-    axes.annotate("$b$", (touch[0], _OFFSET / 2), (-9, 0), textcoords="offset points", va="center")
+    note(axes, "$b$", (touch[0], _OFFSET / 2), (-9, 0), va="center")
     axes.plot([0.0], [0.0], "ko", ms=4)
     _arrow(axes, touch, force, "$F$", beside=(10, 0), lw=2.2)
     _arrow(axes, touch, normal, "$F_N$", beside=(-12, -8), at=0.9, ls="--")
@@ -92,20 +94,21 @@ def hit_from_above() -> Figure:
     left = np.array([math.sin(_CUT), math.cos(_CUT)])
     _ball(axes, (0.0, 0.0))
     _ball(axes, 2.0 * way)
-    object_ball, cue_ball = 1.5 * _velocities(_CUT)
+    object_ball, cue_ball = _SPEED * _velocities(_CUT)
     _arrow(axes, (0.0, 0.0), (2.6, 0.0), "$x'$", beside=(8, 0), lw=0.8)
+    _arrow(axes, (0.0, 0.0), (_SPEED, 0.0), "$V_0$", beside=(0, 10), at=0.85, lw=2.2)
     _arrow(axes, (0.0, 0.0), (0.0, 1.5), "$y'$", beside=(0, 8), lw=0.8)
     _arrow(axes, (0.0, 0.0), 3.4 * way, "$x$", beside=(7, -5), lw=0.8)
     _arrow(axes, (0.0, 0.0), 1.5 * left, "$y$", beside=(6, 6), lw=0.8)
     _angle(axes, (0.0, 0.0), way, (1.0, 0.0), r"$\alpha$", radius=0.62)
     friction = (object_ball @ left) * left
     for start, after, sign, name, side in (
-        (2.0 * way, object_ball, 1.0, "$V_b$", (9, 8)),
-        (np.zeros(2), cue_ball, -1.0, "$V_c$", (13, -5)),
+        (2.0 * way, object_ball, 1.0, "$V_b$", (2, 11)),
+        (np.zeros(2), cue_ball, -1.0, "$V_c$", (-13, 2)),
     ):
         _arrow(axes, start, after, name, beside=side, lw=2.2)
         shift = "$+V_{by}$" if sign > 0.0 else "$-V_{by}$"
-        beside = (24, 2) if sign > 0.0 else (20, -3)
+        beside = (24, -4) if sign > 0.0 else (20, -3)
         _arrow(axes, start + after - sign * friction, sign * friction, shift, beside=beside, at=0.4)
     return figure
 
@@ -179,12 +182,12 @@ def _arrow(
     vector: Any,
     name: str,
     *,
-    beside: Pair,
+    beside: tuple[float, float],
     at: float = 1.0,
     lw: float = 1.4,
     ls: str = "-",
 ) -> FancyArrowPatch:
-    """Draw a vector from a point, its name beside the part of it that `at` says."""
+    """Draw a vector from a point, with its name beside the fraction `at` of its length."""
     from matplotlib.patches import FancyArrowPatch
 
     tail, along = np.asarray(start, float), np.asarray(vector, float)
@@ -194,15 +197,7 @@ def _arrow(
         (tail[0], tail[1]), (head[0], head[1]), color="black", lw=lw, ls=ls, label=name, **style
     )
     axes.add_patch(arrow)
-    axes.annotate(
-        name,
-        (named[0], named[1]),
-        (beside[0], beside[1]),
-        textcoords="offset points",
-        fontsize=11,
-        ha="center",
-        va="center",
-    )
+    note(axes, name, (named[0], named[1]), beside, fontsize=11, ha="center", va="center")
     return arrow
 
 
@@ -239,7 +234,7 @@ def _angle(
     radius: float = 0.13,
     named: float = 0.5,
 ) -> None:
-    """Mark the angle between two directions, the shorter way round, named so far along it."""
+    """Mark the angle between two directions; `named` is how far along it its name goes."""
     begin, end = (math.atan2(way[1], way[0]) for way in (one, other))
     turn = begin + np.linspace(0.0, math.remainder(end - begin, 2.0 * math.pi), 41)
     arc = np.asarray(corner, float)[:, None] + radius * np.array([np.cos(turn), np.sin(turn)])

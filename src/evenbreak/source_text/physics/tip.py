@@ -35,7 +35,7 @@ from evenbreak.physics.tip import (
     stroke_speed,
 )
 from evenbreak.physics.units import OUNCE
-from evenbreak.source_text.physics.inputs import Answers, Inputs
+from evenbreak.source_text.inputs import Answers, Inputs
 
 _P1 = ContactPoint(-math.sqrt(0.5), 1.0)
 _P2 = ContactPoint(-0.5, 0.5)
@@ -83,7 +83,7 @@ def _searched_side() -> float:
 
 
 def _contact_slopes(i: Inputs) -> float:
-    """Return the spread of z/y over a slide, from how the ball moves and spins."""
+    """Return the spread of z/y over a slide, from the motion and spin of the ball."""
     ball, speed = Ball(), 1.0
     struck = ContactPoint(i["y/R"], i["z/R"])
     around = speed / ball.radius
@@ -159,4 +159,4 @@ ANSWERS: Answers = {
     ("P3.11", "V_NR/V_0"): lambda i: roll_speed_ratio(i["b/R"], i["M_b/M_s"]),
     ("P3.11", "share of the speed lost to sliding"): _speed_lost,
 }
-"""What the text answers."""
+"""How each quantity of these problems is computed."""

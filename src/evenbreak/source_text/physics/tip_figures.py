@@ -1,4 +1,4 @@
-"""The plots of section 3: where the tip meets the ball, and how fast the ball gets."""
+"""The plots of section 3: where the tip meets the ball, and the speed it gives."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from evenbreak.physics.offset import (
     roll_speed_ratio,
     small_circle_point,
 )
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.style import LINES, new_axes, note
 from evenbreak.source_text.physics.ball_view import (
     angle_arc,
     ball_view,
@@ -46,7 +46,7 @@ def same_sidespin() -> Figure:
     """Fig. 3.1: the contact points of equal sidespin, just after the tip and in natural roll."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.0, 4.9), layout="constrained")
+    figure = Figure(figsize=(9.3, 5.0), layout="constrained")
     figure.suptitle("Contact points of equal sidespin; values of $J_z$ chosen")
     after_tip, in_roll = figure.subplots(1, 2)
     ball_view(after_tip, "a) $J_z$ just after the tip")
@@ -70,7 +70,7 @@ def _name_spin(axes: Axes, side: float, place: tuple[float, float], ha: str) -> 
     whole, rest = divmod(abs(side), 1.0)
     sign = "\N{MINUS SIGN}" if side < 0.0 else ""
     name = sign + (f"{whole:.0f}" if whole or not rest else "") + _QUARTERS[rest]
-    axes.text(*place, name, fontsize=8.5, ha=ha, va="center")
+    axes.text(*place, name, fontsize=7.5, ha=ha, va="center")
 
 
 def small_circle() -> Figure:
@@ -114,28 +114,16 @@ def lag_speeds() -> Figure:
     for height in (0.0, NATURAL_ROLL_OFFSET):
         axes.axvline(height, color="0.6", lw=0.8, zorder=0)
     top: Any = {"xycoords": axes.get_xaxis_transform(), "fontsize": 9, "va": "top"}
-    axes.annotate("centre", (0.0, 0.97), (-4, 0), textcoords="offset points", ha="right", **top)
-    axes.annotate(
-        "immediate\nnatural roll",
-        (NATURAL_ROLL_OFFSET, 0.97),
-        (4, 0),
-        textcoords="offset points",
-        ha="left",
-        **top,
-    )
+    note(axes, "centre", (0.0, 0.97), (-4, 0), ha="right", **top)
+    note(axes, "immediate\nnatural roll", (NATURAL_ROLL_OFFSET, 0.97), (4, 0), ha="left", **top)
     _ratio_curves(axes, roll_speed_ratio)
     for ratio in MASS_RATIOS:
         best = best_lag_offset(float(ratio))
         height = roll_speed_ratio(best, float(ratio))
         axes.plot([best], [height], "ko", ms=4, zorder=4)
-        axes.annotate(
-            f"{best:.3f}",
-            (best, height),
-            (0, 6),
-            textcoords="offset points",
-            fontsize=9,
-            ha="center",
-        )
+        # The two highest curves leave no room between them.
+        beside = (0, 6) if ratio == min(MASS_RATIOS) else (0, -14)
+        note(axes, f"{best:.3f}", (best, height), beside, fontsize=9, ha="center")
     axes.set(ylim=(0.0, 1.4))
     axes.legend(loc="lower right", frameon=False, handlelength=3.5)
     return figure

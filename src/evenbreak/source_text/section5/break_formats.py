@@ -11,8 +11,8 @@ from evenbreak.games.breaks import BREAK_FORMATS
 from evenbreak.games.rack import Rack
 from evenbreak.games.series import Series
 from evenbreak.practice.breaks import compare_break_formats, long_run_share
-from evenbreak.source_text.section5.matrices import MATRICES, matrix_rows
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.section5.rows import Derived, Row, formulas
 
 FORMATS = ("winner", "loser", "alternate")
 PAIRS = (
@@ -28,24 +28,16 @@ PAIRS = (
     (0.95, 0.94),
 )
 """The rows p1, p2 of Table 5.4."""
-FORMULAS = {
-    "winner": "(1 - p2)/(2 - p1 - p2)",
-    "loser": "p1/(p1 + p2)",
-    "alternate": "(1 + p1 - p2)/2",
-}
-"""The fraction of racks that player 1 wins in the long run, by format."""
-EIGENVALUES = {name: " and ".join(MATRICES[f"M, {name} breaks"].eigenvalues) for name in FORMATS}
-"""Of the chain of who breaks, by format."""
 
 
 def _share(inputs: Inputs, name: str) -> float:
-    p1, p2 = float(inputs.one("p1")), float(inputs.one("p2"))
+    p1, p2 = inputs["p1"], inputs["p2"]
     return float(long_run_share(p1, p2, BREAK_FORMATS[name]))
 
 
 def _points(inputs: Inputs) -> float:
-    rack = Rack(float(inputs.one("p1")), float(inputs.one("p2")))
-    win, lose = float(inputs.one("win")), float(inputs.one("lose"))
+    rack = Rack(inputs["p1"], inputs["p2"])
+    win, lose = inputs["win"], inputs["lose"]
     values = compare_break_formats(rack, win=win, lose=lose)
     points = {value.name: value.points for value in values}
     return points[inputs.words[0]]
@@ -62,10 +54,7 @@ ANSWERS: Answers = {
 
 
 def _p5_24() -> Iterator[Row]:
-    for name in FORMATS:
-        yield Row("formula: W", f"{name} breaks", FORMULAS[name])
-        yield Row("formula: eigenvalues", f"{name} breaks", EIGENVALUES[name])
-    yield from matrix_rows("P5.24")
+    yield from formulas("P5.24")
     for p1, p2 in PAIRS:
         for name in FORMATS:
             series = Series(Rack(p1, p2), breaks=BREAK_FORMATS[name])
@@ -79,7 +68,7 @@ def _p5_24() -> Iterator[Row]:
 
 
 def _p5_25() -> Iterator[Row]:
-    yield Row("formula: points per game", "", "W*win - (1 - W)*lose")
+    yield from formulas("P5.25")
     for value in sorted(
         compare_break_formats(Rack(0.9, 0.5), win=1, lose=2),
         key=lambda value: list(BREAK_FORMATS).index(value.name),

@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.win import race_win_probability, win_probability
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.section5.rows import Derived, Row, formulas
 from evenbreak.stats.binomial import GamesWon, critical_value, score_probability
 
 _LONGEST = 10
@@ -36,7 +37,7 @@ def _sets(p: float) -> Race:
 
 
 class _Needs(NamedTuple):
-    """The sets that each player needs, and the games of a set; a game is a set of one."""
+    """The sets that each player needs, and the games that each needs for a set."""
 
     m: int
     n: int
@@ -46,7 +47,7 @@ class _Needs(NamedTuple):
 
 def _games_in(inputs: Inputs) -> _Needs:
     m, n = map(int, inputs.all())
-    set_m, set_n = map(int, inputs.named.get("of", (1, 1)))
+    set_m, set_n = map(int, inputs.numbers.get("of", (1, 1)))
     return _Needs(m, n, set_m, set_n)
 
 
@@ -71,30 +72,28 @@ def _law(inputs: Inputs) -> GamesWon:
 
 
 def _margin(inputs: Inputs) -> float:
-    return float(critical_value(float(inputs.one("coverage")))) * _law(inputs).sd
+    return float(critical_value(inputs["coverage"])) * _law(inputs).sd
 
 
 ANSWERS: Answers = {
     ("P5.4", "P(p;3,1)"): lambda i: score_probability(i.one("p"), 3, 1),
     ("P5.4", "each way to 3:1"): lambda i: score_probability(i.one("p"), 3, 1) / len(_orders()),
     ("P5.4", "number of ways to 3:1"): lambda _: len(_orders()),
-    ("P5.5", "W(p;3,2)"): lambda i: _win(float(i.one("p")), 3, 2),
+    ("P5.5", "W(p;3,2)"): lambda i: _win(i["p"], 3, 2),
     ("P5.5", "P(3:0)"): lambda i: i.one("p") * score_probability(i.one("p"), 2, 0),
     ("P5.5", "P(3:1)"): lambda i: i.one("p") * score_probability(i.one("p"), 2, 1),
     ("P5.6", "P(p;m,n)"): lambda i: score_probability(i.one("p"), int(i.one("m")), int(i.one("n"))),
     ("P5.6", "W(p;m,n)"): lambda i: match_probability(i.one("p"), int(i.one("m")), int(i.one("n"))),
     ("P5.7", "p where W(p;2,1)=W(p;4,2)"): lambda _: _crossing(1),
-    ("P5.7", "W(p;2,1)"): lambda i: _win(float(i.one("p")), 2, 1),
-    ("P5.7", "W(p;4,2)"): lambda i: _win(float(i.one("p")), 4, 2),
+    ("P5.7", "W(p;2,1)"): lambda i: _win(i["p"], 2, 1),
+    ("P5.7", "W(p;4,2)"): lambda i: _win(i["p"], 4, 2),
     ("P5.7", "p where W(p;4,2)=1/2"): lambda _: _fair(2),
     ("P5.7", "W(1/2;n,n)"): lambda i: _win(0.5, int(i.one("n")), int(i.one("n"))),
-    ("P5.8", "W(p;9,5)"): lambda i: _win(float(i.one("p")), 9, 5),
-    ("P5.8", "set W(p;3,3)"): lambda i: _win(float(i.one("p")), 3, 3),
-    ("P5.8", "3:1 match of 3:3 sets"): lambda i: win_probability(_sets(float(i.one("p")))),
-    ("P5.8", "9:5, above an even chance"): lambda i: _win(float(i.one("p")), 9, 5) - 0.5,
-    ("P5.8", "sets, below an even chance"): lambda i: (
-        0.5 - win_probability(_sets(float(i.one("p"))))
-    ),
+    ("P5.8", "W(p;9,5)"): lambda i: _win(i["p"], 9, 5),
+    ("P5.8", "set W(p;3,3)"): lambda i: _win(i["p"], 3, 3),
+    ("P5.8", "3:1 match of 3:3 sets"): lambda i: win_probability(_sets(i["p"])),
+    ("P5.8", "9:5, above an even chance"): lambda i: _win(i["p"], 9, 5) - 0.5,
+    ("P5.8", "sets, below an even chance"): lambda i: 0.5 - win_probability(_sets(i["p"])),
     ("P5.8", "games that player 1 must win"): lambda i: _games_in(i).m * _games_in(i).set_m,
     ("P5.8", "fewest games that player 2 wins with"): lambda i: _games_in(i).n * _games_in(i).set_n,
     ("P5.8", "most games that player 2 can win and lose"): lambda i: (
@@ -106,7 +105,7 @@ ANSWERS: Answers = {
     ("P5.10", "range low, normal"): lambda i: _law(i).mean - _margin(i),
     ("P5.10", "range high, normal"): lambda i: _law(i).mean + _margin(i),
     ("P5.10", "exact P(59<=score<=66)"): lambda i: _law(i).between(59, 66),
-    ("Table 5.1", "z_c"): lambda i: critical_value(float(i.one("P"))),
+    ("Table 5.1", "z_c"): lambda i: critical_value(i["P"]),
 }
 
 
@@ -124,7 +123,7 @@ def _p5_4() -> Iterator[Row]:
 
 def _p5_5() -> Iterator[Row]:
     p = Fraction(2, 3)
-    yield Row("formula: W(p;m,n)", "", "sum over k = 0 ... n-1 of C(m-1+k, k) p^m q^k")
+    yield from formulas("P5.5")
     yield Row("W(p;3,2) as a fraction", "p=2/3", str(match_probability(p, 3, 2)))
 
 
@@ -155,9 +154,7 @@ def _p5_8() -> Iterator[Row]:
 
 
 def _p5_9() -> Iterator[Row]:
-    yield Row("formula: mode", "", "ceiling(N p - q)", "of two equal modes the smaller")
-    yield Row("formula: mean", "", "N p")
-    yield Row("formula: standard deviation", "", "sqrt(N p q)")
+    yield from formulas("P5.9")
     for games, p in EVENINGS:
         law = GamesWon(games, Fraction(p))
         inputs = f"N={games} p={p}"

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import partial
 from itertools import product
 
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.section5.rows import Derived, Row, formulas
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength, median_ratio_limit
 from evenbreak.stats.summary import Distribution
@@ -25,7 +27,7 @@ def _run(inputs: Inputs) -> RunLength:
 
 
 def _score(inputs: Inputs) -> InningsScore:
-    innings = inputs.named.get("m") or inputs.all("innings")
+    innings = inputs.numbers.get("m") or inputs.all("innings")
     return InningsScore(inputs.one("p"), int(innings[0]))
 
 
@@ -61,15 +63,6 @@ ANSWERS: Answers = {
 }
 
 
-def _p5_11() -> Iterator[Row]:
-    yield Row("formula: P(run = n)", "", "p^n q")
-    yield Row("formula: P(run >= n)", "", "p^n")
-    yield Row("formula: mode", "", "0")
-    yield Row("formula: mean", "", "p / q")
-    yield Row("formula: p of a mean", "", "mean / (mean + 1)")
-    yield Row("formula: median", "", "the smallest n >= 0 with n >= -(log 2 / log p + 1)")
-
-
 def _p5_12() -> Iterator[Row]:
     for mean in (1, 2, 5, 10, 20, 50, 100, 1000):
         run = RunLength.of_mean(mean)
@@ -89,10 +82,7 @@ def _p5_14() -> Iterator[Row]:
 
 
 def _p5_15() -> Iterator[Row]:
-    yield Row("formula: P(run = 0)", "", "1 - alpha p")
-    yield Row("formula: P(run = n)", "n > 0", "alpha p^n q")
-    yield Row("formula: mean", "", "alpha p / q")
-    yield Row("formula: median", "", "the smallest n >= 0 with n >= -(log(2 alpha) / log p + 1)")
+    yield from formulas("P5.15")
     for tenths in SAFETIES:
         run = RunLength(_PLAYER, Fraction(tenths, 10))
         inputs = f"p=.96 alpha={tenths / 10}"
@@ -103,11 +93,7 @@ def _p5_15() -> Iterator[Row]:
 
 
 def _p5_16() -> Iterator[Row]:
-    yield Row("formula: P(score = n)", "m innings", "C(n+m-1, m-1) p^n q^m")
-    yield Row("formula: mean", "m innings", "m p / q")
-    yield Row("formula: standard deviation", "m innings", "sqrt(m p) / q")
-    yield Row("formula: mode", "m innings", "max(0, ceiling((m p - 1) / q))")
-    yield Row("formula: median, approximately", "m innings", "(2 mean + mode) / 3")
+    yield from formulas("P5.16")
     for hundredths, innings in product(SCORE_P, INNINGS):
         score = InningsScore(Fraction(hundredths, 100), innings)
         inputs = f"p={hundredths / 100} m={innings}"
@@ -131,7 +117,7 @@ def _p5_17() -> Iterator[Row]:
 
 
 DERIVED: Derived = {
-    "P5.11": _p5_11,
+    "P5.11": partial(formulas, "P5.11"),
     "P5.12": _p5_12,
     "P5.13": _p5_13,
     "P5.14": _p5_14,

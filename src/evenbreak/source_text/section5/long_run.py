@@ -16,8 +16,8 @@ from evenbreak.handicaps.ladders.opponents import AUTOCORRELATED, NATURAL
 from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.practice.drills import DrillStatistics, drill_statistics
 from evenbreak.ratings.scale import SCALES
-from evenbreak.source_text.section5.matrices import matrix_rows
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.section5.rows import Derived, Row, formulas
 from evenbreak.stats.summary import Distribution
 
 DRILL_P = ("0.5", "0.6", "0.7", "0.8", "0.9", "0.95", "0.99")
@@ -37,33 +37,13 @@ def drill(p: float) -> DrillStatistics:
 
 @cache
 def ladder(number: int, *, autocorrelated: bool = False) -> Distribution:
-    """Return the law of the rating error under one of the charts."""
+    """Return the distribution of the rating error under one of the charts."""
     opponents = AUTOCORRELATED if autocorrelated else NATURAL
     return Ladder(chart(f"npl_{number}"), opponents=opponents).law()
 
 
-def ahead_formula(m: int, n: int) -> str:
-    """Return P(player 1 wins the m:n lead) as a ratio of polynomials, q = 1 - p.
-
-    >>> ahead_formula(1, 1), ahead_formula(1, 2)
-    ('p/(p + q)', '(p^2 + p q)/(p^2 + p q + q^2)')
-    """
-    above = _sum(n - 1, m)
-    return f"({above})/({_sum(m + n - 1, 0)})" if n > 1 else f"{above}/({_sum(m + n - 1, 0)})"
-
-
-def _sum(degree: int, shift: int) -> str:
-    """Return p^shift times the sum of all products of powers of p and q of one degree."""
-    return " + ".join(_term(degree - k + shift, k) for k in range(degree + 1))
-
-
-def _term(a: int, b: int) -> str:
-    powers = [name if n == 1 else f"{name}^{n}" for name, n in (("p", a), ("q", b)) if n]
-    return " ".join(powers) or "1"
-
-
 def _drill(inputs: Inputs) -> DrillStatistics:
-    return drill(float(inputs.one("p")))
+    return drill(inputs["p"])
 
 
 def _ladder_sd(inputs: Inputs, *, autocorrelated: bool) -> float:
@@ -72,7 +52,7 @@ def _ladder_sd(inputs: Inputs, *, autocorrelated: bool) -> float:
 
 def _ahead(inputs: Inputs) -> float:
     m, n = map(int, inputs.all())
-    return float(win_probability(Ahead(m, n, Rack(float(inputs.one("p"))))))
+    return float(win_probability(Ahead(m, n, Rack(inputs["p"]))))
 
 
 def _ahead_chain(inputs: Inputs) -> Ahead:
@@ -123,14 +103,7 @@ def _p5_26() -> Iterator[Row]:
 
 
 def _p5_27() -> Iterator[Row]:
-    for m, n in HANDICAPS:
-        yield Row("formula: W", f"{m}:{n}", ahead_formula(m, n), "q = 1 - p")
-    yield from matrix_rows("P5.27")
-    yield Row(
-        "formula: eigenvalues",
-        "six games between the ends",
-        "1, 1 and 2 sqrt(p q) cos(k pi/6), k = 1 ... 5",
-    )
+    yield from formulas("P5.27")
     for m, n in HANDICAPS:
         for tenths in range(11):
             p = tenths / 10

@@ -12,8 +12,8 @@ from evenbreak.chains.powers import propagate
 from evenbreak.chains.spectrum import spectrum
 from evenbreak.games.one_ball import OneBall
 from evenbreak.practice.shots import critical_p2, one_ball_win
-from evenbreak.source_text.section5.matrices import MATRICES, matrix_rows
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.section5.rows import Derived, Row, formulas
 
 SHOTS = ((0.1, 0.9), (0.9, 0.1), (0.9, 0.9), (0.5, 0.5), (0.25, 0.33), (0.4, 0.8), (0.3, 0.3))
 """The pairs p1, p2 of the table in P5.22."""
@@ -25,21 +25,10 @@ _STARTS: dict[str, dict[str, float]] = {
     "half v, half w": {"S1": 0.5, "S2": 0.5},
 }
 _STEPS = 5
-FORMULAS = {
-    ("v", "W"): "p1/(p1 + p2 - p1*p2)",
-    ("v", "L"): "p2*(1 - p1)/(p1 + p2 - p1*p2)",
-    ("w", "W"): "p1*(1 - p2)/(p1 + p2 - p1*p2)",
-    ("w", "L"): "p2/(p1 + p2 - p1*p2)",
-    ("half v, half w", "W"): "p1*(2 - p2)/(2*(p1 + p2 - p1*p2))",
-    ("half v, half w", "L"): "p2*(2 - p1)/(2*(p1 + p2 - p1*p2))",
-}
-"""The stochastic limits of P5.23 by start and node; 1 - q1 q2 is p1 + p2 - p1 p2."""
-TWO_SHOTS = "p1 + (1 - p1)*(1 - p2)/2"
-"""W of P5.21."""
 
 
 def _win(inputs: Inputs, look_ahead: str) -> float:
-    p1, p2 = float(inputs.one("p1")), float(inputs.one("p2"))
+    p1, p2 = inputs["p1"], inputs["p2"]
     return float(one_ball_win(p1, p2, look_ahead=look_ahead))
 
 
@@ -51,29 +40,26 @@ def _chain() -> Chain:
 ANSWERS: Answers = {
     ("P5.22", "W infinite look-ahead"): lambda i: _win(i, "infinite"),
     ("P5.22", "W two-shot look-ahead"): lambda i: _win(i, "two shots"),
-    ("P5.22", "critical p2"): lambda i: critical_p2(float(i.one("p1"))),
+    ("P5.22", "critical p2"): lambda i: critical_p2(i["p1"]),
     ("P5.23", "number of eigenvalues 1"): lambda _: spectrum(_chain()).units,
 }
 
 
-def _curve() -> Iterator[Row]:
-    yield Row("formula: critical p2", "W=1/2", "p1/(1 - p1)", "the same for both look-aheads")
-    for tenths in range(1, 6):
-        p1 = tenths / 10
-        yield Row("critical p2", f"p1={p1}", critical_p2(p1))
-
-
 def _p5_20() -> Iterator[Row]:
-    yield from _surface("W infinite look-ahead", FORMULAS["v", "W"], "infinite")
+    yield from _surface("P5.20", "infinite")
 
 
 def _p5_21() -> Iterator[Row]:
-    yield from _surface("W two-shot look-ahead", TWO_SHOTS, "two shots")
+    yield from _surface("P5.21", "two shots")
 
 
-def _surface(name: str, formula: str, look_ahead: str) -> Iterator[Row]:
-    yield Row(f"formula: {name}", "", formula)
-    yield from _curve()
+def _surface(problem: str, look_ahead: str) -> Iterator[Row]:
+    win, critical = formulas(problem)
+    yield from (win, critical)
+    for tenths in range(1, 6):
+        p1 = tenths / 10
+        yield Row("critical p2", f"p1={p1}", critical_p2(p1))
+    name = win.quantity.removeprefix("formula: ")
     for tenths in range(1, 10):
         p1 = tenths / 10
         for p2 in (0.1, 0.5, 0.9):
@@ -88,6 +74,7 @@ def _p5_22() -> Iterator[Row]:
 
 def _p5_23() -> Iterator[Row]:
     chain = _chain()
+    written = {row[:2]: row for row in formulas("P5.23")}
     inputs = f"p1={_P1} p2={_P2}"
     for start, density in _STARTS.items():
         for step in range(_STEPS + 1) if start != "half v, half w" else (0,):
@@ -97,13 +84,11 @@ def _p5_23() -> Iterator[Row]:
         limit = stochastic_limit(chain, density)
         for node in _NODES:
             yield Row(f"{start}, limit", f"{inputs} node={node}", limit[node])
-            formula = FORMULAS.get((start, node), "0")
-            yield Row(f"formula: {start}, limit", f"node={node}", formula)
+            yield written.pop((f"formula: {start}, limit", f"node={node}"))
     values = sorted(spectrum(chain).values.tolist(), reverse=True)
     for number, value in enumerate(values, 1):
         yield Row(f"eigenvalue {number}", inputs, value)
-    yield Row("formula: eigenvalues", "", ", ".join(MATRICES["M"].eigenvalues))
-    yield from matrix_rows("P5.23")
+    yield from written.values()
 
 
 DERIVED: Derived = {"P5.20": _p5_20, "P5.21": _p5_21, "P5.22": _p5_22, "P5.23": _p5_23}

@@ -2,45 +2,60 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from itertools import chain
+from typing import Any
 
+from evenbreak.source_text.cells import Rows, Tables
+from evenbreak.source_text.findings import Finding
+from evenbreak.source_text.markdown import beside, markdown_table, rounded, short
 from evenbreak.source_text.section5.innings import INNINGS
 from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
-from evenbreak.source_text.section5.markdown import beside, markdown_table, rounded, short
-from evenbreak.source_text.section5.matrices import MATRICES
-from evenbreak.source_text.section5.numbers import Finding
 from evenbreak.source_text.section5.samples import pascals_triangle
 
-if TYPE_CHECKING:
-    import pandas as pd
-
-_STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half and half"}
+_STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half the time"}
 
 
-def score_table(frame: pd.DataFrame) -> str:
+def _lines_table(header: Sequence[str], cells: Iterable[tuple[str, str]]) -> str:
+    """Return a table from its cells, line by line, each with the name of its line."""
+    lines: dict[str, list[str]] = {}
+    for name, cell in cells:
+        lines.setdefault(name, [name]).append(cell)
+    return markdown_table(header, lines.values())
+
+
+def score_table(rows: Rows) -> str:
     """Return a table of P5.6, row m and column n."""
-    columns = list(frame.columns)
-    rows = [[f"**{row[0]}**", *map(_chance, row[1:])] for row in frame.itertuples(index=False)]
-    return markdown_table(["m \\ n", *(name.removeprefix("n_") for name in columns[1:])], rows)
+    header = ["m \\ n", *(name.removeprefix("n_") for name in list(rows[0])[1:])]
+    cells = [list(row.values()) for row in rows]
+    return markdown_table(header, [[f"**{m}**", *map(_chance, chances)] for m, *chances in cells])
 
 
 def _chance(value: Decimal) -> str:
     return f"{value:.0E}" if value < Decimal("0.00095") else rounded(value, 3)
 
 
-def _records(frame: pd.DataFrame) -> list[dict[str, Any]]:
-    return [dict(zip(frame.columns, row, strict=True)) for row in frame.itertuples(index=False)]
-
-
 def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
     return beside(row[name], row[f"{name}_printed"], decimals)
 
 
-def table_5_1(frame: pd.DataFrame) -> str:
+def _pairs_table(
+    rows: Rows, *, header: Sequence[str], plain: Sequence[str], decimals: Mapping[str, int]
+) -> str:
+    """Return a table: some columns as they are, then computed numbers beside printed ones."""
+    return markdown_table(
+        header,
+        [
+            [*(row[name] for name in plain), *(_pair(row, *pair) for pair in decimals.items())]
+            for row in rows
+        ],
+    )
+
+
+def _table_5_1(rows: Rows) -> str:
     """Return the critical values, the printed ones below."""
-    rows = _records(frame)
     return markdown_table(
         ["P", *(str(row["coverage"]) for row in rows)],
         [
@@ -50,21 +65,9 @@ def table_5_1(frame: pd.DataFrame) -> str:
     )
 
 
-def table_5_2(frame: pd.DataFrame) -> str:
-    """Return the statistics of runs."""
-    decimals = {"mean_run": 1, "median_bound": 1, "median_run": 0, "median_over_mean": 3}
-    return markdown_table(
-        ["p", "mean", "bound", "median", "median / mean"],
-        [
-            [row["p"], *(_pair(row, *column) for column in decimals.items())]
-            for row in _records(frame)
-        ],
-    )
-
-
-def table_5_3(frame: pd.DataFrame) -> str:
+def _table_5_3(rows: Rows) -> str:
     """Return mode, mean and median of scores, a column for each number of innings."""
-    cells = {(row["p"], row["m"]): row for row in _records(frame)}
+    cells = {(row["p"], row["m"]): row for row in rows}
     chances = list(dict.fromkeys(p for p, _ in cells))
     return markdown_table(
         ["p", "", *(f"m = {innings}" for innings in INNINGS)],
@@ -76,123 +79,12 @@ def table_5_3(frame: pd.DataFrame) -> str:
     )
 
 
-def triangle_table() -> str:
-    """Return Pascal's triangle, row n and column m."""
-    rows = pascals_triangle()
-    return markdown_table(
-        ["n \\ m", *range(len(rows))],
-        [[f"**{n}**", *row, *[""] * (len(rows) - len(row))] for n, row in enumerate(rows)],
-    )
-
-
-def games_table(frame: pd.DataFrame) -> str:
-    """Return what P5.9 gives for some numbers of games."""
-    names = ("N p - q", "mode", "number of modes", "mean", "standard deviation")
-    rows: dict[str, dict[str, Any]] = {}
-    for row in _records(frame):
-        rows.setdefault(row["inputs"], {})[row["quantity"]] = row["computed"]
-    return markdown_table(
-        ["games", *(name.replace("-", "−") for name in names)],
-        [
-            [inputs, *(short(found[name]) for name in names)]
-            for inputs, found in rows.items()
-            if inputs
-        ],
-    )
-
-
-def eigenvalues_table(problem: str) -> str:
-    """Return the eigenvalues of a problem's matrices in symbols."""
-    return markdown_table(
-        ["matrix", "eigenvalues"],
-        [
-            [name, f"`{', '.join(matrix.eigenvalues)}`"]
-            for name, matrix in MATRICES.items()
-            if matrix.problem == problem
-        ],
-        left=2,
-    )
-
-
-def eigenvalues(frame: pd.DataFrame) -> str:
-    """Return the eigenvalues of P5.23 for the shots of its table."""
-    values = [
-        rounded(row["computed"], 4)
-        for row in _records(frame)
-        if row["quantity"].startswith("eigenvalue ")
-    ]
-    return ", ".join(values).replace("-", "−")
-
-
-def products_table(found: Sequence[Finding]) -> str:
-    """Return the sixteen means of P5.18."""
-    means = {
-        tuple(finding.published.inputs.split()): short(finding.computed)
-        for finding in found
-        if finding.published.quantity == "mean of two"
-    }
-    values = list(dict.fromkeys(first for first, _ in means))
-    return markdown_table(
-        ["mean of", *values], [[f"**{a}**", *(means[a, b] for b in values)] for a in values]
-    )
-
-
-def table_5_22(found: Sequence[Finding]) -> str:
-    """Return the seven shots of P5.22 by both look-aheads."""
-    rows: dict[str, list[str]] = {}
-    for row, computed, _ in found:
-        if row.problem == "P5.22" and row.quantity.startswith("W"):
-            rows.setdefault(row.inputs, []).extend([f"{computed:.4f}", str(row.printed)])
-    return markdown_table(
-        ["shot", "W infinite", "text", "W two shots", "text"],
-        [[inputs, *cells] for inputs, cells in rows.items()],
-    )
-
-
-def steps_table(frame: pd.DataFrame) -> str:
-    """Return the densities of P5.23, step by step, and their limits."""
-    rows: dict[str, list[str]] = {}
-    for row in _records(frame):
-        start, _, when = row["quantity"].rpartition(", ")
-        if start in _STARTS:
-            rows.setdefault(f"{_STARTS[start]}: {when}", []).append(rounded(row["computed"], 4))
-    return markdown_table(
-        ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],
-        [[name, *cells] for name, cells in rows.items()],
-    )
-
-
-def table_5_4(frame: pd.DataFrame) -> str:
-    """Return the shares of racks by break format."""
-    names = ("w_winner_breaks", "w_loser_breaks", "w_alternate_breaks")
-    return markdown_table(
-        ["row", "p1", "p2", "winner breaks", "loser breaks", "alternate breaks"],
-        [
-            [row["row"], row["p1"], row["p2"], *(_pair(row, name, 3) for name in names)]
-            for row in _records(frame)
-        ],
-    )
-
-
-def table_5_5(frame: pd.DataFrame) -> str:
-    """Return the shares of the drill's levels and their statistics."""
-    decimals = {f"d{level}": 3 for level in range(1, LEVELS + 1)}
-    decimals |= {"mean": 3, "mode": 0, "median": 0, "standard_deviation": 3}
-    return markdown_table(
-        ["p", *list(decimals)[:-1], "sd"],
-        [
-            [row["p"], *(_pair(row, *column) for column in decimals.items())]
-            for row in _records(frame)
-        ],
-    )
-
-
-def table_5_6(frame: pd.DataFrame) -> str:
-    """Return the four charts side by side."""
+def _table_5_6(rows: Rows) -> str:
+    """Return the four charts side by side, the printed differences beside those of the rule."""
     charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
-    for row in _records(frame):
-        last = row["difference_to"]
-        span = f"{row['difference_from']}{' up' if last is None else f'–{last}'}"
+    for row in rows:
+        span, printed = _span(row, ""), _span(row, "_printed")
+        span += "" if printed == span else f" (text: {printed})"
         charts[row["chart"]].append([span, f"{row['stronger_needs']}:{row['weaker_needs']}"])
     header = [name for number in CHARTS for name in (f"chart {number}", "race")]
     longest = max(map(len, charts.values()))
@@ -205,10 +97,155 @@ def table_5_6(frame: pd.DataFrame) -> str:
     )
 
 
-def ladder_table(frame: pd.DataFrame) -> str:
-    """Return how far ratings wander under each chart."""
+def _span(row: Mapping[str, Any], end: str) -> str:
+    first, last = row[f"difference_from{end}"], row[f"difference_to{end}"]
+    return f"{first}{' up' if last is None else f'–{last}'}"
+
+
+def off_rule_table(rows: Rows) -> str:
+    """Return where the charts have not the race nearest to even."""
     return markdown_table(
-        ["chart", "even races up to", "opponents rated rightly", "opponents err alike"],
+        ["chart", "difference", "race in the text", "W", "race nearest 1/2", "W"],
+        [
+            [
+                row["chart"],
+                row["difference"],
+                f"{row['printed_stronger_needs']}:{row['printed_weaker_needs']}",
+                rounded(row["w_printed"], 3),
+                f"{row['stronger_needs']}:{row['weaker_needs']}",
+                rounded(row["w"], 3),
+            ]
+            for row in rows
+        ],
+    )
+
+
+def eight_ball_table(rows: Rows) -> str:
+    """Return the shares of the levels of the 8-ball drill, and what they come to."""
+    names = list(rows[0])[1:]
+    whole = {"mode", "median"}
+    return markdown_table(
+        ["p", *names[:-1], "sd"],
+        [
+            [row["p"], *(rounded(row[name], 0 if name in whole else 3) for name in names)]
+            for row in rows
+        ],
+    )
+
+
+_DRILL = {f"d{level}": 3 for level in range(1, LEVELS + 1)}
+_DRILL |= {"mean": 3, "mode": 0, "median": 0, "standard_deviation": 3}
+
+TABLES: Mapping[int, Callable[[Rows], str]] = {
+    1: _table_5_1,
+    2: partial(
+        _pairs_table,
+        header=["p", "mean", "bound", "median", "median / mean"],
+        plain=["p"],
+        decimals={"mean_run": 1, "median_bound": 1, "median_run": 0, "median_over_mean": 3},
+    ),
+    3: _table_5_3,
+    4: partial(
+        _pairs_table,
+        header=["row", "p1", "p2", "winner breaks", "loser breaks", "alternate breaks"],
+        plain=["row", "p1", "p2"],
+        decimals={"w_winner_breaks": 3, "w_loser_breaks": 3, "w_alternate_breaks": 3},
+    ),
+    5: partial(_pairs_table, header=["p", *list(_DRILL)[:-1], "sd"], plain=["p"], decimals=_DRILL),
+    6: _table_5_6,
+}
+"""How Tables 5.1 to 5.6 are shown."""
+
+
+def triangle_table() -> str:
+    """Return Pascal's triangle, row n and column m."""
+    rows = pascals_triangle()
+    return markdown_table(
+        ["n \\ m", *range(len(rows))],
+        [[f"**{n}**", *row, *[""] * (len(rows) - len(row))] for n, row in enumerate(rows)],
+    )
+
+
+def games_table(rows: Rows) -> str:
+    """Return what P5.9 gives for some numbers of games."""
+    return _lines_table(
+        ["games", "N p − q", "mode", "number of modes", "mean", "standard deviation"],
+        ((row["inputs"], short(row["computed"])) for row in rows if row["inputs"]),
+    )
+
+
+def matrix_table(name: str, tables: Tables) -> str:
+    """Return a matrix in symbols, from the formulas among the tables."""
+    entries = [
+        (row["inputs"].split()[1], row["computed"].replace("-", "−"))
+        for row in chain.from_iterable(tables.values())
+        if row.get("quantity") == f"formula: {name}"
+    ]
+    states = dict.fromkeys(state for state, _ in entries)
+    return _lines_table(["to \\ from", *states], ((f"**{to}**", entry) for to, entry in entries))
+
+
+def polynomials(rows: Rows) -> str:
+    """Return W of P5.27 as a ratio of polynomials for each handicap."""
+    return markdown_table(
+        ["match", "W"],
+        [
+            [row["inputs"], f"`{row['computed']}`"]
+            for row in rows
+            if row["quantity"] == "formula: W"
+        ],
+    )
+
+
+def eigenvalues(rows: Rows) -> str:
+    """Return the eigenvalues of P5.23 for the shots of its table."""
+    values = [
+        rounded(row["computed"], 4) for row in rows if row["quantity"].startswith("eigenvalue ")
+    ]
+    return ", ".join(values).replace("-", "−")
+
+
+def products_table(found: Sequence[Finding]) -> str:
+    """Return the sixteen means of P5.18."""
+    means = [
+        (row.inputs.split()[0], f"{computed:.6g}")
+        for row, computed, _ in found
+        if row.quantity == "mean of two"
+    ]
+    values = dict.fromkeys(first for first, _ in means)
+    return _lines_table(["mean of", *values], ((f"**{a}**", mean) for a, mean in means))
+
+
+def table_5_22(found: Sequence[Finding]) -> str:
+    """Return the seven shots of P5.22 by both look-aheads."""
+    return _lines_table(
+        ["shot", "W infinite", "text", "W two shots", "text"],
+        (
+            (row.inputs, cell)
+            for row, computed, _ in found
+            if row.problem == "P5.22" and row.quantity.startswith("W")
+            for cell in (f"{computed:.4f}", str(row.printed))
+        ),
+    )
+
+
+def steps_table(rows: Rows) -> str:
+    """Return the densities of P5.23, step by step, and their limits."""
+    densities = ((*row["quantity"].rpartition(", "), row["computed"]) for row in rows)
+    return _lines_table(
+        ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],
+        (
+            (f"{_STARTS[start]}: {when}", rounded(density, 4))
+            for start, _, when, density in densities
+            if start in _STARTS
+        ),
+    )
+
+
+def ladder_table(rows: Rows) -> str:
+    """Return the spread of ratings under each chart."""
+    return markdown_table(
+        ["chart", "even races up to", "opponents rated correctly", "opponents off the same way"],
         [
             [
                 row["chart"],
@@ -216,6 +253,6 @@ def ladder_table(frame: pd.DataFrame) -> str:
                 _pair(row, "sd_natural", 3),
                 _pair(row, "sd_autocorrelated", 3),
             ]
-            for row in _records(frame)
+            for row in rows
         ],
     )

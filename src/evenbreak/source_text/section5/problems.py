@@ -1,32 +1,28 @@
-"""The answers of problems P5.1 to P5.27, one frame each, and the frame of all printed numbers."""
+"""The answers of problems P5.1 to P5.27, one table each."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import Any
 
-from evenbreak.source_text.section5.numbers import PARTS, Finding, by_problem, deciding_tolerance
-from evenbreak.source_text.section5.rows import Derived, Row, difference_cell, number_cell
-
-if TYPE_CHECKING:
-    import pandas as pd
+from evenbreak.source_text.answers import SECTION_5
+from evenbreak.source_text.cells import Tables, number_cell
+from evenbreak.source_text.findings import Finding, row_of
+from evenbreak.source_text.section5.rows import Derived, Row
 
 PROBLEMS = tuple(f"P5.{number}" for number in range(1, 28))
 
-DERIVED: Derived = {key: function for part in PARTS for key, function in part.DERIVED.items()}
-"""What answers each problem beyond the numbers that the text prints."""
+_PROBLEM_OF = {
+    "Table 5.1": "P5.10",
+    "Table 5.2": "P5.11",
+    "Table 5.3": "P5.16",
+    "Table 5.4": "P5.24",
+    "Table 5.5": "P5.26",
+}
+"""The problem that a table answers or follows."""
 
-COLUMNS = (
-    "problem",
-    "quantity",
-    "inputs",
-    "printed",
-    "computed",
-    "difference",
-    "tolerance",
-    "verdict",
-    "note",
-)
+DERIVED: Derived = {key: rows for part in SECTION_5 for key, rows in part.DERIVED.items()}
+"""The rows of each problem beyond the numbers that the text prints."""
 
 
 def file_of(problem: str) -> str:
@@ -38,46 +34,30 @@ def file_of(problem: str) -> str:
     return f"problem_5_{int(problem.removeprefix('P5.')):02}"
 
 
-def published_frame(found: Iterable[Finding]) -> pd.DataFrame:
-    """Return every number that the text prints, with the one that is computed and the verdict."""
-    return _frame(_printed(finding) for finding in found)
-
-
-def problem_frames(found: Iterable[Finding]) -> Mapping[str, pd.DataFrame]:
-    """Return the answer of each problem by the name of its file: what is printed, then the rest."""
-    grouped = by_problem(found)
+def problem_tables(found: Iterable[Finding]) -> Tables:
+    """Return the answer of each problem by file name: printed numbers, then the rest."""
+    printed: dict[str, list[dict[str, Any]]] = {}
+    for finding in found:
+        home = finding.published.problem
+        printed.setdefault(_PROBLEM_OF.get(home, home), []).append(row_of(finding))
     return {
-        file_of(problem): _frame(
-            [
-                *map(_printed, grouped.get(problem, ())),
-                *(_derived(problem, row) for row in DERIVED.get(problem, tuple)()),
-            ]
-        )
+        file_of(problem): [
+            *printed.get(problem, ()),
+            *(_derived(problem, row) for row in DERIVED.get(problem, tuple)()),
+        ]
         for problem in PROBLEMS
     }
 
 
-def _printed(finding: Finding) -> tuple[Any, ...]:
-    published, printed = finding.published, finding.published.printed
-    return (
-        published.problem,
-        published.quantity,
-        published.inputs,
-        printed,
-        number_cell(finding.computed),
-        None if printed is None else difference_cell(finding.computed, printed),
-        number_cell(deciding_tolerance(published)),
-        finding.verdict,
-        published.note,
-    )
-
-
-def _derived(problem: str, row: Row) -> tuple[Any, ...]:
-    computed = row.computed if isinstance(row.computed, str) else number_cell(row.computed)
-    return problem, row.quantity, row.inputs, None, computed, None, None, "derived", row.note
-
-
-def _frame(rows: Iterable[tuple[Any, ...]]) -> pd.DataFrame:
-    import pandas as pd
-
-    return pd.DataFrame(list(rows), columns=list(COLUMNS), dtype=object)
+def _derived(problem: str, row: Row) -> dict[str, Any]:
+    return {
+        "problem": problem,
+        "quantity": row.quantity,
+        "inputs": row.inputs,
+        "printed": None,
+        "computed": row.computed if isinstance(row.computed, str) else number_cell(row.computed),
+        "difference": None,
+        "tolerance": None,
+        "verdict": "derived",
+        "note": row.note,
+    }

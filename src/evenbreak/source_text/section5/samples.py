@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 from itertools import combinations, pairwise, product
 
-from evenbreak.source_text.section5.rows import Answers, Derived, Inputs, Row
+from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.section5.rows import Derived, Row, formulas
 from evenbreak.stats.binomial import coverage_within
 from evenbreak.stats.confidence import mean_interval, sd_of_mean, was_it_luck
 from evenbreak.stats.summary import Distribution, Moments, merge
@@ -14,7 +15,7 @@ from evenbreak.stats.summary import Distribution, Moments, merge
 _FIRST, _SECOND = (0, 1, 1, 4, 5), (0, 1, 1, 8, 9)
 _SLIPS = (1, 2, 3, 4)
 _ROWS = 10
-"""Of Pascal's triangle, below its tip."""
+"""The rows of Pascal's triangle, below its tip."""
 _POPULATION = (1, 2, 4, 5)
 _SCORES = (50, 44, 46, 52, 47, 51, 49, 45, 48, 50)
 _NEW = 53
@@ -136,12 +137,7 @@ def _p5_18() -> Iterator[Row]:
     sd = Distribution.of(_POPULATION).sd
     everything = _listed(_POPULATION)
     without = Distribution.of([(a + b) / 2 for a, b in combinations(_POPULATION, 2)])
-    yield Row("formula: sd of the mean of m", "drawn with replacement", "sd / sqrt(m)")
-    yield Row(
-        "formula: sd of the mean of m",
-        "drawn from N without replacement",
-        "sd / sqrt(m) * sqrt((N - m) / (N - 1))",
-    )
+    yield from formulas("P5.18")
     for n in range(1, 5):
         inputs = f"{everything} m={n}"
         yield Row("sd of the mean, with replacement", inputs, sd_of_mean(sd, n))

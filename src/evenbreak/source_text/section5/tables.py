@@ -1,36 +1,28 @@
-"""The tables of section 5 as frames, and the numbers behind its figures."""
+"""The tables of section 5."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
+from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from evenbreak.games.ahead import Ahead
-from evenbreak.games.breaks import BREAK_FORMATS
-from evenbreak.games.rack import Rack
+from evenbreak.games.drill import Drill
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.matches.win import race_win_probability, win_probability
-from evenbreak.practice.breaks import long_run_share
-from evenbreak.practice.shots import one_ball_win
-from evenbreak.source_text.section5.break_formats import FORMATS
+from evenbreak.handicaps.charts.off_rule import nearest_rows, off_rule
+from evenbreak.practice.drills import drill_statistics
+from evenbreak.source_text.cells import Rows, Tables, number_cell
+from evenbreak.source_text.findings import Finding
+from evenbreak.source_text.inputs import parse_inputs
 from evenbreak.source_text.section5.games_won import match_probability
-from evenbreak.source_text.section5.long_run import CHARTS, HANDICAPS, LEVELS, drill, ladder
-from evenbreak.source_text.section5.numbers import Finding
-from evenbreak.source_text.section5.rows import fixed_cell, number_cell, parse_inputs
+from evenbreak.source_text.section5.long_run import CHARTS, DRILL_P
 from evenbreak.stats.binomial import score_probability
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 _SIZE = 10
-_HUNDREDTHS = [k / 100 for k in range(101)]
-_INSIDE = [k / 20 for k in range(1, 20)]
-"""The grid of the contour plots; at a corner a limit may depend on the way to it."""
 
 
-def table_frame(found: Iterable[Finding], table: str) -> pd.DataFrame:
+def table_rows(found: Iterable[Finding], table: str) -> Rows:
     """Return one of Tables 5.1 to 5.5: its inputs, each quantity and the printed one beside it.
 
     Raises
@@ -39,140 +31,108 @@ def table_frame(found: Iterable[Finding], table: str) -> pd.DataFrame:
         if no number of that table is among the findings.
     """
     rows: dict[tuple[Any, ...], dict[str, Any]] = {}
-    for finding in found:
-        if finding.published.problem != table or " less " in finding.published.quantity:
+    for published, computed, _ in found:
+        if published.problem != table or " less " in published.quantity:
             continue
-        named = parse_inputs(finding.published.inputs).named
-        inputs = {_column(name): number_cell(value) for name, (value,) in named.items()}
+        numbers = parse_inputs(published.inputs).numbers
+        inputs = {_column(name): number_cell(value) for name, (value,) in numbers.items()}
         row = rows.setdefault(tuple(inputs.values()), inputs)
-        name = _column(finding.published.quantity)
-        row[name] = number_cell(finding.computed)
-        row[f"{name}_printed"] = finding.published.printed
+        name = _column(published.quantity)
+        row[name] = number_cell(computed)
+        row[f"{name}_printed"] = published.printed
     if not rows:
         raise KeyError(table)
-    return _frame(rows.values())
+    return list(rows.values())
 
 
-def score_frames() -> Mapping[str, pd.DataFrame]:
+def score_tables() -> Tables:
     """Return the four tables of P5.6: scores P(p; m, n) and matches W(p; m, n), by file name."""
-    frames = {}
+    tables = {}
     for p in (Fraction(1, 2), Fraction(2, 3)):
         end = f"p_{p.numerator}_{p.denominator}"
-        frames[f"problem_5_06_scores_{end}"] = _square(p, score_probability, 0)
-        frames[f"problem_5_06_matches_{end}"] = _square(p, match_probability, 1)
-    return frames
+        tables[f"problem_5_06_scores_{end}"] = _square(p, score_probability, 0)
+        tables[f"problem_5_06_matches_{end}"] = _square(p, match_probability, 1)
+    return tables
 
 
-def _square(p: Fraction, chance: Callable[[Fraction, int, int], Any], first: int) -> pd.DataFrame:
+def _square(p: Fraction, chance: Callable[[Fraction, int, int], Any], first: int) -> Rows:
     games = range(first, first + _SIZE)
-    return _frame(
-        {"m": m, **{f"n_{n}": number_cell(chance(p, m, n)) for n in games}} for m in games
-    )
+    return [{"m": m, **{f"n_{n}": number_cell(chance(p, m, n)) for n in games}} for m in games]
 
 
-def charts_frame() -> pd.DataFrame:
-    """Return Table 5.6: the races of the four charts, by rating difference."""
-    return _frame(
-        {"chart": number, **row._asdict()}
+def chart_rows() -> Rows:
+    """Return Table 5.6: each race of the four charts, where the rule has it and where it stands.
+
+    The rule takes the race of the chart with W nearest 1/2.
+    """
+    return [
+        {
+            "chart": number,
+            "stronger_needs": row.stronger_needs,
+            "weaker_needs": row.weaker_needs,
+            "difference_from": row.difference_from,
+            "difference_to": row.difference_to,
+            "difference_from_printed": printed.difference_from,
+            "difference_to_printed": printed.difference_to,
+        }
         for number in CHARTS
-        for row in chart(f"npl_{number}").rows
-    )
+        for row, printed in zip(
+            nearest_rows(chart(f"npl_{number}"), "npl"),
+            chart(f"npl_{number}").rows,
+            strict=True,
+        )
+    ]
 
 
-def ladder_frame(found: Iterable[Finding]) -> pd.DataFrame:
-    """Return how far ratings wander under each chart, and the last even difference."""
+def off_rule_rows() -> Rows:
+    """Return the places where a chart of Table 5.6 has not the race with W nearest 1/2."""
+    return [
+        {
+            "chart": number,
+            "difference": place.difference,
+            "printed_stronger_needs": place.race[0],
+            "printed_weaker_needs": place.race[1],
+            "w_printed": number_cell(place.win),
+            "stronger_needs": place.nearest[0],
+            "weaker_needs": place.nearest[1],
+            "w": number_cell(place.nearest_win),
+        }
+        for number in CHARTS
+        for place in off_rule(chart(f"npl_{number}"), "npl")
+    ]
+
+
+def eight_ball_rows() -> Rows:
+    """Return where the 8-ball drill after exercise 5.1 settles, as Table 5.5 for 9-ball."""
+    rows = []
+    for p in DRILL_P:
+        law = drill_statistics(Drill.eight_ball(float(p))).distribution
+        shares = {f"d{level}": share for level, share in enumerate(law.probability, 1)}
+        numbers = {
+            **shares,
+            "mean": law.mean,
+            "mode": law.mode,
+            "median": law.median,
+            "standard_deviation": law.sd,
+        }
+        rows.append({"p": Decimal(p), **{name: number_cell(x) for name, x in numbers.items()}})
+    return rows
+
+
+def ladder_rows(found: Iterable[Finding]) -> Rows:
+    """Return the spread of ratings under each chart, and its widest even race."""
     rows: dict[int, dict[str, Any]] = {
         number: {"chart": number, "even_up_to": chart(f"npl_{number}").rows[0].difference_to}
         for number in CHARTS
     }
-    for finding in found:
-        inputs = parse_inputs(finding.published.inputs).named
-        if finding.published.problem == "NPL" and "chart" in inputs:
-            auto = "autocorrelation" in finding.published.quantity
+    for published, computed, _ in found:
+        number = parse_inputs(published.inputs).get("chart")
+        if published.problem == "NPL" and number is not None:
+            auto = "autocorrelation" in published.quantity
             name = "sd_autocorrelated" if auto else "sd_natural"
-            row = rows[int(inputs["chart"][0])]
-            row[name] = number_cell(finding.computed)
-            row[f"{name}_printed"] = finding.published.printed
-    return _frame(rows.values())
-
-
-def figure_frames() -> Mapping[str, pd.DataFrame]:
-    """Return the numbers behind each plot of section 5, by the name of the figure."""
-    return {
-        "figure_5_1": _curves(
-            {
-                f"w_{k * n}_{n}": race_win_probability(_HUNDREDTHS, k * n, n)
-                for k in (1, 2)
-                for n in range(1, _SIZE + 1)
-            }
-        ),
-        "figure_5_3": _surfaces(
-            {
-                "w_infinite": one_ball_win,
-                "w_two_shots": lambda p1, p2: one_ball_win(p1, p2, look_ahead="two shots"),
-            }
-        ),
-        "figure_5_6": _surfaces(
-            {
-                **{f"w_{name}_breaks": _share(name) for name in FORMATS},
-                "winner_less_loser": lambda p1, p2: (
-                    _share("winner")(p1, p2) - _share("loser")(p1, p2)
-                ),
-            }
-        ),
-        "figure_5_8": _frame(
-            {
-                "p": number_cell(p),
-                **{
-                    f"d_{level}": fixed_cell(chance)
-                    for level, chance in zip(
-                        range(1, LEVELS + 1), drill(p).distribution.probability, strict=True
-                    )
-                },
-            }
-            for p in _HUNDREDTHS
-        ),
-        "figure_5_9": _ladders(),
-        "figure_5_11": _curves(
-            {f"w_{m}_{n}": win_probability(Ahead(m, n, Rack(_HUNDREDTHS))) for m, n in HANDICAPS}
-        ),
-    }
-
-
-def _share(name: str) -> Callable[[Any, Any], Any]:
-    return lambda p1, p2: long_run_share(p1, p2, BREAK_FORMATS[name])
-
-
-def _curves(columns: Mapping[str, Any]) -> pd.DataFrame:
-    return _frame(
-        {"p": number_cell(p), **{name: fixed_cell(values[k]) for name, values in columns.items()}}
-        for k, p in enumerate(_HUNDREDTHS)
-    )
-
-
-def _surfaces(functions: Mapping[str, Callable[[Any, Any], Any]]) -> pd.DataFrame:
-    return _frame(
-        {
-            "p1": number_cell(p1),
-            "p2": number_cell(p2),
-            **{name: fixed_cell(function(p1, p2)) for name, function in functions.items()},
-        }
-        for p1 in _INSIDE
-        for p2 in _INSIDE
-    )
-
-
-def _ladders() -> pd.DataFrame:
-    laws = {
-        f"{kind}_{number}": ladder(number, autocorrelated=kind == "autocorrelated")
-        for kind in ("natural", "autocorrelated")
-        for number in CHARTS
-    }
-    errors = next(iter(laws.values())).values  # noqa: PD011
-    return _frame(
-        {"rating_error": error, **{n: fixed_cell(law.probability[k]) for n, law in laws.items()}}
-        for k, error in enumerate(errors)
-    )
+            rows[int(number)][name] = number_cell(computed)
+            rows[int(number)][f"{name}_printed"] = published.printed
+    return list(rows.values())
 
 
 def _column(name: str) -> str:
@@ -184,9 +144,3 @@ def _column(name: str) -> str:
     if name == "P":
         return "coverage"
     return re.sub(r"\W+", "_", name.replace("/", " over ").lower())
-
-
-def _frame(rows: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
-    import pandas as pd
-
-    return pd.DataFrame(list(rows), dtype=object)

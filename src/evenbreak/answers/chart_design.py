@@ -1,0 +1,236 @@
+"""The fairest chart within limits, and other charts beside it."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from itertools import groupby
+from typing import Any, NamedTuple
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.chart_show import chart_rows
+from evenbreak.answers.design_prices import design_prices
+from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.wording import count_of, decimals, percent, race, range_words
+from evenbreak.handicaps.charts.candidates import Candidates
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.design import races_to_try
+from evenbreak.handicaps.charts.match_rules import MatchRules
+from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
+from evenbreak.handicaps.charts.race_limits import RaceLimits
+
+GOALS = {
+    "mean": "the smallest unfairness on average",
+    "worst": "the smallest unfairness at the worst difference",
+    "nearest": "the race nearest to even at each difference",
+}
+"""What a design aims at, by its rule."""
+
+MOST_LISTED = 10
+"""The most ranges with other races that a person is shown for one chart."""
+
+
+@dataclass(frozen=True)
+class DesignTask:
+    """What is asked of a design.
+
+    Parameters
+    ----------
+    rules, limits, target, tilt, up_to, mean_games, rows, spread
+        as for `evenbreak.handicaps.design`.
+    rule
+        'mean' or 'worst', the criterion; or 'nearest', for `nearest_chart`.
+    beside
+        other charts to compare with. Unless `up_to` is given, the last difference that counts
+        is the smallest `last_difference` of these.
+
+    >>> task = DesignTask(MatchRules("npl"), RaceLimits((5, 7), weaker_least=2))
+    >>> task.design()[0].race(12)
+    (4, 3)
+    """
+
+    rules: MatchRules
+    limits: RaceLimits
+    rule: str = "mean"
+    target: float = 0.5
+    tilt: float = 0.5
+    up_to: int | None = None
+    mean_games: float | None = None
+    rows: int | None = None
+    spread: int | None = None
+    beside: tuple[Chart, ...] = ()
+
+    def design(self) -> tuple[Chart, int]:
+        """Return the chart that fulfils the task."""
+        up_to = self.up_to
+        if up_to is None and self.beside:
+            up_to = min(last_difference(chart, self.rules) for chart in self.beside)
+        candidates = races_to_try(self.rules, self.limits, self.spread, up_to)
+        if isinstance(candidates, Candidates) and self.rule == "nearest":
+            made = candidates.nearest("design")
+        else:
+            made = candidates.fairest(
+                target=self.target,
+                tilt=self.tilt,
+                criterion=self.rule,
+                mean_games=self.mean_games,
+                rows=self.rows,
+            )
+        return made, int(candidates.points[-1])
+
+    def heading(self, up_to: int) -> str:
+        """Return what is asked for, in two lines."""
+        low, high = self.limits.games
+        words = [f"Races whose longest match has {low} to {high} games"]
+        if self.rules.win_by > 1:
+            words.append(f"won by {self.rules.win_by}")
+        if self.rules.break_points:
+            words.append(f"with a break worth {self.rules.break_points:g} points")
+        if self.limits.games_p90 is not None:
+            words.append(f"9 out of 10 matches within {self.limits.games_p90} games")
+        if self.rows is not None:
+            words.append(f"at most {count_of(self.rows, 'row')}")
+        if self.spread is not None and high - low > self.spread:
+            apart = f"at most {count_of(self.spread, 'game')} apart" if self.spread else "the same"
+            words.append(f"longest matches {apart}")
+        if self.mean_games is not None:
+            words.append(f"at most {self.mean_games:g} games on average")
+        goal = GOALS[self.rule]
+        if self.target != 0.5:
+            goal += f", with a target of {percent(self.target)}"
+        if self.tilt != 0.5:
+            goal += f", with tilt {self.tilt:g}"
+        return (
+            f"{', '.join(words)}; {self.rules.points:.4g} points double the odds of winning a "
+            f"game\nAim: {goal}, for differences from 0 to {up_to}"
+        )
+
+
+def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
+    """Return a designed chart beside other charts; as CSV it is a chart file.
+
+    >>> task = DesignTask(MatchRules("npl"), RaceLimits((7, 9), 5, 2), up_to=59)
+    >>> print(chart_design_answer(task, task.design()).sentences[0])
+    At differences up to 59, the stronger player's chance is within 7.2 percentage points of 50%,
+    and 2.9 away on average. A match takes 6.6 games on average; 9 out of 10 end within 9.
+    """
+    made, up_to = design
+    ours, *theirs = (
+        measure_chart(chart, task.rules, up_to=up_to, target=task.target)
+        for chart in (made, *task.beside)
+    )
+    differing = [list(_differing(made, other, up_to)) for other in task.beside]
+    parts: list[Part] = [_in_words(ours, task.target)]
+    for chart, one, spans in zip(task.beside, theirs, differing, strict=True):
+        parts.append(_compared(chart, one, spans))
+    parts.append(_rows(task, made, up_to))
+    prices = design_prices(task, made, up_to)
+    if prices is not None:
+        parts.append(prices)
+    for chart, spans in zip(task.beside, differing, strict=True):
+        if spans:
+            parts.append(_other_races(chart, spans))
+    return Answer(
+        task.heading(up_to),
+        parts,
+        data={
+            "points_per_doubling": task.rules.points,
+            **asdict(ours),
+            "beside": [
+                {
+                    "chart": chart.name,
+                    **asdict(one),
+                    "other_races": [span.to_dict() for span in spans],
+                }
+                for chart, one, spans in zip(task.beside, theirs, differing, strict=True)
+            ],
+        },
+        csv=replace(chart_rows(made), name=""),  # `_rows` has them too
+    )
+
+
+def _in_words(found: ChartMeasure, target: float) -> str:
+    return (
+        f"At differences up to {found.up_to}, the stronger player's chance is within "
+        f"{100 * found.worst_unfairness:.1f} percentage points of {percent(target)}, and "
+        f"{100 * found.mean_unfairness:.1f} away on average. A match takes {found.mean_games:.1f} "
+        f"games on average; 9 out of 10 end within {found.games_p90}."
+    )
+
+
+class _Span(NamedTuple):
+    """A range of differences in which two charts have different races."""
+
+    first: int
+    last: int
+    design: tuple[int, int]
+    beside: tuple[int, int]
+
+    def to_dict(self) -> dict[str, Any]:
+        return {
+            "difference_from": self.first,
+            "difference_to": self.last,
+            "design": race(self.design),
+            "beside": race(self.beside),
+        }
+
+
+def _differing(made: Chart, other: Chart, up_to: int) -> Iterator[_Span]:
+    ours_at, theirs_at = (
+        zip(*(needs.tolist() for needs in chart.races(range(up_to + 1))), strict=True)
+        for chart in (made, other)
+    )
+    both = zip(range(up_to + 1), ours_at, theirs_at, strict=True)
+    for (ours, theirs), run in groupby(both, key=lambda one: one[1:]):
+        if ours != theirs:
+            where = [d for d, _, _ in run]
+            yield _Span(where[0], where[-1], ours, theirs)
+
+
+def _compared(chart: Chart, found: ChartMeasure, spans: Sequence[_Span]) -> str:
+    count = sum(span.last - span.first + 1 for span in spans)
+    races = f"different races at {count} of the" if count else "the same races at all"
+    return (
+        f"For comparison, with {chart.name} the chance is within "
+        f"{100 * found.worst_unfairness:.1f} percentage points, and "
+        f"{100 * found.mean_unfairness:.1f} away on average; a match takes "
+        f"{found.mean_games:.1f} games on average; 9 out of 10 end within {found.games_p90}. The "
+        f"two charts have {races} {found.up_to + 1} differences."
+    )
+
+
+def _rows(task: DesignTask, made: Chart, up_to: int) -> Table:
+    """Return the chart with the chance and the length of its races."""
+    rows = []
+    for row in made.rows:
+        last = up_to if row.difference_to is None else row.difference_to
+        m, n = row.stronger_needs, row.weaker_needs
+        ends = [row.difference_from, last]
+        low, high = task.rules.win([m], [n], ends)[0]
+        mean = task.rules.mean_games([m], [n], ends)[0].mean()
+        p90 = task.rules.games_quantile(m, n, ends, 0.9).max()
+        rows.append((row[:2], (m, n), low, high, mean, p90))
+    columns = [
+        Column(
+            ("difference_from", "difference_to"),
+            "difference",
+            lambda span: range_words(*span),
+            left=True,
+        ),
+        Column(("stronger_needs", "weaker_needs"), "race", race),
+        Column("p_win_low", "stronger wins\nat the start", decimals(3)),
+        Column("p_win_high", "at the end", decimals(3)),
+        Column("mean_games", "games, on\naverage", decimals(2)),
+        Column("games_p90", "9 of 10\nwithin"),
+    ]
+    return Table("rows", columns, rows)
+
+
+def _other_races(chart: Chart, spans: Sequence[_Span]) -> Table:
+    shown = spans[:MOST_LISTED]
+    first = f", the first {MOST_LISTED} of {len(spans)} ranges" if len(shown) < len(spans) else ""
+    columns = [
+        Column("difference", "difference", left=True),
+        Column("design", "design", race),
+        Column("beside", chart.name, race),
+    ]
+    rows = [(range_words(span.first, span.last), span.design, span.beside) for span in shown]
+    return Table("", columns, rows, f"Where the races differ from those of {chart.name}{first}:")

@@ -1,0 +1,282 @@
+"""How strong everybody is, and how certain that is; or how far apart two players are."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.scale_words import like_scale_words
+from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
+from evenbreak.files.results import ResultsFile
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.prior import PriorChoice
+from evenbreak.ratings.scale import Scale
+
+NOT_LINKED = "no chain of opponents links the two"
+
+SIZES = 6
+"""How many groups of players are listed by their sizes."""
+
+_ONE = decimals(1)
+
+
+def rate_answer(
+    file: ResultsFile,
+    ratings: Ratings,
+    choice: PriorChoice | None = None,
+    *,
+    pairs: Sequence[tuple[int, int]] = (),
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return the ratings of a league, or how far apart the players of some pairs are.
+
+    Parameters
+    ----------
+    file, ratings
+        the results, and what `fit` made of them.
+    choice
+        how the prior was chosen, if it was chosen by prediction.
+    pairs
+        positions in `ratings.players`; the answer is about them if there are any.
+    warnings
+        what else may be wrong.
+
+    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.ratings import Results, fit
+    >>> night = Results.from_names(["Ann"], ["Bo"], [7], [4])
+    >>> answer = rate_answer(ResultsFile(night, "r.csv", (), (), ""), fit(night), pairs=[(0, 1)])
+    >>> print(answer.sentences[0])
+    Ann is rated 17.3 points above Bo, give or take 22.6, and wins a game between them 60% of the
+    time.
+    """
+    if pairs:
+        rows = [_pair(ratings, *pair) for pair in pairs]
+        first, table = "\n".join(map(_pair_in_words, rows)), Table("pairs", _PAIR_COLUMNS, rows)
+    else:
+        first, table = _highest_in_words(ratings), _players_table(ratings)
+    return Answer(
+        f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
+        [first, *_fit_in_words(ratings, choice), *unlinked_words(ratings), table],
+        details=[prior_words(ratings), *([] if pairs else [_ERRORS_IN_WORDS])],
+        warnings=[
+            *file.warnings,
+            *file.ties,
+            *prior_warnings(file, ratings, choice),
+            *warnings,
+        ],
+        data=_how(ratings, choice),
+    )
+
+
+_ERRORS_IN_WORDS = (
+    "'Give or take' is the standard error of a rating on its own. 'In comparisons' is the "
+    "quasi-standard error: add the squares of two players' and take the root for the standard "
+    "error of their difference. It is smaller because the uncertainty that the whole league "
+    "shares cancels."
+)
+
+
+def _players_table(ratings: Ratings) -> Table:
+    """Return every player, group by group, the strongest of each first."""
+    by_winner = bool(ratings.races_won.any() or ratings.races_lost.any())
+    columns = [
+        Column("player", "player", left=True),
+        Column("rating", "rating", _ONE),
+        Column("standard_error", "give or take", _ONE),
+        Column("quasi_error", "in comparisons", _ONE, detail=True),
+        *(Column(name, name if ratings.games.any() else None) for name in ("games", "won", "lost")),
+        Column("races_won", "matches won" if by_winner else None),
+        Column("races_lost", "matches lost" if by_winner else None),
+        Column("component", "group" if ratings.component.max() > 1 else None),
+        Column("scale"),
+    ]
+    order = ratings.strongest_first()
+    order.sort(key=lambda k: ratings.component[k])
+    values = [np.asarray(getattr(ratings, str(one.name)))[order].tolist() for one in columns[1:-1]]
+    values.append([ratings.scale.text] * len(order))
+    names = [ratings.players[k] for k in order]
+    return Table("players", columns, list(zip(names, *values, strict=True)))
+
+
+_PAIR_COLUMNS = (
+    Column("player_a", "A", left=True),
+    Column("player_b", "B", left=True),
+    Column("difference", "A above B by", signed(1)),
+    Column("standard_error", "give or take", _ONE),
+    Column("p_game_a", "A wins a game", decimals(3)),
+    Column("note"),
+)
+
+
+def _pair(ratings: Ratings, first: int, second: int) -> tuple[Any, ...]:
+    names = ratings.players[first], ratings.players[second]
+    if ratings.component[first] != ratings.component[second]:
+        return (*names, None, None, None, NOT_LINKED)
+    difference = float(ratings.rating[first] - ratings.rating[second])
+    p_game = ratings.scale.win_probability(difference)
+    return (*names, difference, ratings.difference_error(*names), p_game, None)
+
+
+def _pair_in_words(row: Sequence[Any]) -> str:
+    a, b, difference, error, p_game, note = row
+    if note is not None:
+        return f"{a} and {b} cannot be compared: {note}."
+    strong, weak, p = (a, b, p_game) if difference >= 0 else (b, a, 1.0 - p_game)
+    return (
+        f"{strong} is rated {_ONE(abs(difference))} points above {weak}, give or take "
+        f"{_ONE(error)}, and wins a game between them {percent(p)} of the time."
+    )
+
+
+def _highest_in_words(ratings: Ratings) -> str:
+    best = next(k for k in ratings.strongest_first() if ratings.component[k] == 1)
+    where = " in the largest group" if ratings.component.max() > 1 else ""
+    return (
+        f"{ratings.players[best]} is rated highest{where}: {_ONE(ratings.rating[best])}, give or "
+        f"take {_ONE(ratings.standard_error[best])}. A player's true rating is within the give or "
+        "take about two times in three."
+    )
+
+
+def _counted(ratings: Ratings) -> str:
+    """Return what the ratings rest on."""
+    games, races = int(ratings.won.sum()), int(ratings.races_won.sum())
+    made = [count_of(int((~ratings.idle).sum()), "player")]
+    if games:
+        made += [count_of(ratings.matches - races, "match", "matches"), count_of(games, "game")]
+    if races:
+        made.append(f"{count_of(races, 'match', 'matches')} known by the winner alone")
+    left_out = [
+        count_of(ratings.forfeits, "forfeit") if ratings.forfeits else "",
+        f"{ratings.empty:,} at 0-0" if ratings.empty else "",
+        f"{ratings.later:,} after {ratings.as_of}" if ratings.later else "",
+    ]
+    out = ", ".join(filter(None, left_out))
+    return ", ".join(made) + (f" (left out: {out})" if out else "")
+
+
+def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
+    """Yield what the ratings rest on besides the results, where something was asked for."""
+    if choice is not None and choice.learnt:
+        yield choice_words(ratings, choice)
+    if ratings.named:
+        names = [f"{name} has {points:g}" for name, points in ratings.named]
+        on_average, other = (" on average", "their mean") if names[1:] else ("", "that player")
+        yield (
+            f"Ratings are set so that {listed(names)}{on_average}; 'give or take' is the "
+            f"uncertainty of the difference from {other}."
+        )
+    if ratings.half_life is not None:
+        yield (
+            f"A match counts half after {ratings.half_life:g} days; all results together are "
+            f"worth {ratings.weight:,.1f} recent games."
+        )
+    if ratings.break_advantage is not None:
+        points, error = ratings.break_advantage, ratings.break_error
+        stronger = "higher" if points >= 0 else "lower"
+        known = ", as given" if error is None else f", give or take {_ONE(error)}"
+        yield f"The breaker plays as if rated {_ONE(abs(points))} points {stronger}{known}."
+
+
+def prior_words(ratings: Ratings) -> str:
+    """Return what was assumed about players before any result."""
+    width = _ONE(ratings.scale.points(ratings.prior_sd))
+    start = "average" if ratings.named else f"at {ratings.anchor:g}"
+    return (
+        f"Before any result, every player is assumed to be {start}, give or take {width} points "
+        "(the prior)."
+    )
+
+
+def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
+    """Return how the prior was chosen by prediction."""
+    width = _ONE(ratings.scale.points(choice.prior_sd))
+    text = (
+        f"Of {len(choice.tried)} values of --prior tried, {width} points predicted the "
+        f"{choice.predicted:,} later results best."
+    )
+    if choice.prior_sd in (choice.tried[0], choice.tried[-1]):
+        end = "smallest" if choice.prior_sd == choice.tried[0] else "largest"
+        text += f" It is the {end} one tried, so one beyond it may be better still."
+    return text
+
+
+def prior_warnings(
+    file: ResultsFile, ratings: Ratings, choice: PriorChoice | None
+) -> Iterator[str]:
+    """Yield a warning where the prior was to be chosen by too few results."""
+    if choice is not None and not choice.learnt:
+        yield f"{file.source}: {too_few_for_prior_words(choice, ratings.scale)}"
+
+
+def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
+    """Return that the results cannot choose a prior, and which one is used.
+
+    >>> from evenbreak.ratings import scale_of
+    >>> few = PriorChoice(0.693, (0.1, 0.693), (0.6, 0.6), 22, 0.1, 0.693, False, 0.6)
+    >>> print(too_few_for_prior_words(few, scale_of("npl")))
+    22 later results are too few to choose a prior by; the default of 30.0 points is used.
+    """
+    few = "is too little" if choice.predicted == 1 else "are too few"
+    return (
+        f"{count_of(choice.predicted, 'later result')} {few} to choose a prior by; the default of "
+        f"{_ONE(scale.points(choice.prior_sd))} points is used."
+    )
+
+
+def unlinked_words(ratings: Ratings) -> Iterator[str]:
+    """Yield what to know about players whom no chain of opponents links.
+
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["A", "C", "D"], ["B", "D", "E"], [7, 7, 7], [2, 3, 6])
+    >>> print(*unlinked_words(fit(season)))
+    2 groups of players, of 3 and 2, never met: compare ratings only within a group. All
+    groups are assumed to be equally strong on average; a match or two between them would link
+    them.
+    """
+    sizes = [int(size) for size in np.bincount(ratings.component)[1:] if size > 1]
+    if len(sizes) > 1:
+        more = [f"{len(sizes) - SIZES:,} more"] if len(sizes) > SIZES else []
+        yield (
+            f"{len(sizes):,} groups of players, of "
+            f"{listed([*(f'{size:,}' for size in sizes[:SIZES]), *more])}, never met: compare "
+            "ratings only within a group. All groups are assumed to be equally strong on average; "
+            "a match or two between them would link them."
+        )
+    idle = int(ratings.idle.sum())
+    if idle:
+        have, their = ("has", "the rating is") if idle == 1 else ("have", "their rating is")
+        yield (
+            f"{count_of(idle, 'player')} {have} no games that count; {their} the one assumed "
+            "before any result."
+        )
+
+
+def _how(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
+    scale = ratings.scale
+    return {
+        "scale": scale.name,
+        "points_per_doubling": scale.points_per_doubling,
+        "anchor": ratings.anchor,
+        "anchored_at": dict(ratings.named),
+        "prior_sd_points": scale.points(ratings.prior_sd),
+        "prior_sd_log_odds": ratings.prior_sd,
+        "priors_tried": None
+        if choice is None
+        else [
+            {"prior_sd_points": scale.points(width), "log_loss": loss}
+            for width, loss in zip(choice.tried, choice.log_loss, strict=True)
+        ],
+        "prior_learnt": None if choice is None else choice.learnt,
+        "half_life_days": ratings.half_life,
+        "played_by_weight": ratings.weight,
+        "as_of": None if ratings.as_of is None else str(ratings.as_of),
+        "break_advantage": ratings.break_advantage,
+        "break_advantage_standard_error": ratings.break_error,
+        "matches": ratings.matches,
+        "forfeits_left_out": ratings.forfeits,
+        "empty_left_out": ratings.empty,
+        "later_left_out": ratings.later,
+    }

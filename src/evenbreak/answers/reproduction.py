@@ -1,0 +1,61 @@
+"""What came of computing the source text anew: how many of its numbers agree."""
+
+from collections.abc import Iterable, Mapping
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Quantities, Quantity, Table
+
+MEANINGS = {
+    "agrees": "the computed number confirms the printed one",
+    "formula": "the printed formula gives the computed number",
+    "given": "a number that the text takes from elsewhere",
+    "derived": "the text prints nothing, or nothing that can be read",
+    "erratum": "the text is wrong, and the computed number is right",
+    "differs": "the computed number is not the one expected",
+}
+"""What a verdict on a number says."""
+
+
+def reproduction_answer(folder: str, verdicts: Mapping[str, int], files: Iterable[str]) -> Answer:
+    """Return how the numbers of the source text compare, and what was written.
+
+    Parameters
+    ----------
+    folder
+        where the files are.
+    verdicts
+        how many numbers have each verdict.
+    files
+        the names of the files.
+
+    >>> answer = reproduction_answer("text", {"agrees": 8, "erratum": 1}, ["index.md", "a.csv"])
+    >>> print(answer.sentences[0])
+    Of 9 numbers in the source text, 8 are confirmed and 1 is wrong in the text. Start with
+    text/index.md.
+    """
+    names = list(files)
+    total, wrong = sum(verdicts.values()), verdicts.get("erratum", 0)
+    confirmed = verdicts.get("agrees", 0) + verdicts.get("formula", 0)
+    pages = " or ".join(f"{folder}/{name}" for name in names if name.endswith(".md"))
+    tables, figures = (sum(name.endswith(kind) for name in names) for kind in (".csv", ".png"))
+    return Answer(
+        f"The source text computed anew, in {folder}",
+        [
+            f"Of {total:,} numbers in the source text, {confirmed:,} are confirmed and {wrong:,} "
+            f"{'is' if wrong == 1 else 'are'} wrong in the text. Start with {pages}.",
+            Table(
+                "verdicts",
+                [
+                    Column("verdict", "verdict", left=True),
+                    Column("numbers", "numbers"),
+                    Column("meaning", "meaning", left=True),
+                ],
+                [
+                    (verdict, verdicts[verdict], meaning)
+                    for verdict, meaning in MEANINGS.items()
+                    if verdicts.get(verdict)
+                ],
+            ),
+            Quantities([Quantity("tables", tables), Quantity("figures", figures)]),
+        ],
+    )

@@ -1,0 +1,107 @@
+"""A season from its files, night by night, and which of its matches belong to which events."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.answers.night_results import rating_changes_of_files
+from evenbreak.errors import DataError, InputError
+from evenbreak.files.results import ResultsFile
+from evenbreak.files.roster import RosterFile
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.systems.rating_changes import RatingChanges
+from evenbreak.handicaps.systems.system import System
+from evenbreak.league.nights import PlayedNight, played_nights
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.roster import Roster
+
+MOST_TRIED = 20
+"""The most events that are tried: each of them takes as long as a watch without events."""
+
+
+def nights_of_files(
+    system: System, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
+) -> list[PlayedNight]:
+    """Return a season night by night, with the ratings after each night.
+
+    Parameters
+    ----------
+    system
+        the league's system.
+    first
+        the list of ratings before the first night.
+    season
+        the results.
+    chart
+        which sets the races where the results state none.
+
+    Raises
+    ------
+    DataError
+        with every problem that keeps the results from moving ratings, and its line.
+    """
+    problems: dict[str, None] = {}
+
+    def of_night(list_: Roster, rows: NDArray[np.int64]) -> RatingChanges:
+        # The season goes on without a night that has problems, so that all are listed at once.
+        kept = rows
+        while True:
+            night = replace(season, results=season.results.select(kept), lines=season.lines[kept])
+            try:
+                return rating_changes_of_files(
+                    system, replace(first, roster=list_), night, chart=chart
+                )
+            except DataError as error:
+                problems.update(dict.fromkeys(error.problems))
+                kept = kept[:0]
+
+    nights = played_nights(system, first.roster, season.results, chart=chart, apply=of_night)
+    if problems:
+        raise DataError(_once(problems))
+    return nights
+
+
+def _once(problems: Iterable[str]) -> list[str]:
+    """Return problems without those that differ from an earlier one by their line only."""
+    first: dict[str, str] = {}
+    for problem in problems:
+        first.setdefault(problem.split(": ", 1)[-1], problem)
+    return list(first.values())
+
+
+def events_marked(results: Results, events: Sequence[str]) -> NDArray[np.bool_]:
+    """Return which matches belong to these events.
+
+    Raises
+    ------
+    InputError
+        if the results have no such event.
+    """
+    column = results.event
+    known = sorted({str(event) for event in (() if column is None else column) if event})
+    for event in events:
+        if event not in known:
+            names = ", ".join(known[:10]) or "none: the file has no column event"
+            raise InputError(f"the results have no event {event!r}; give one of these: {names}")
+    return np.isin(np.asarray(column, dtype=str), list(events))
+
+
+def events_to_try(results: Results) -> dict[str, NDArray[np.bool_]]:
+    """Return which matches belong to each event, those with the most matches first.
+
+    There is nothing to try if all matches are of one event; at most `MOST_TRIED` are.
+
+    >>> events = ["cup", "league", "league"]
+    >>> night = Results.from_names(["A"] * 3, ["B"] * 3, [5] * 3, [4] * 3, event=events)
+    >>> {name: rows.tolist() for name, rows in events_to_try(night).items()}
+    {'league': [False, True, True], 'cup': [True, False, False]}
+    """
+    if results.event is None:
+        return {}
+    column = np.asarray(results.event, dtype=str)
+    names, matches = np.unique(column[column != ""], return_counts=True)
+    order = sorted(zip(names.tolist(), matches.tolist(), strict=True), key=lambda one: -one[1])
+    found = {name: column == name for name, _ in order[:MOST_TRIED]}
+    return {} if any(rows.all() for rows in found.values()) else found

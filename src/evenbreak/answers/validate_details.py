@@ -1,0 +1,188 @@
+"""The statistics of a validated season: how good predictions were, and every test."""
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.validate_judgement import points_text
+from evenbreak.answers.wording import count_of, decimals
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.stretches import STRETCHES
+from evenbreak.ratings.validate import Validation
+
+_EXPLAINED = (
+    "How good the predictions were, with 95% intervals. Log-loss is the average of -ln(p), where "
+    "p is the predicted chance of what happened; the Brier score is the mean squared error. Lower "
+    "is better; tossing a coin scores 0.6931 and 0.25. The slope shows whether the chances are "
+    "right: at 1 they are, below 1 they are too extreme, above 1 too cautious. 'Plug-in' takes "
+    "the ratings at face value, 'integrated' averages over their uncertainty, and 'default' does "
+    "so with the default prior. The prior, in points, is how far apart players are assumed to be "
+    "before any result."
+)
+_TESTS_EXPLAINED = (
+    "Whether play within matches agrees with the model. 'Spread of scores' compares their squared "
+    "errors with those of known strengths: more than expected suggests good and bad days. Fewer "
+    "'runs of racks' won by one player than expected mean streaks, which winner breaks cause too. "
+    "p is how often luck alone makes so large a difference."
+)
+
+
+def details(found: Validation, scale: Scale) -> Iterator[Part]:
+    """Yield the statistics, each table after what explains it."""
+    yield _EXPLAINED
+    yield _scored(found, scale)
+    yield _prior(found, scale)
+    yield _integrated(found)
+    if found.half_lives:
+        yield _half_lives(found)
+    tests = list(_tests(found))
+    if tests:
+        yield _TESTS_EXPLAINED
+        yield Table("", _TEST_COLUMNS, tests)
+    if found.matches:
+        yield _matches(found)
+        if found.spots:
+            yield (
+                "With handicaps every match is nearly even, and the ratings pick their favourite "
+                "mostly by their own errors, so predictions of matches are of little use."
+            )
+            yield _by_spot(found)
+    new = int(found.forecasts.new.sum())
+    if new:
+        yield f"In {count_of(new, 'match', 'matches')} one of the players had not played before."
+
+
+def _scored(found: Validation, scale: Scale) -> Table:
+    columns = [
+        Column("of", "what", left=True),
+        Column("how", "how", left=True),
+        Column("prior", "prior", decimals(1)),
+        Column("log_loss", "log-loss", lambda one: _span(one, 4, "-")),
+        Column("brier", "Brier", decimals(3)),
+        Column("slope", "slope", lambda one: _span(one, 2, " to ")),
+    ]
+    named = [(row.how, row) for row in found.scored] + [("default", row) for row in found.usual]
+    rows = [
+        (
+            *(row.of, how, row.prior_sd * scale.points_per_log_odds),
+            *(row.log_loss, row.brier.value, row.slope),
+        )
+        for how, row in named
+    ]
+    return Table("", columns, rows)
+
+
+def _span(estimate: Estimate, digits: int, to: str) -> str:
+    value, low, high = (f"{part:.{digits}f}" for part in estimate)
+    return f"{value}  {low}{to}{high}"
+
+
+def _prior(found: Validation, scale: Scale) -> str:
+    points = f"{points_text(found.prior_sd, scale)} points ({found.prior_sd:.2g} in log-odds)"
+    choice = found.choice
+    if choice is None:
+        return f"The prior was given: {points}."
+    if not choice.learnt:
+        return f"There are too few results to choose a prior, so the default is used: {points}."
+    least = min(choice.log_loss)
+    cost = choice.log_loss[choice.tried.index(PRIOR_SD)] - least
+    return (
+        f"The prior of {points} predicts later games best, as rate --prior best finds: by ratings "
+        f"at face value, in up to {STRETCHES} stretches of the season, its log-loss is "
+        f"{least:.4f} a game. The default of {points_text(PRIOR_SD, scale)} points costs "
+        f"{cost:.4f} more; with the prior chosen anew for each stretch, log-loss would have been "
+        f"{choice.as_it_went:.4f}."
+    )
+
+
+def _half_lives(found: Validation) -> Table:
+    """Return what it gains to let old games count less."""
+    columns = [
+        Column("half_life", "half-life", lambda days: f"{days:g} days"),
+        Column("gain", "log-loss saved a game", lambda one: _span(one, 4, " to ")),
+    ]
+    title = "What it would gain to let old games count less; below 0, it predicts worse:"
+    return Table("", columns, found.half_lives, title)
+
+
+def _integrated(found: Validation) -> str:
+    # Under handicaps chances of matches are mostly noise, so games are used.
+    of = "match" if "match" in found.gain and not found.spots else "game"
+    gain = found.gain[of]
+    effect = "makes no clear difference"
+    if gain.low > 0.0 or gain.high < 0.0:
+        effect = f"predicts {'better' if gain.low > 0.0 else 'worse'}"
+    return (
+        f"Averaging over the uncertainty of the ratings {effect}: log-loss falls by "
+        f"{gain.value:z.4f} a {of} ({gain.low:z.4f} to {gain.high:z.4f})."
+    )
+
+
+def _range(ends: tuple[float, float]) -> str:
+    return f"{ends[0]:.3f} to {ends[1]:.3f}"
+
+
+_TEST_COLUMNS = (
+    Column("test", "", left=True),
+    Column("matches", "matches"),
+    Column("seen", "seen"),
+    Column("expected", "expected"),
+    Column("range", "95% interval", _range),
+    Column("p_value", "p", lambda p: f"{p:.2g}" if p >= 1e-4 else "< 0.0001"),
+)
+
+
+def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
+    spread, runs, first = found.dispersion, found.streaks, found.first_breaks
+    if spread is not None:
+        figures = f"{spread.seen:.2f}", f"{spread.by_chance:.2f}"
+        yield ("spread of scores", spread.races, *figures, None, spread.p_value)
+    if runs is not None:
+        figures = f"{runs.runs:,}", f"{runs.expected:,.0f}"
+        yield ("runs of racks", runs.matches, *figures, None, runs.p_value)
+    if first is not None:
+        figures = f"{first.won:,}", f"{first.expected:,.1f}"
+        yield ("won by the first breaker", first.matches, *figures, None, first.p_value)
+    for name, estimate in (("the breaker", found.breaker), ("player_a", found.side)):
+        if estimate is not None:
+            p, low, high = (1.0 / (1.0 + math.exp(-b)) for b in estimate)
+            yield (
+                f"even games won by {name}",
+                None,
+                f"{p:.3f}",
+                "0.500",
+                (low, high),
+                None,
+            )
+
+
+def _matches(found: Validation) -> Table:
+    """Return how often favourites won matches."""
+    columns = [
+        Column("predicted", "predicted", decimals(3)),
+        Column("matches", "matches"),
+        Column("seen", "won", decimals(3)),
+        Column("range", "95% interval", _range),
+    ]
+    rows = [(row.predicted, row.matches, row.seen, (row.low, row.high)) for row in found.matches]
+    return Table("", columns, rows, "Matches that the favourite won:")
+
+
+def _by_spot(found: Validation) -> Table:
+    """Return how often players who gave games won, by how many they gave."""
+    columns = [
+        Column("spot", "games given"),
+        Column("matches", "matches"),
+        Column("won", "won"),
+        Column("share", "share", decimals(3)),
+        Column("range", "95% interval", _range),
+        Column("expected", "predicted", decimals(3)),
+    ]
+    rows = [
+        (row.spot or "all", row.matches, row.won, row.share, (row.low, row.high), row.expected)
+        for row in found.spots
+    ]
+    return Table("", columns, rows, "Matches that the player who gave games won:")

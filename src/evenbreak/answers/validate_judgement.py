@@ -1,0 +1,78 @@
+"""When a figure of a validated season is clearly off, and how figures are written."""
+
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.handicap_fairness import HandicapFairness
+from evenbreak.ratings.results_frame import FORMATS
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scored import Of, Scored
+from evenbreak.ratings.validate import Validation
+
+UNLIKELY = 0.01
+"""A p-value below which chance is ruled out; it is small because several tests are made."""
+
+VAGUE = 0.5
+"""An interval of the slope that is wider says too little."""
+
+
+def clearly_off(estimate: Estimate, right: float) -> int:
+    """Return 1 or -1 where an estimate is clearly above or below what is right, else 0.
+
+    >>> clearly_off(Estimate(0.5, 0.4, 0.6), 1.0), clearly_off(Estimate(0.9, 0.8, 1.0), 1.0)
+    (-1, 0)
+    """
+    # The interval is of 95%, that is 1.96 standard errors each way; 2.58 leave out 1%.
+    far = (estimate.high - estimate.low) / 2.0 * 2.576 / 1.960
+    middle = (estimate.high + estimate.low) / 2.0
+    return int(middle - far > right) - int(middle + far < right)
+
+
+def scored_of(found: Validation, of: Of) -> Scored:
+    """Return how good one kind of prediction was."""
+    return next(row for row in found.scored if (row.of, row.how) == (of, "integrated"))
+
+
+def wrong_chances(scored: tuple[Scored, ...], found: Validation) -> dict[str, int]:
+    """Return the predictions whose chances are clearly off: -1 too extreme, 1 too cautious."""
+    # A fair handicap leaves matches without favourites, whatever the ratings say.
+    judged = ("game",) if found.spots else ("game", "match")
+    off = {
+        row.of: clearly_off(row.slope, 1.0)
+        for row in scored
+        if row.how == "integrated" and row.of in judged and row.slope is not None
+    }
+    return {of: way for of, way in off.items() if way}
+
+
+def share_of(spot: HandicapFairness) -> Estimate:
+    """Return the share of handicap races that the player who gave games won."""
+    return Estimate(spot.share, spot.low, spot.high)
+
+
+def at_the_edge(found: Validation) -> bool:
+    """Return whether the prior that was chosen is the first or the last of those tried."""
+    tried = () if found.choice is None or not found.choice.learnt else found.choice.tried
+    return bool(tried) and found.prior_sd in (tried[0], tried[-1])
+
+
+def best_half_life(found: Validation) -> float | None:
+    """Return the half-life that predicts best, None where none clearly helps."""
+    if not found.half_lives:
+        return None
+    best = max(found.half_lives, key=lambda one: one.gain.value)
+    return best.half_life if clearly_off(best.gain, 0.0) > 0 else None
+
+
+def any_winner_breaks(found: Validation) -> bool:
+    """Return whether any race was played with winner breaks, as far as the file says."""
+    breaks = found.forecasts.results.break_format
+    return breaks is not None and bool((breaks == FORMATS.index("winner")).any())
+
+
+def points_text(prior_sd: float, scale: Scale) -> str:
+    """Return a prior's standard deviation in points."""
+    return f"{prior_sd * scale.points_per_log_odds:.3g}"
+
+
+def more_or_less(more: bool) -> str:
+    """Return 'more' or 'less'."""
+    return "more" if more else "less"

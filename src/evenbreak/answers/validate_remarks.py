@@ -1,0 +1,169 @@
+"""What a validated season shows besides the verdict, each in a sentence or two."""
+
+from collections.abc import Iterator
+
+from evenbreak.answers.rate import too_few_for_prior_words
+from evenbreak.answers.validate_judgement import (
+    UNLIKELY,
+    any_winner_breaks,
+    at_the_edge,
+    best_half_life,
+    clearly_off,
+    points_text,
+    share_of,
+    wrong_chances,
+)
+from evenbreak.answers.wording import count_of, listed, percent
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.race_lengths import RaceLengths
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.validate import Validation
+
+WIDE = 0.4
+"""The width from which the range of a share says nothing about it."""
+
+
+def remarks(found: Validation, scale: Scale) -> list[str]:
+    """Return what there is to say about handicaps, scores, half-life, columns and the prior."""
+    said = [_handicaps(found), _spread(found), _half_life(found), _first_column(found)]
+    return [text for text in (*said, _prior(found, scale)) if text]
+
+
+def percents(ends: tuple[float, float]) -> str:
+    """Return a range of shares.
+
+    >>> percents((0.482, 0.579))
+    '48 to 58%'
+    """
+    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f}%"
+
+
+def _handicaps(found: Validation) -> str:
+    """Return whether handicaps were fair, '' where there were none."""
+    if not found.spots:
+        return ""
+    every = found.spots[-1]
+    figures = (
+        f"Players who gave games won {every.won:,} of {count_of(every.matches, 'match', 'matches')}"
+        f" ({percent(every.share)}; {percents((every.low, every.high))} allowing for luck)"
+    )
+    off = clearly_off(share_of(every), 0.5)
+    if off > 0:
+        return f"The handicaps give too little. {figures}; fair is 50%."
+    if off < 0:
+        return f"The handicaps give too much. {figures}; fair is 50%."
+    if every.high - every.low > WIDE:
+        return (
+            f"There are too few handicap matches to say whether the handicaps are fair. {figures}."
+        )
+    if not every.low <= 0.5 <= every.high:
+        more = "little" if every.low > 0.5 else "much"
+        return (
+            f"The handicaps may give too {more}. {figures}; fair is 50%, just outside that range."
+        )
+    way = clearly_off(share_of(every), every.expected)
+    if way:
+        under = "under" if way > 0 else "over"
+        return (
+            f"The handicaps look fair. {figures}. The ratings predicted {percent(every.expected)}: "
+            f"they {under}rate players who give games, so do not use them to predict handicap "
+            "matches."
+        )
+    return f"The handicaps look fair. {figures}."
+
+
+def _spread(found: Validation) -> str:
+    """Return why scores vary more than they should, '' where they do not."""
+    test = found.dispersion
+    if test is None or test.p_value >= UNLIKELY or test.seen <= test.by_chance:
+        return ""
+    more = 100.0 * (test.seen / test.by_chance - 1.0)
+    causes = ["players have good and bad days"]
+    if not found.half_lives or best_half_life(found):
+        causes.append("the ratings lag behind")
+    if any_winner_breaks(found):
+        causes.append("the break is strong under winner breaks")
+    if found.spots:
+        causes.append("the handicaps know more than these ratings")
+    text = f"Match scores vary {more:.0f}% more than expected. Perhaps {listed(causes, 'or')}."
+    return " ".join([text, *_lengths(found)])
+
+
+def _lengths(found: Validation) -> Iterator[str]:
+    """Yield how often favourites won short races and long ones, where there are both."""
+    if not found.lengths:
+        return
+    short, long = found.lengths
+    shares = [
+        f"{percent(half.share)} of the {half.matches:,} {races} ({percent(half.predicted)} "
+        "predicted)"
+        for half, races in ((short, f"races to {short.longest} or less"), (long, "longer ones"))
+    ]
+    yield f"Favourites won {listed(shares)}."
+    ways = {"short": _way(short), "long": _way(long)}
+    if not any(ways.values()):
+        yield "Both differences may be luck."
+    for races, way in ways.items():
+        if way:
+            yield f"So {races} races are {'more' if way > 0 else 'less'} certain than predicted."
+
+
+def _way(half: RaceLengths) -> int:
+    """Return 1 where favourites clearly won more than predicted, -1 where less, else 0."""
+    return clearly_off(Estimate(half.share, half.low, half.high), half.predicted)
+
+
+def _half_life(found: Validation) -> str:
+    """Return which half-life to use, '' where none clearly helps."""
+    days = best_half_life(found)
+    if days is None:
+        return ""
+    return (
+        f"Use --half-life {days:g} with rate and report: where old games count less, later ones "
+        "are predicted better."
+    )
+
+
+def _first_column(found: Validation) -> str:
+    """Return why players in the first column win more or less than predicted, '' if they do not."""
+    column = found.first_column
+    if column is None:
+        return ""
+    won = f"Players in the first column won {percent(column.won / column.matches)} of the matches"
+    if column.winners_first:
+        return f"{won}: the file seems to list winners first. That does not change the ratings."
+    way = 0 if found.side is None else clearly_off(found.side, 0.0)
+    predicted = f"{percent(column.expected / column.matches)} predicted"
+    if way > 0:
+        return (
+            f"{won} ({predicted}). If the file lists winners or stronger players first, this means "
+            "nothing. If the first column is the home player, it may be home advantage, which the "
+            "ratings do not know."
+        )
+    if way < 0:
+        return (
+            f"{won} ({predicted}). If the file lists losers or weaker players first, this means "
+            "nothing. If the first column is the visitor, it may be home advantage, which the "
+            "ratings do not know."
+        )
+    return ""
+
+
+def _prior(found: Validation, scale: Scale) -> str:
+    """Return which prior suits, '' where the verdict has said so."""
+    choice = found.choice
+    if choice is None:
+        return ""
+    if not choice.learnt:
+        return too_few_for_prior_words(choice, scale)
+    if found.skill.low <= 0.0 or at_the_edge(found):
+        return ""
+    if wrong_chances(found.usual, found) or wrong_chances(found.scored, found):
+        return ""
+    if found.prior_sd == PRIOR_SD:
+        return f"The default prior of {points_text(PRIOR_SD, scale)} points suits this league best."
+    return (
+        f"A --prior of {points_text(found.prior_sd, scale)} would suit this league best; the "
+        f"default of {points_text(PRIOR_SD, scale)} points will do too."
+    )

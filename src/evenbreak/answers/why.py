@@ -1,0 +1,198 @@
+"""Why two players have the ratings and the race that they have, and what would change them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.matches_behind import MATCH, matches_behind
+from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.one_more_match import OneMore, Refit, Standing, one_more_match
+from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.rate import prior_warnings, prior_words
+from evenbreak.answers.scale_words import decimals_of, like_scale_words
+from evenbreak.answers.wording import chance, percent, race
+from evenbreak.files.results import ResultsFile
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.prior import PriorChoice
+from evenbreak.ratings.scale import Scale
+
+MOST_LISTED = 10
+"""Matches of each player that a person is shown; CSV and JSON have all."""
+
+
+def why_answer(
+    file: ResultsFile,
+    ratings: Ratings,
+    pair: tuple[int, int],
+    offered: OfferedRaces,
+    refit: Refit,
+    choice: PriorChoice | None = None,
+) -> Answer:
+    """Return which matches made two ratings, and what one more match would change.
+
+    Parameters
+    ----------
+    file, ratings
+        the results, and what was made of them.
+    pair
+        positions in `ratings.players`.
+    offered
+        the races among which the fairest is sought.
+    refit
+        rates other results in the same way.
+    choice
+        how the prior was chosen, if it was.
+
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> file = ResultsFile(season, "season.csv", (), (), "")
+    >>> answer = why_answer(file, fit(season), (0, 1), OfferedRaces(race_to=7), fit)
+    >>> answer.to_dict()["one_more"][0]["score"], answer.to_dict()["matches"][0]["worth"] > 0
+    ('7-5', True)
+    """
+    now = Standing.of(ratings, pair, offered)
+    more = one_more_match(file.results, ratings, pair, now, offered, refit)
+    matches = matches_behind(file.results, ratings, pair, refit)
+    scale = ratings.scale
+    names = ratings.players[pair[0]], ratings.players[pair[1]]
+    return Answer(
+        f"{names[0]} and {names[1]} in {file.source}\nRatings on {like_scale_words(scale)}",
+        [
+            " ".join([_now_in_words(now, names, scale), _more_in_words(more, now)]).rstrip(),
+            _players_table(ratings, pair),
+            *([_more_table(more, now, names, scale)] if more else []),
+            *(_matches_table(matches, name, scale) for name in names),
+            "Worth: how much lower (or, with a minus, higher) the rating would be if this match "
+            "had not been played and all others had.",
+        ],
+        details=[prior_words(ratings)],
+        warnings=[*file.warnings, *file.ties, *prior_warnings(file, ratings, choice)],
+        data={
+            "player_a": names[0],
+            "player_b": names[1],
+            "difference": now.ratings[0] - now.ratings[1],
+            "difference_error": now.difference_error,
+            "race_a": now.race and now.race[0],
+            "race_b": now.race and now.race[1],
+            "p_win_a": now.p_win,
+            "one_more": [
+                {
+                    "winner": one.winner,
+                    "score": one.score,
+                    "rating_a": one.then.ratings[0],
+                    "rating_b": one.then.ratings[1],
+                    "race_a": one.then.race and one.then.race[0],
+                    "race_b": one.then.race and one.then.race[1],
+                    "p_win_a": one.then.p_win,
+                }
+                for one in more
+            ],
+        },
+        csv=Table("matches", [Column(name) for name in MATCH], matches),
+    )
+
+
+def _now_in_words(now: Standing, names: tuple[str, str], scale: Scale) -> str:
+    a, b = names
+    decimals = decimals_of(scale)
+    first, second = now.ratings
+    text = f"{a} is rated {first:.{decimals}f} and {b} {second:.{decimals}f}"
+    if now.race is None or now.p_win is None or now.difference_error is None:
+        return f"{text}. No chain of opponents links the two, so they cannot be compared."
+    return (
+        f"{text}: {abs(first - second):.{decimals}f} points apart, give or take "
+        f"{now.difference_error:.{decimals}f}. Their fairest race is {race(now.race)}, and {a} "
+        f"wins it {percent(now.p_win)} of the time."
+    )
+
+
+def _more_in_words(more: Sequence[OneMore], now: Standing) -> str:
+    changes = [
+        f"If {one.winner} wins their next match {one.score}, the race becomes "
+        f"{race(one.then.race)}."
+        for one in more
+        if one.then.race is not None and one.then.race != now.race
+    ]
+    if more and not changes:
+        return "Whoever wins their next match, that race stays."
+    return " ".join(changes)
+
+
+def _players_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
+    decimals = decimals_of(ratings.scale)
+
+    def points(value: float) -> str:
+        return f"{value:.{decimals}f}"
+
+    columns = [
+        Column("player", "player", left=True),
+        Column("rating", "rating", points),
+        Column("standard_error", "give or take", points),
+        *(Column(name, name, "{:,}".format) for name in ("games", "won", "lost")),
+    ]
+    rows = [
+        (
+            ratings.players[k],
+            float(ratings.rating[k]),
+            float(ratings.standard_error[k]),
+            *(int(getattr(ratings, name)[k]) for name in ("games", "won", "lost")),
+        )
+        for k in pair
+    ]
+    return Table("players", columns, rows)
+
+
+def _more_table(
+    more: Sequence[OneMore], now: Standing, names: tuple[str, str], scale: Scale
+) -> Table:
+    a, b = names
+    decimals = decimals_of(scale)
+
+    def over(name: str) -> str:
+        return "\n".join(name.split())
+
+    def change(value: float) -> str:
+        return f"{value:+.{decimals}f}"
+
+    columns = [
+        Column("match", "one more match", left=True),
+        Column("change_a", over(a), change),
+        Column("change_b", over(b), change),
+        Column("race", "fair\nrace", race),
+        Column("p_win_a", f"{over(a)}\nwins it", chance),
+    ]
+    rows = [
+        (
+            f"{one.winner} wins {one.score}",
+            one.then.ratings[0] - now.ratings[0],
+            one.then.ratings[1] - now.ratings[1],
+            one.then.race,
+            one.then.p_win,
+        )
+        for one in more
+    ]
+    title = "What one more match between the two would change, at their fair race:"
+    return Table("", columns, rows, title)
+
+
+def _matches_table(matches: Sequence[tuple[Any, ...]], name: str, scale: Scale) -> Table:
+    decimals = decimals_of(scale)
+    own = [match for match in matches if match[0] == name]
+    most = sorted(own, key=lambda match: -abs(match[-1]))[:MOST_LISTED]
+    dated = any(match[1] for match in own)
+    columns = [
+        Column("date", "date" if dated else None, left=True),
+        Column("opponent", "against", left=True),
+        Column("opponent_rating", "rated", lambda value: f"{value:.{decimals}f}"),
+        Column("result", "", left=True),
+        Column("score", "score"),
+        Column("worth", "worth", lambda value: f"{value:+.{decimals}f}"),
+    ]
+    rows = [
+        (day, who, rated, result, score, worth) for _, day, who, rated, score, result, worth in most
+    ]
+    which = f"the {len(most)} that matter most of {len(own)}" if len(own) > len(most) else "all"
+    title = f"The matches behind the rating of {name}: {which if own else 'none yet'}."
+    return Table("", columns, rows, title)

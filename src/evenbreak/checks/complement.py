@@ -1,0 +1,32 @@
+"""The probability of the opposite, with the digits that the decimal has."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, overload
+
+if TYPE_CHECKING:
+    from evenbreak.arrays import Floats
+
+_DECIMALS = 1e15
+
+
+@overload
+def complement(p: float) -> float: ...
+@overload
+def complement(p: Floats) -> Floats: ...
+def complement(p: float | Floats) -> float | Floats:
+    """Return 1 - p, for a p of at most 15 decimals as the decimal: .1 for .9.
+
+    So the chance of losing keeps its digits where it is small. Other values give 1 - p in floats.
+
+    >>> complement(0.9), 1.0 - 0.9
+    (0.1, 0.09999999999999998)
+    """
+    left = 1.0 - p
+    if isinstance(left, float):
+        decimal = round(left * _DECIMALS) / _DECIMALS
+        return decimal if 1.0 - decimal == p else left
+    import numpy as np
+
+    decimals = np.rint(left * _DECIMALS) / _DECIMALS
+    return np.where(1.0 - decimals == p, decimals, left)

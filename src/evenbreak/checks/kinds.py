@@ -1,0 +1,48 @@
+"""Checks of the kind of a thing, where a function takes an object and not a number."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+from evenbreak.errors import InputError
+
+Kind = TypeVar("Kind")
+
+
+def kind_of(value: Any, name: str, kind: type[Kind]) -> Kind:
+    """Return `value` if it is of this kind.
+
+    Parameters
+    ----------
+    value
+        what was given.
+    name
+        what the value is called where the caller wrote it.
+    kind
+        the class that it must be of.
+
+    Raises
+    ------
+    InputError
+        if it is of another.
+
+    >>> from fractions import Fraction
+    >>> kind_of(Fraction(1, 2), "p", Fraction)
+    Fraction(1, 2)
+    >>> kind_of(0.5, "p", Fraction)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: p is 0.5; give a Fraction
+    """
+    if not isinstance(value, kind):
+        raise InputError(f"{name} is {value!r}; give a {kind.__name__}")
+    return value
+
+
+def kind_or_usual(value: Any, name: str, kind: type[Kind]) -> Kind:
+    """Return `value` if it is of this kind, and the usual thing of this kind for None.
+
+    >>> kind_or_usual(None, "size", int)
+    0
+    """
+    return kind() if value is None else kind_of(value, name, kind)

@@ -1,0 +1,123 @@
+"""The handicap system of a command, its scale, and its chart: --system, --scale, --chart."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from evenbreak import files, handicaps
+from evenbreak.cli.kit import completion
+from evenbreak.cli.kit.options import Decorator
+from evenbreak.cli.kit.values import refuse
+from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale
+
+SCALE_OFF = 0.25
+"""How much the scale that a chart fits best may differ from the system's without a warning."""
+
+
+def read_system(name: str) -> handicaps.System:
+    """Return the system of this name, as a type of an option does."""
+    try:
+        return handicaps.system_of(name)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+def system_option(default: str | None = "npl") -> Decorator[Any]:
+    """Return the option --system; without a default, a command gets None for npl."""
+    return click.option(
+        "--system",
+        type=read_system,
+        shell_complete=completion.systems,
+        metavar="NAME",
+        default=default,
+        show_default=False,
+        help="How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].  "
+        "[default: npl]",
+    )
+
+
+def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:
+    """Return a system on another scale (None: its own), or refuse what does not go together."""
+    from dataclasses import replace
+
+    if scale is None:
+        return system
+    if scale.points_per_doubling < 1.0:
+        refuse(
+            f"--scale {scale.points_per_doubling:g}: ratings are whole points, so at least 1 "
+            "point must double the odds"
+        )
+    if system.scale.name != "npl" and scale != system.scale:
+        refuse(f"the system {system.name} has a scale of its own; leave --scale out")
+    return replace(system, scale=scale)
+
+
+def refuse_other_scale(
+    file: files.RosterFile | files.LeagueFile, scale: Scale, whose: str, remedy: str
+) -> None:
+    """Refuse a list that states another scale for its ratings.
+
+    Parameters
+    ----------
+    file
+        the list.
+    scale, whose
+        the scale by which the ratings would be read, and where it comes from.
+    remedy
+        what to do about it.
+    """
+    from evenbreak.answers.scale_words import scale_words
+
+    if file.scale is not None and not file.scale.same_points(scale):
+        refuse(
+            f"{file.source} states that its ratings are {scale_words(file.scale)}, but {whose} is "
+            f"{scale_words(scale)}; {remedy}"
+        )
+
+
+def refuse_levels(file: files.RosterFile, remedy: str) -> None:
+    """Refuse a list of skill levels where ratings in points are needed."""
+    if file.levels:
+        refuse(
+            f"the ratings of {file.source} are skill levels, and not points of a scale; {remedy}"
+        )
+
+
+def chart_by_difference(option: str, name: str) -> handicaps.Chart:
+    """Return a chart of rating differences, or refuse one of skill levels."""
+    found = files.find_chart(name)
+    if not isinstance(found, handicaps.Chart):
+        refuse(f"{option} {name!r} is a chart of skill levels; give one of rating differences")
+    return found
+
+
+def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Chart, list[str]]:
+    """Return the chart of --chart (None: the system's own), and warnings about it."""
+    from evenbreak.files.chart import find_chart_file
+
+    if name is None:
+        chart: Any = system.usual_chart()
+        warnings = []
+    else:
+        file = find_chart_file(name)
+        chart, warnings = file.chart, list(file.warnings)
+    if not isinstance(chart, handicaps.Chart):
+        refuse(
+            f"--chart {name!r} is a chart of skill levels, which a league reviews now and then "
+            "and no single match moves by points, so there is nothing to follow here; give a chart "
+            "of rating differences, such as npl_10"
+        )
+    best, own = (
+        handicaps.audit(chart, scale=system.scale).best_fit,
+        system.scale.points_per_doubling,
+    )
+    if best is not None and abs(best.points_per_doubling / own - 1.0) > SCALE_OFF:
+        warnings.append(
+            f"the races of {chart.name} fit a scale on which about "
+            f"{best.points_per_doubling:.0f} points double the odds, but here {own:.4g} do; "
+            "make sure that it is the chart for these ratings"
+        )
+    return chart, warnings

@@ -1,0 +1,177 @@
+"""Where the balls of a shot are, read from the options, and the shot traced from there."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+from evenbreak import physics
+from evenbreak.answers.shot_units import Units
+from evenbreak.cli.kit.values import refuse
+
+Place = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A table with two balls on it, in the units of the command.
+
+    Parameters
+    ----------
+    units
+        of lengths.
+    table
+        the table.
+    cut, distance
+        degrees, and between the centres of the balls; or
+    object_ball, pocket
+        where the object ball is and where it should go.
+    cue_ball
+        where the cue ball is; None for the middle of the head string.
+    """
+
+    units: Units
+    table: physics.PoolTable
+    cut: float | None
+    distance: float | None
+    cue_ball: Place | None
+    object_ball: Place | None
+    pocket: physics.Pocket | None
+
+    def metres(self, place: Place) -> Place:
+        """Return a place in metres."""
+        size = self.units.length.size
+        return place[0] * size, place[1] * size
+
+    @property
+    def start(self) -> Place:
+        """Where the cue ball is, in metres."""
+        if self.cue_ball is None:
+            return 0.25 * self.table.length, 0.5 * self.table.width
+        return self.metres(self.cue_ball)
+
+
+def layout_of(
+    units: Units,
+    *,
+    cut: float | None,
+    distance: float | None,
+    cue_ball: Place | None,
+    object_ball: Place | None,
+    pocket: str | None,
+    table_length: float | None,
+) -> Layout:
+    """Return the layout that the options describe, or refuse half of one or two."""
+    by_angle = {"--cut": cut, "--distance": distance}
+    by_place = {"--object-ball": object_ball, "--pocket": pocket}
+    angles, places = (
+        [name for name, value in options.items() if value is not None]
+        for options in (by_angle, by_place)
+    )
+    ways = "give --cut and --distance, or --cue-ball, --object-ball and --pocket"
+    if angles and places:
+        refuse(f"{angles[0]} and {places[-1]} say twice where the balls are; {ways}")
+    if len(angles or places) != 2:
+        refuse(f"it is not clear where the balls are; {ways}")
+    table = physics.PoolTable()
+    if table_length is not None:
+        length = table_length * units.length.size
+        table = physics.PoolTable(length=length, width=0.5 * length)
+    goal = None
+    if pocket is not None:
+        if pocket not in physics.POCKET_NAMES:
+            refuse(f"--pocket {pocket!r}; give one of {', '.join(physics.POCKET_NAMES)}")
+        goal = physics.pockets(table)[physics.POCKET_NAMES.index(pocket)]
+    return Layout(units, table, cut, distance, cue_ball, object_ball, goal)
+
+
+def traced_shot(
+    strike: physics.Strike, layout: Layout, **kit: Any
+) -> physics.Shot | physics.AimedShot:
+    """Return the shot of a layout, or refuse one in which it cannot be played.
+
+    `kit` is the cloth and the friction between the balls.
+    """
+    from evenbreak.errors import InputError
+
+    length, pocket = layout.units.length, layout.pocket
+    _check_places(layout, strike.ball.radius)
+    kit["table"] = layout.table
+    if pocket is None or layout.object_ball is None:
+        cut, distance = layout.cut or 0.0, layout.distance or 0.0
+        try:
+            return physics.shot(
+                strike, math.radians(cut), distance * length.size, cue_ball=layout.start, **kit
+            )
+        except InputError:
+            _refuse_distance(layout, strike.ball.diameter)
+    standing = layout.metres(layout.object_ball)
+    if math.dist(standing, (pocket.x, pocket.y)) <= strike.ball.radius:
+        refuse(
+            f"--object-ball hangs in the {pocket.name} pocket, where any hit will do; move it "
+            "away from the pocket, or give --cut and --distance"
+        )
+    try:
+        found = physics.pocketed_shot(strike, layout.start, standing, pocket, **kit)
+    except InputError:
+        _refuse_places(layout, math.dist(layout.start, standing), strike.ball.diameter)
+    if found.shot.collision is None and found.shot.approach.ending != "rest":
+        x, y = layout.object_ball
+        refuse(
+            f"--object-ball {x:g},{y:g} is so near a cushion that the cue ball would have to be "
+            f"in it to send the ball into --pocket {pocket.name}; move it away from the "
+            "cushion, name another pocket, or give outside english (--side-offset), which "
+            "reduces throw"
+        )
+    return found
+
+
+def _check_places(layout: Layout, radius: float) -> None:
+    """Refuse a ball that is not on the table."""
+    size, unit = (layout.table.length, layout.table.width), layout.units.length
+    for name, place in (("--cue-ball", layout.cue_ball), ("--object-ball", layout.object_ball)):
+        if place is None:
+            continue
+        at = layout.metres(place)
+        if not all(
+            radius - 1e-9 <= x <= most - radius + 1e-9 for x, most in zip(at, size, strict=True)
+        ):
+            room = " by ".join(f"{most / unit.size:g}" for most in size)
+            refuse(
+                f"{name} {place[0]:g},{place[1]:g} is not on the table, which is {room} "
+                f"{unit.words}; a ball's centre is at least {radius / unit.size:.4g} from each "
+                "cushion"
+            )
+
+
+def _refuse_distance(layout: Layout, diameter: float) -> NoReturn:
+    """Say why a distance between the balls is wrong."""
+    unit, distance = layout.units.length, layout.distance or 0.0
+    if distance * unit.size < diameter:
+        refuse(
+            f"--distance {distance:g} is measured between the centres; give "
+            f"{diameter / unit.size:.4g} {unit.words}, where the balls touch, or more"
+        )
+    refuse(
+        f"--distance {distance:g} puts the object ball off the table; give less, or another "
+        "--cue-ball"
+    )
+
+
+def _refuse_places(layout: Layout, apart: float, diameter: float) -> NoReturn:
+    """Say why the object ball cannot be sent into the pocket from where the balls are."""
+    unit = layout.units.length
+    touching = f"{diameter / unit.size:.4g} {unit.words}"
+    if apart < diameter * (1.0 - 1e-9):
+        refuse(f"--cue-ball and --object-ball overlap; put them more than {touching} apart")
+    if apart < diameter * (1.0 + 1e-9):
+        refuse(
+            "--cue-ball and --object-ball touch: apart from throw the object ball goes along the "
+            f"line through them wherever you aim; put them more than {touching} apart"
+        )
+    name = layout.pocket.name if layout.pocket else ""
+    refuse(
+        f"--pocket {name} cannot be reached from here: the cut would be 90 degrees or more; "
+        "name another pocket"
+    )

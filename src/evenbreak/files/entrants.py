@@ -1,0 +1,203 @@
+"""Who is in: a list of entrants, and their ratings from the league's list."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.errors import DataError
+from evenbreak.files.encoding import content_of, text_of
+from evenbreak.files.header import Header
+from evenbreak.files.known_names import KnownNames
+from evenbreak.files.player_names import clean_name, same_name
+from evenbreak.files.problems import Problems, quoted
+from evenbreak.files.roster import OPTIONAL, REQUIRED, WRITTEN, RosterFile, roster_of
+from evenbreak.files.similar_names import similar_name_warnings, similar_names
+from evenbreak.files.text_table import read_table
+from evenbreak.ratings.roster import Roster
+
+PLAYER = {"player": REQUIRED["player"]}
+MORE = {"rating": REQUIRED["rating"], **OPTIONAL, **WRITTEN}
+
+_RATED = re.compile(r"[,;\t]\s*[-+]?[0-9]+([.,][0-9]+)?\s*$")
+"""The end of a line that has a rating after the name."""
+
+APART = 0.5
+"""Points by which an entrant's stated rating may differ from the league's without a warning."""
+
+
+def read_entrants(path: str | Path) -> RosterFile:
+    r"""Read who has entered: a name on each line, or a CSV file with the columns of a roster.
+
+    Lines without a name are skipped. In a CSV file all columns but the name may be missing.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file: no names, a name that appears twice, cells that cannot
+        be read.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "entrants.txt"
+    ...     _ = path.write_text("Ann Lee\n\n Bo  Diaz\n")
+    ...     read_entrants(path).roster.players
+    ('Ann Lee', 'Bo Diaz')
+    """
+    if str(path) == "-":
+        raise DataError(["the entrants cannot come from standard input; name a file"])
+    source, content = content_of(path)
+    text = text_of(content, source)
+    lines = text.body.decode(text.encoding).splitlines()
+    if _has_header(lines):
+        return roster_of(read_table(path, PLAYER, MORE, rows="players"))
+    names: dict[str, tuple[int, str]] = {}
+    problems = Problems(source)
+    for number, line in enumerate(lines, 1):
+        name = clean_name(line)
+        first, _ = names.setdefault(same_name(name), (number, name))
+        if _RATED.search(line):
+            problems.add(
+                number, f"{quoted(name)} has a rating; write player,rating as the first line"
+            )
+        elif name and first != number:
+            problems.add(number, f"{quoted(name)} is already in line {first}; delete one of them")
+    names.pop("", None)
+    problems.raise_any()
+    listed = [name for _, name in names.values()]
+    similar = similar_name_warnings(similar_names(listed), source, "if so, keep one of them")
+    return RosterFile(
+        Roster(listed, np.full(len(listed), np.nan)),
+        np.array([number for number, _ in names.values()]),
+        source,
+        (*text.warnings, *similar),
+        hashlib.sha256(content).hexdigest(),
+    )
+
+
+def _has_header(lines: Sequence[str]) -> bool:
+    """Return whether the first line that is not empty has a title by which players are known."""
+    first = next((line for line in lines if line.strip()), "")
+    header = Header(PLAYER, MORE, {})
+    return any(
+        "player" in header.places(first.split(separator), 1, Problems(""))[0]
+        for separator in ",;\t"
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Entered:
+    """Entrants, matched with the players of a list.
+
+    Parameters
+    ----------
+    names
+        in the spelling of the list where that has them.
+    places
+        of each in the list, -1 for those who are not on it.
+    warnings
+        who is not on the list, with the names that may be meant, and whose rating differs.
+    """
+
+    names: tuple[str, ...]
+    places: tuple[int, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def new(self) -> list[str]:
+        """The names of those who are not on the list."""
+        return [name for name, place in zip(self.names, self.places, strict=True) if place < 0]
+
+
+def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered:
+    """Match entrants with the players of a list; upper and lower case and blanks may differ.
+
+    Parameters
+    ----------
+    entrants
+        as `read_entrants` reads them.
+    players
+        the players of the list.
+    whose
+        what the list is called in warnings.
+
+    >>> file = RosterFile(Roster(["ann lee", "Bo Dias"], [80, 70]), np.array([1, 2]), "e", (), "")
+    >>> found = entered(file, ["Ann Lee", "Bo Diaz"], "r.csv")
+    >>> found.names, found.places
+    (('Ann Lee', 'Bo Dias'), (0, -1))
+    >>> found.warnings
+    ("e:2: 'Bo Dias' is not in r.csv (did you mean 'Bo Diaz'?) and is taken as a new player",)
+    """
+    known = KnownNames(players)
+    names, places, warnings = [], [], []
+    for line, name in zip(entrants.lines.tolist(), entrants.roster.players, strict=True):
+        place = known.place(name)
+        names.append(name if place is None else players[place])
+        places.append(-1 if place is None else place)
+        if place is None:
+            warnings.append(
+                f"{entrants.source}:{line}: {quoted(name)} is not in {whose}{known.hint(name)} and "
+                "is taken as a new player"
+            )
+    return Entered(tuple(names), tuple(places), (*entrants.warnings, *warnings))
+
+
+def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
+    """Return the entrants with their ratings from the league's list.
+
+    Those who are not on it have the rating that the list of entrants states, or none: they are
+    new players.
+
+    Raises
+    ------
+    DataError
+        if the two files state different scales.
+    """
+    if league.scale and entrants.scale and not league.scale.same_points(entrants.scale):
+        raise DataError(
+            [
+                f"{entrants.source}: its scale {entrants.scale.text} differs from "
+                f"{league.scale.text} in {league.source}; put all ratings on one scale"
+            ]
+        )
+    found = entered(entrants, league.roster.players, league.source)
+    known, stated = league.roster, entrants.roster
+    at = np.array(found.places, dtype=np.int64)
+    on_list = at >= 0
+
+    def column(name: str) -> NDArray[Any]:
+        values: NDArray[Any] = np.where(on_list, getattr(known, name)[at], getattr(stated, name))
+        return values
+
+    # A player without any rating has not played here yet.
+    games = np.where(~on_list & np.isnan(stated.rating), 0, column("games"))
+    roster = Roster(
+        found.names,
+        column("rating"),
+        column("standard_error"),
+        games,
+        component=column("component"),
+        matches=column("matches"),
+    )
+    differ = on_list & (np.abs(stated.rating - roster.rating) > APART)
+    warnings = [
+        f"{entrants.source}:{entrants.lines[k]}: the rating {stated.rating[k]:g} of "
+        f"{quoted(roster.players[k])} is not used; {league.source} has {roster.rating[k]:g}"
+        for k in np.flatnonzero(differ).tolist()
+    ]
+    return replace(
+        league,
+        roster=roster,
+        lines=entrants.lines,
+        source=entrants.source,
+        warnings=(*league.warnings, *found.warnings, *warnings),
+        by_quasi=frozenset(np.flatnonzero(on_list & np.isin(at, list(league.by_quasi))).tolist()),
+        scale=league.scale or entrants.scale,
+    )

@@ -1,0 +1,105 @@
+"""The door for charts: wherever a function takes a chart, a name of the catalogue will do."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, TypeVar
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
+from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
+from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS, PointsChart, points_chart
+
+AnyChart = TypeVar("AnyChart", Chart, LevelChart, PointsChart)
+
+
+def catalogue_name(text: str) -> str:
+    """Return what a chart of the catalogue is called, however its name was typed.
+
+    >>> catalogue_name(" NPL-10 ")
+    'npl_10'
+    """
+    return re.sub(r"[-\s]+", "_", text.strip().lower())
+
+
+def chart_of(chart_or_name: Any) -> Chart:
+    """Return a chart by rating difference: a `Chart` as it is, or one of `CHARTS` by its name.
+
+    Raises
+    ------
+    InputError
+        if it is neither; a chart by skill level has no rating differences.
+
+    >>> chart_of("NPL 10").race(12)
+    (5, 4)
+    >>> chart_of("apa_8ball")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: chart is 'apa_8ball', a chart by skill level; give a chart by
+    rating difference: fargo_r6_hot, npl_8, npl_10, npl_12, npl_20, or a Chart of your own
+    """
+    return _found(chart_or_name, Chart)
+
+
+def level_chart_of(chart_or_name: Any) -> LevelChart:
+    """Return a chart by skill level: a `LevelChart` as it is, or one of `LEVEL_CHARTS`.
+
+    Raises
+    ------
+    InputError
+        if it is neither.
+
+    >>> level_chart_of("APA 8ball").race(5, 3)
+    (4, 2)
+    """
+    return _found(chart_or_name, LevelChart)
+
+
+def points_chart_of(chart_or_name: Any) -> PointsChart:
+    """Return a chart of points: a `PointsChart` as it is, or one of `POINTS_CHARTS` by name.
+
+    Raises
+    ------
+    InputError
+        if it is neither.
+
+    >>> points_chart_of("APA 9ball").race(5, 3)
+    (38, 25)
+    """
+    return _found(chart_or_name, PointsChart)
+
+
+class _Kind(NamedTuple):
+    """A kind of chart: in words, the names of its catalogue, and what reads one of them."""
+
+    words: str
+    names: Mapping[str, str]
+    read: Callable[[str], Any]
+
+
+_KINDS: dict[type, _Kind] = {
+    Chart: _Kind("a chart by rating difference", CHARTS, chart),
+    LevelChart: _Kind("a chart by skill level", LEVEL_CHARTS, level_chart),
+    PointsChart: _Kind("a chart of points", POINTS_CHARTS, points_chart),
+}
+
+
+def _found(given: Any, cls: type[AnyChart]) -> AnyChart:
+    """Return a chart of one kind, as it is or by its name, or refuse what is none."""
+    if isinstance(given, cls):
+        return given
+    name, kind = catalogue_name(given) if isinstance(given, str) else "", _KINDS[cls]
+    if name in kind.names:
+        found: AnyChart = kind.read(name)
+        return found
+    others = (
+        f", {one.words}"
+        for other, one in _KINDS.items()
+        if isinstance(given, other) or name in one.names
+    )
+    shown = given.name if isinstance(given, Chart | LevelChart | PointsChart) else given
+    raise InputError(
+        f"chart is {shown!r}{''.join(others)}; give {kind.words}: {', '.join(kind.names)}, or a "
+        f"{cls.__name__} of your own"
+    )

@@ -1,0 +1,105 @@
+"""Where a chart breaks the rule that makes charts: at each difference, the race with W nearest 1/2.
+
+The chart is held to its own races. Its first row stays for equal players, whom any even race
+suits, and the later ones are compared at each whole-point difference.
+"""
+
+from __future__ import annotations
+
+from itertools import groupby
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.arrays import Floats
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.match_rules import match_rules
+from evenbreak.handicaps.charts.rows import ChartRow
+
+
+class OffRule(NamedTuple):
+    """A difference at which another race of the chart would be nearer to even.
+
+    Parameters
+    ----------
+    difference
+        the rating difference, in whole points.
+    race, win
+        the games (m, n) that the stronger and the weaker player need by the chart, and
+        P(the stronger player wins) that race.
+    nearest, nearest_win
+        the same for the race of the chart with W nearest 1/2.
+    """
+
+    difference: int
+    race: tuple[int, int]
+    win: float
+    nearest: tuple[int, int]
+    nearest_win: float
+
+
+def off_rule(chart: Chart, rules: Any) -> tuple[OffRule, ...]:
+    """Return the differences at which another race of the chart has W nearer to 1/2.
+
+    Parameters
+    ----------
+    chart
+        the chart; past the start of its last row nothing is looked at, as its hardest race stays.
+    rules
+        what ratings mean, as for `design`.
+
+    Notes
+    -----
+    Source: the rule before Table 5.6.
+
+    >>> from evenbreak.handicaps import chart
+    >>> place, = off_rule(chart("npl_10"), "npl")
+    >>> place.difference, place.race, place.nearest
+    (46, (7, 3), (6, 2))
+    >>> round(place.win, 3), round(place.nearest_win, 3)
+    (0.582, 0.428)
+    """
+    races = [(row.stronger_needs, row.weaker_needs) for row in chart.rows]
+    wins = _wins(chart, rules)
+    nearest = np.abs(wins - 0.5).argmin(axis=0).tolist()
+    return tuple(
+        OffRule(
+            difference,
+            races[has],
+            float(wins[has, difference]),
+            races[best],
+            float(wins[best, difference]),
+        )
+        for difference, best in enumerate(nearest)
+        if (has := races.index(chart.race(difference))) != best
+    )
+
+
+def nearest_rows(chart: Chart, rules: Any) -> tuple[ChartRow, ...]:
+    """Return the chart with each race where the rule has it: the race with W nearest 1/2.
+
+    >>> from evenbreak.handicaps import chart
+    >>> [(row.difference_from, *row[2:]) for row in nearest_rows(chart("npl_8"), "npl")]
+    [(0, 4, 4), (7, 4, 3), (20, 5, 3), (29, 4, 2), (40, 5, 2), (49, 6, 2)]
+    """
+    nearest = np.abs(_wins(chart, rules) - 0.5).argmin(axis=0).tolist()
+    rows: list[ChartRow] = []
+    for place, run in groupby(enumerate(nearest), key=lambda pair: pair[1]):
+        differences = [difference for difference, _ in run]
+        rows.append(
+            chart.rows[place]._replace(
+                difference_from=differences[0], difference_to=differences[-1]
+            )
+        )
+    rows[-1] = rows[-1]._replace(difference_to=None)
+    return tuple(rows)
+
+
+def _wins(chart: Chart, rules: Any) -> Floats:
+    """Return P(the stronger player wins) by race and difference, up to past the last row's start.
+
+    The last race is even further out than the one before it, so it is the nearest from there on.
+    """
+    last = chart.rows[-1].difference_from + 10
+    m, n = np.array([(row.stronger_needs, row.weaker_needs) for row in chart.rows]).T
+    return match_rules(rules).win(m, n, np.arange(last + 1))

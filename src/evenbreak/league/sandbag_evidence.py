@@ -1,0 +1,144 @@
+"""The evidence that a player sandbags: a likelihood ratio that may be looked at after every match.
+
+A sandbagger dumps a share s of their matches, nobody knows which: they play those d points below a
+constant skill, or lose them on purpose with the score of an honest defeat. The evidence averages
+over s, d and the skill. With L_t(x) the chance of the t-th result at skill x, and w a distribution
+of the skill,
+
+    e_t = mean over s, d of [sum over x of w(x) prod (1 - s) L_t(x) + s L_t(x - d)] / honest
+
+where `honest` is one of two:
+
+- any: the constant or steadily changing skill that explains the results best, max over honest
+  skills of prod L_t(x_t). Whatever the player's skill, e_t is then at most a likelihood ratio
+  against the truth;
+- established: a constant skill that differs from the rating at the start by an error with the
+  distribution of rating errors, sum over x of v(x) prod L_t(x): a likelihood ratio against such a
+  player, on average over that error.
+
+The mean of a likelihood ratio against the truth is 1 after any number of matches, so
+P(e_t ever reaches 1 / alpha | honest) <= alpha (Ville 1939).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from evenbreak.arrays import Floats
+from evenbreak.errors import AccuracyError
+
+_HELD = ("drifting", "steady", "other")
+
+SHARES = (0.1, 0.25, 0.5)
+"""The shares of matches that a sandbagger may dump."""
+
+SHARES_MARKED = (0.3, 0.6, 0.9)
+"""The same, among the matches marked as those that may be dumped."""
+
+DEPTHS = (30, 60, 120)
+"""How many points below their skill a sandbagger may play the dumped matches."""
+
+GAINS = (-0.25, 0.0, 0.25, 0.5)
+"""Points a match by which an honest player's skill may keep changing."""
+
+AHEAD = (0, 15, 30)
+"""How many points a sandbagger's skill may be above the rating at the start."""
+
+HONEST = ("any", "established")
+"""Who counts as honest: players of any skill, or with ratings as accurate as the ladder's."""
+
+WIDEST = 60
+"""The largest rating error at the start, in points, of a sandbagger or an established player."""
+
+FARTHEST = WIDEST + max(DEPTHS)
+"""The same for an honest player of any skill: as far as a sandbagger sinks. Otherwise a hopeless
+beginner would look like somebody who dumps most of their matches."""
+
+
+class SandbagEvidence:
+    """The evidence against several players at once, match by match.
+
+    Parameters
+    ----------
+    prior
+        the distribution of each player's skill at the start, shape (players, skills): skills are
+        whole points from -WIDEST to WIDEST around the rating.
+    shares
+        the shares of dumped matches to average over.
+    kinds
+        the number of ways in which dumped matches may be played.
+
+    Notes
+    -----
+    The arrays `drifting` (players, gains, skills from -FARTHEST to FARTHEST), `steady` (players,
+    skills) and `other` (players, shares, kinds, skills) hold the likelihoods of honest players of
+    any skill, of established players, and of sandbaggers. Each is scaled, with the logarithm of
+    its scale kept separately, so that nothing leaves the range of a float.
+    """
+
+    def __init__(self, prior: Floats, shares: Sequence[float], kinds: int) -> None:
+        players, skills = prior.shape
+        self.shares = np.asarray(shares, dtype=float)[:, None, None]
+        self.drifting = np.ones((players, len(GAINS), 2 * FARTHEST + 1))
+        self.steady = prior.copy()
+        ahead = np.mean([_ahead(prior, points) for points in AHEAD], axis=0)
+        shape = (players, len(shares), kinds, skills)
+        self.other = np.broadcast_to(ahead[:, None, None, :], shape) / (len(shares) * kinds)
+        self._log = {name: np.zeros(players) for name in _HELD}
+
+    def add(self, drifting: Floats, kinds: Floats, *, marked: bool = True) -> None:
+        """Add a match of each player.
+
+        Parameters
+        ----------
+        drifting
+            the chance of the result, shape (players, gains, 2 * FARTHEST + 1).
+        kinds
+            its chance in each way of dumping, shape (players, kinds, skills).
+        marked
+            whether the match may have been dumped.
+
+        Raises
+        ------
+        AccuracyError
+            if the result is all but impossible at every skill.
+        """
+        near = slice(FARTHEST - WIDEST, FARTHEST + WIDEST + 1)
+        steady = drifting[:, GAINS.index(0.0), near]
+        earnest = steady[:, None, None, :]
+        self.drifting = self.drifting * drifting
+        self.steady = self.steady * steady
+        self.other = self.other * (
+            (1.0 - self.shares) * earnest + self.shares * kinds[:, None] if marked else earnest
+        )
+        for name in _HELD:
+            held = getattr(self, name)
+            top = held.reshape(held.shape[0], -1).max(axis=1)
+            if not top.all():
+                raise AccuracyError(
+                    "a result is all but impossible by the ratings; check them, and whether "
+                    "they are on the scale of the system"
+                )
+            setattr(self, name, held / top.reshape(-1, *[1] * (held.ndim - 1)))
+            self._log[name] += np.log(top)
+
+    def log_e(self, honest: str) -> Floats:
+        """Return log e against honest players of a kind of `HONEST`, shape (players,)."""
+        other = np.log(self.other.sum(axis=(1, 2, 3))) + self._log["other"]
+        if honest == "any":
+            return np.asarray(
+                other - np.log(self.drifting.max(axis=(1, 2))) - self._log["drifting"]
+            )
+        return np.asarray(other - np.log(self.steady.sum(axis=1)) - self._log["steady"])
+
+
+def _ahead(prior: Floats, points: int) -> Floats:
+    """Return the prior moved up; what would leave the range stays at its end."""
+    if not points:
+        return prior
+    moved = np.zeros_like(prior)
+    moved[:, points:] = prior[:, :-points]
+    moved[:, -1] += prior[:, -points:].sum(axis=1)
+    return moved

@@ -1,0 +1,20 @@
+"""The door of every function that takes `Results`."""
+
+from __future__ import annotations
+
+from evenbreak.errors import InputError
+
+
+def check_results(results: object) -> None:
+    """Refuse what is not `Results`.
+
+    >>> check_results("season.csv")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: this is str 'season.csv', not Results; give ...
+    """
+    if not hasattr(results, "won_only"):
+        raise InputError(
+            f"this is {type(results).__name__} {results!r:.60}, not Results; give "
+            "Results.from_frame(frame), or read_results(path).results for a file"
+        )

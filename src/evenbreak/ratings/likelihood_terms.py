@@ -1,0 +1,192 @@
+"""Results as terms of a likelihood, where they differ in what they say and how much they weigh.
+
+Of a match either the games are known, each won with the log-odds
+
+    θi - θj + β,  θi - θj - β  or  θi - θj
+
+as i broke, j broke, or it is not known who did; or only the winner of a race i:j is known,
+which has the likelihood W(p(θi - θj); m, n). β is the break advantage. The logarithm of every
+such term is concave in (θ, β). Where it is known how many racks each player broke, but not who
+won which of them, a term convex in β alone is added (see `evenbreak.ratings.own_break_wins`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.special import expit
+
+from evenbreak.arrays import Floats, Ints, Places
+from evenbreak.ratings.covariance import Curvature, sums_by_player
+from evenbreak.ratings.own_break_wins import BreakWinsTerms
+from evenbreak.ratings.race_likelihood import race_slopes
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.who_broke import count_broken
+
+
+@dataclass(frozen=True, eq=False)
+class LikelihoodTerms:
+    """What was played, as terms of the log-likelihood.
+
+    Attributes
+    ----------
+    players
+        how many there are.
+    low, high
+        the two players of each pair that met.
+    pair, broke, won, lost
+        of each term of games: its pair, who broke (1 the low player, -1 the high one, 0
+        not known), and the games the low player won and lost, weighted.
+    race_pair, race_side, race_m, race_n, race_weight
+        of each match known by its winner alone: its pair, who won (1 the low player, -1
+        the high one), the games that the winner and the loser needed, and its weight.
+    own_breaks, own_break_weight
+        how many racks players may have won on their own break, where only the score is known,
+        and the weight of each such term; the terms of games hold the middle of each.
+    """
+
+    players: int
+    low: Places
+    high: Places
+    pair: Places
+    broke: NDArray[np.int8]
+    won: Floats
+    lost: Floats
+    race_pair: Places
+    race_side: Floats
+    race_m: Floats
+    race_n: Floats
+    race_weight: Floats
+    own_breaks: BreakWinsTerms
+    own_break_weight: Floats
+
+    @property
+    def graph(self) -> sparse.csr_array:
+        """Who met whom: shape (players, players), upper triangular."""
+        ones = np.ones(len(self.low))
+        shape = (self.players, self.players)
+        return sparse.coo_array((ones, (self.low, self.high)), shape=shape).tocsr()
+
+    @property
+    def amount(self) -> float:
+        """How many games and races, weighted, there are."""
+        return float(self.won.sum() + self.lost.sum() + self.race_weight.sum())
+
+    @property
+    def games_with_breaker(self) -> float:
+        """How many games, weighted, have a known breaker."""
+        return float((self.won + self.lost)[self.broke != 0].sum())
+
+    def log_likelihood(self, skill: Floats, advantage: float = 0.0) -> float:
+        """Return ln P(these results | the skills, the races, who broke, the number of games)."""
+        difference = skill[self.low] - skill[self.high]
+        x = difference[self.pair] + advantage * self.broke
+        games = self.won @ np.logaddexp(0.0, -x) + self.lost @ np.logaddexp(0.0, x)
+        races = race_slopes(
+            self.race_side * difference[self.race_pair], self.race_m, self.race_n
+        ).log_win
+        own_breaks = self.own_breaks.log_sums(advantage)[0]
+        return float(self.race_weight @ races + self.own_break_weight @ own_breaks - games)
+
+    def derivatives(self, skill: Floats, advantage: float) -> tuple[Floats, float]:
+        """Return the gradient of the negative log-likelihood in the skills and the advantage."""
+        difference = skill[self.low] - skill[self.high]
+        games = self.won + self.lost
+        miss = games * expit(difference[self.pair] + advantage * self.broke) - self.won
+        pull = np.bincount(self.pair, miss, len(self.low)).astype(np.float64)
+        races = race_slopes(self.race_side * difference[self.race_pair], self.race_m, self.race_n)
+        weight = self.race_weight * self.race_side * races.slope
+        pull -= np.bincount(self.race_pair, weight, len(self.low))
+        own_breaks = self.own_breaks.log_sums(advantage)[1]
+        return self._net(pull), float(self.broke @ miss - self.own_break_weight @ own_breaks)
+
+    def curvature(
+        self, skill: Floats, advantage: float, precision: float, break_precision: float | None
+    ) -> Curvature:
+        """Return the Hessian of the negative log-posterior.
+
+        Where `break_precision` is None the break advantage is not estimated.
+        """
+        difference = skill[self.low] - skill[self.high]
+        x = difference[self.pair] + advantage * self.broke
+        bend = (self.won + self.lost) * expit(x) * expit(-x)
+        weight = np.bincount(self.pair, bend, len(self.low)).astype(np.float64)
+        races = race_slopes(self.race_side * difference[self.race_pair], self.race_m, self.race_n)
+        weight -= np.bincount(self.race_pair, self.race_weight * races.curvature, len(self.low))
+        border = corner = None
+        if break_precision is not None:
+            across = np.bincount(self.pair, self.broke * bend, len(self.low))
+            border = self._net(across.astype(np.float64))
+            spread = self.own_breaks.log_sums(advantage)[2]
+            corner = float((self.broke != 0) @ bend - self.own_break_weight @ spread)
+            corner += break_precision
+        return Curvature(self.players, self.low, self.high, weight, precision, border, corner)
+
+    def _net(self, pull: Floats) -> Floats:
+        """Return the sum for each player over their pairs, counted negative where they are high."""
+        return sums_by_player(self.players, self.low, self.high, pull, -pull)
+
+
+def likelihood_terms(
+    scored: Results, won_only: Results, weights: tuple[Floats, Floats], *, breaks: bool
+) -> LikelihoodTerms:
+    """Return results as terms of a likelihood.
+
+    Parameters
+    ----------
+    scored, won_only
+        matches with games in them, and matches known by race and winner alone, between the
+        same players.
+    weights
+        of the matches in `scored` and in `won_only`.
+    breaks
+        whether it matters who broke.
+    """
+    players = len(scored.players)
+    pairs, place = np.unique(
+        np.concatenate([_pair_codes(scored), _pair_codes(won_only)]), return_inverse=True
+    )
+    scored_place, race_place = place[: len(scored)], place[len(scored) :]
+    won, lost = scored.score_a[None].astype(np.float64), scored.score_b[None].astype(np.float64)
+    own_breaks, own_break_weight = BreakWinsTerms.of([]), np.zeros(0)
+    if breaks:
+        won, lost, pattern, own_breaks = count_broken(scored)
+        known = pattern >= 0
+        own_break_weight = np.bincount(
+            pattern[known], weights[0][known], len(own_breaks.value)
+        ).astype(np.float64)
+    turned = scored.player_a > scored.player_b
+    low_won, low_lost = np.where(turned, lost, won), np.where(turned, won, lost)
+    sides = np.array([0, 1, -1])[: len(won), None] * np.where(turned, -1, 1)
+    cell = 3 * scored_place + sides + 1
+    kept = low_won + low_lost > 0
+    terms, term = np.unique(cell[kept], return_inverse=True)
+    weight = np.broadcast_to(weights[0], cell.shape)[kept]
+    a_won = won_only.winner == 1 if won_only.winner is not None else np.zeros(0, bool)
+    race_a, race_b = won_only.races
+    a_is_low = won_only.player_a < won_only.player_b
+    return LikelihoodTerms(
+        players,
+        (pairs // max(players, 1)).astype(np.intp),
+        (pairs % max(players, 1)).astype(np.intp),
+        (terms // 3).astype(np.intp),
+        (terms % 3 - 1).astype(np.int8),
+        np.bincount(term, low_won[kept] * weight, len(terms)).astype(np.float64),
+        np.bincount(term, low_lost[kept] * weight, len(terms)).astype(np.float64),
+        race_place.astype(np.intp),
+        np.where(a_won == a_is_low, 1.0, -1.0),
+        np.where(a_won, race_a, race_b).astype(np.float64),
+        np.where(a_won, race_b, race_a).astype(np.float64),
+        weights[1],
+        own_breaks,
+        own_break_weight,
+    )
+
+
+def _pair_codes(results: Results) -> Ints:
+    low = np.minimum(results.player_a, results.player_b)
+    high = np.maximum(results.player_a, results.player_b)
+    return np.asarray(low * len(results.players) + high)

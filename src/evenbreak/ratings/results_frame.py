@@ -1,0 +1,214 @@
+"""What the columns of a DataFrame of results mean, cell by cell.
+
+The columns are those of a results file. A cell without a meaning is a problem that names its
+row, and all problems are reported at once.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterable, Sequence
+from datetime import date, datetime
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from evenbreak.errors import DataError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Meaning = TypeVar("Meaning")
+
+NAMES, SCORES, RACES = ("player_a", "player_b"), ("score_a", "score_b"), ("race_a", "race_b")
+SIDES = ("winner", "first_break")
+FORMATS = ("", "winner", "loser", "alternate", "a", "b")
+"""Break formats in the order of their codes in `Results.break_format`; 0 is not stated."""
+_OTHERS = ("date", "break_format", "racks", "event", "forfeit")
+COLUMNS = (*NAMES, *SCORES, *RACES, *SIDES, *_OTHERS)
+_LARGEST = 1_000_000
+_MOST_PROBLEMS = 20
+_ANSWERS = {
+    **dict.fromkeys((True, 1, "yes", "y", "true", "x"), True),
+    **dict.fromkeys((False, 0, "no", "n", "false"), False),
+}
+
+
+class FrameReader:
+    """Reads the columns of a frame and collects what is wrong in them.
+
+    Parameters
+    ----------
+    frame
+        the matches, a row each; a row is called by its label in the index.
+    """
+
+    def __init__(self, frame: pd.DataFrame) -> None:
+        self.problems: list[str] = []
+        self.rows: list[Any] = frame.index.tolist()
+        self._columns = self._found(frame)
+
+    def _found(self, frame: pd.DataFrame) -> dict[str, list[Any]]:
+        """Return the cells of each known column; None for empty cells."""
+        known = {_letters(name): name for name in COLUMNS}
+        found: dict[str, list[Any]] = {}
+        unused = []
+        for place, title in enumerate(frame.columns):
+            name = known.get(_letters(str(title)))
+            if name is None:
+                unused.append(str(title))
+            elif name in found:
+                self.problems.append(f"two columns mean {name}; drop one")
+            else:
+                cells, empty = frame.iloc[:, place], frame.iloc[:, place].isna()
+                found[name] = [
+                    None if gap or (isinstance(cell, str) and not cell.strip()) else cell
+                    for cell, gap in zip(cells.tolist(), empty.tolist(), strict=True)
+                ]
+        if unused:
+            warnings.warn(f"columns not used: {', '.join(unused)}", stacklevel=4)
+        missing = [name for name in (*NAMES, *SCORES) if name not in found]
+        if missing:
+            titles = ", ".join(map(repr, map(str, frame.columns)))
+            self.problems.append(
+                f"there is no column {' or '.join(missing)} among {titles}; add it"
+            )
+        return found
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._columns
+
+    def read(
+        self, name: str, meaning: Callable[[Any], Meaning | None], wanted: str, empty: Meaning
+    ) -> list[Meaning]:
+        """Return the meaning of each cell of a column, `empty` where there is none."""
+        read = []
+        for row, cell in enumerate(self.cells(name)):
+            found = empty if cell is None else meaning(cell)
+            if found is None:
+                self.add(row, f"{name} is {cell!r}; give {wanted}")
+            read.append(empty if found is None else found)
+        return read
+
+    def cells(self, name: str) -> list[Any]:
+        """Return the cells of a column; None for empty ones, throughout if there is no column."""
+        return self._columns.get(name, [None] * len(self.rows))
+
+    def add(self, row: int, problem: str) -> None:
+        """Add a problem of the row in this place."""
+        self.problems.append(f"row {self.rows[row]}: {problem}")
+
+    def raise_any(self) -> None:
+        """Raise a DataError if there are problems."""
+        more = len(self.problems) - _MOST_PROBLEMS
+        if self.problems:
+            rest = [f"and {more} more problems"] if more > 0 else []
+            raise DataError(self.problems[:_MOST_PROBLEMS] + rest)
+
+
+def columns_of(reader: FrameReader) -> dict[str, Any]:
+    """Return the columns of `Results.from_names`; problems are added to the reader's."""
+    names = [_names(reader, name) for name in NAMES]
+    _refuse_spellings(reader, {name for column in names for name in column})
+    columns: dict[str, Any] = dict(zip(NAMES, names, strict=True))
+    for name in (*SCORES, *RACES):
+        columns[name] = reader.read(name, _count, "a whole number, 0 or more", 0)
+    columns["forfeit"] = reader.read("forfeit", _answer, "True or False, yes or no", empty=False)
+    columns["date"] = reader.read("date", _day, "a date such as 2026-01-31", "NaT")
+    formats = "winner, loser, alternate, a or b"
+    columns["break_format"] = reader.read("break_format", _format, formats, 0)
+    columns["racks"] = reader.read("racks", _racks, "text of a and b such as 'abba'", "")
+    columns["event"] = reader.read("event", str, "text", "")
+    for name in SIDES:
+        columns[name] = _sides(reader, name, *names)
+    columns["unscored"] = _unscored(reader, columns)
+    needed = {*NAMES, *SCORES, *(["unscored"] if any(columns["unscored"]) else [])}
+    return {name: values for name, values in columns.items() if name in needed or name in reader}
+
+
+def _names(reader: FrameReader, column: str) -> list[str]:
+    names = reader.read(column, _name, "a name", "")
+    for row, cell in enumerate(reader.cells(column)):
+        if column in reader and cell is None:
+            reader.add(row, f"{column} is empty; give a name")
+    return names
+
+
+def _refuse_spellings(reader: FrameReader, names: Iterable[str]) -> None:
+    """Refuse two names that differ in case or spaces alone: they would be two players."""
+    seen: dict[str, str] = {}
+    for name in sorted(names):
+        other = seen.setdefault("".join(name.casefold().split()), name)
+        if other != name:
+            reader.problems.append(
+                f"{other!r} and {name!r} differ in case or spaces alone; use one of them throughout"
+            )
+
+
+def _sides(reader: FrameReader, column: str, a: Sequence[str], b: Sequence[str]) -> list[int]:
+    """Return 1 where a column names player a, 2 where it names player b, 0 where neither."""
+    sides = []
+    for row, cell in enumerate(reader.cells(column)):
+        name = "" if cell is None else _name(cell) or ""
+        either = {"a": 1, "b": 2, a[row]: 1, b[row]: 2}
+        if cell is not None and name not in either:
+            reader.add(row, f"{column} is {cell!r}; give a, b or the name of one of the players")
+        sides.append(0 if cell is None else either.get(name, 0))
+    return sides
+
+
+def _unscored(reader: FrameReader, columns: dict[str, Any]) -> list[bool]:
+    """Return which matches are known by race and winner alone; other empty scores are problems."""
+    unscored = []
+    for row in range(len(reader.rows)):
+        empty = [name for name in SCORES if reader.cells(name)[row] is None]
+        known = len(empty) == 2 and all(columns[name][row] for name in (*RACES, "winner"))
+        if not known and not columns["forfeit"][row]:
+            for name in empty:
+                if name in reader:
+                    reader.add(row, f"{name} is empty; give the games won")
+        unscored.append(known and not columns["forfeit"][row])
+    return unscored
+
+
+def _letters(title: str) -> str:
+    return "".join(letter for letter in title.casefold() if letter.isalnum())
+
+
+def _name(cell: Any) -> str | None:
+    return " ".join(cell.split()) if isinstance(cell, str) else None
+
+
+def _count(cell: Any) -> int | None:
+    if isinstance(cell, bool):
+        return None
+    try:
+        number = int(cell)
+        same = str(number) == cell.strip() if isinstance(cell, str) else number == cell
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return number if same and 0 <= number <= _LARGEST else None
+
+
+def _answer(cell: Any) -> bool | None:
+    try:
+        return _ANSWERS.get(cell.strip().casefold() if isinstance(cell, str) else cell)
+    except TypeError:
+        return None
+
+
+def _day(cell: Any) -> str | None:
+    if isinstance(cell, str):
+        try:
+            cell = datetime.fromisoformat(cell.strip())
+        except ValueError:
+            return None
+    return f"{cell:%Y-%m-%d}" if isinstance(cell, date) else None
+
+
+def _format(cell: Any) -> int | None:
+    text = cell.strip().casefold().removesuffix(" breaks") if isinstance(cell, str) else ""
+    return FORMATS.index(text) if text in FORMATS[1:] else None
+
+
+def _racks(cell: Any) -> str | None:
+    text = "".join(cell.casefold().split()) if isinstance(cell, str) else "?"
+    return text if set(text) <= {"a", "b"} else None

@@ -1,0 +1,121 @@
+"""How well ways of rating predict a season: stretch by stretch, from the days before alone.
+
+The season is divided into stretches of whole days. Each stretch but the first is predicted
+from the ratings of all days before it, at face value. Nothing is predicted from itself.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.arrays import Floats
+from evenbreak.errors import InputError
+from evenbreak.ratings.fit import fit
+from evenbreak.ratings.likelihood_terms import likelihood_terms
+from evenbreak.ratings.results import Results
+
+STRETCHES = 30
+"""How many stretches a season is divided into, if it has as many days."""
+
+
+class StretchLosses(NamedTuple):
+    """What was lost in predicting each stretch.
+
+    Attributes
+    ----------
+    losses
+        shape (stretches, ways): the sum of -ln P(the result | the days before).
+    predicted
+        shape (stretches,): how many games were predicted, and matches known by the winner
+        alone.
+    """
+
+    losses: Floats
+    predicted: Floats
+
+    @property
+    def means(self) -> Floats:
+        """The loss a game (or such a match) of each way."""
+        return np.asarray(self.losses.sum(0) / self.predicted.sum())
+
+
+def stretch_losses(
+    results: Results,
+    ways: Sequence[Mapping[str, Any]],
+    *,
+    progress: Callable[[int, int], None] = lambda _done, _all: None,
+) -> StretchLosses:
+    """Predict each stretch of a season from the days before it, in several ways.
+
+    Parameters
+    ----------
+    results
+        matches on at least two days, all with a date; forfeits and 0-0 may lack one.
+    ways
+        options of `fit`: all with a break advantage, or none.
+    progress
+        called with how many stretches are done, and of how many.
+
+    Raises
+    ------
+    InputError
+        if a date is missing, all matches are of one day, or an option is out of range.
+
+    >>> season = Results.from_names(
+    ...     ["A"] * 3, ["B"] * 3, [7] * 3, [4] * 3, date=["2026-01-0" + day for day in "123"]
+    ... )
+    >>> found = stretch_losses(season, [{"prior_sd": 0.1}, {"prior_sd": 0.5}])
+    >>> found.losses.shape, found.predicted, found.means.round(3)
+    ((2, 2), array([11., 11.]), array([0.688, 0.66 ]))
+    """
+    played, date = _played(results)
+    stretches = _stretches(date)
+    losses = np.zeros((len(stretches), len(ways)))
+    predicted = np.zeros(len(stretches))
+    breaks = any(way.get("break_advantage") is not None for way in ways)
+    for row, (first, last) in enumerate(stretches):
+        before = played.select(date < first)
+        coming = played.select((date >= first) & (date <= last))
+        scored, won_only = coming.played().results, coming.won_only()
+        weights = np.ones(len(scored)), np.ones(len(won_only))
+        terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
+        predicted[row] = round(terms.amount)
+        for column, way in enumerate(ways):
+            ratings = fit(before, **way)
+            skill = ratings.scale.log_odds(ratings.rating - ratings.anchor)
+            advantage = ratings.scale.log_odds(ratings.break_advantage or 0.0)
+            losses[row, column] = -terms.log_likelihood(skill, advantage)
+        progress(row + 1, len(stretches))
+    return StretchLosses(losses, predicted)
+
+
+def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
+    """Return the matches that count and their dates, or refuse those without one."""
+    played = results.select(results.counted)
+    undated = len(played) if played.date is None else int(np.isnat(played.date).sum())
+    if undated:
+        raise InputError(
+            f"{undated:,} of {len(played):,} matches have no date, but a prior is chosen by how "
+            "well it predicts later days; add the dates, or give the prior's width"
+        )
+    if len(played) == 0 or played.date is None or played.date.min() == played.date.max():
+        raise InputError(
+            "a prior is chosen by how well it predicts later days, which takes matches on two "
+            "days at least; give the prior's width"
+        )
+    return played, played.date
+
+
+def _stretches(date: NDArray[np.datetime64]) -> list[tuple[np.datetime64, np.datetime64]]:
+    """Return the first and last day of each stretch but the first; all are about equally long."""
+    days, matches = np.unique(date, return_counts=True)
+    done = np.cumsum(matches) - matches
+    number = done // max(math.ceil(len(date) / STRETCHES), 1)
+    first = np.flatnonzero(np.diff(number, prepend=-1))
+    last = np.append(first[1:], len(days)) - 1
+    return [(days[a], days[b]) for a, b in zip(first[1:], last[1:], strict=True)]

@@ -1,0 +1,61 @@
+"""How each number of the text is computed, and how it compares with the printed one."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from evenbreak.source_text.findings import Finding, find
+from evenbreak.source_text.inputs import Answers, parse_inputs
+from evenbreak.source_text.physics import collisions, deflections, equipment, natural_roll, tip
+from evenbreak.source_text.published import physics_numbers, published_numbers
+from evenbreak.source_text.section5 import (
+    break_formats,
+    games_won,
+    innings,
+    long_run,
+    one_ball,
+    samples,
+)
+
+PHYSICS = (equipment, natural_roll, tip, collisions, deflections)
+"""The modules that answer the problems of sections 1 to 4."""
+
+SECTION_5 = (samples, games_won, innings, one_ball, break_formats, long_run)
+"""The modules that answer the problems of section 5."""
+
+ANSWERS: Answers = {
+    key: answer for part in (*PHYSICS, *SECTION_5) for key, answer in part.ANSWERS.items()
+}
+"""How each quantity is computed from its inputs, by problem and quantity."""
+
+
+def compute(problem: str, quantity: str, inputs: str) -> Any:
+    """Return a quantity of the text, computed from the inputs as the text states them.
+
+    Raises
+    ------
+    KeyError
+        if the text has no such quantity.
+
+    >>> compute("P5.5", "P(3:0)", "p=2/3"), round(compute("P4.17", "theta, deg", "alpha=30deg"), 2)
+    (Fraction(8, 27), 33.67)
+    """
+    return ANSWERS[problem, quantity](parse_inputs(inputs))
+
+
+@cache
+def physics_findings() -> tuple[Finding, ...]:
+    """Return every number of sections 1 to 4 with what is computed, in the order of the text.
+
+    >>> finding = physics_findings()[0]
+    >>> finding.published.quantity, finding.computed, finding.verdict
+    ('diameter, in', 2.25, 'given')
+    """
+    return tuple(find(physics_numbers(), ANSWERS))
+
+
+@cache
+def section_5_findings() -> tuple[Finding, ...]:
+    """Return every number of section 5 with what is computed, in the order of the text."""
+    return tuple(find(published_numbers(), ANSWERS))

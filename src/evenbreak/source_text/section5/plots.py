@@ -1,0 +1,169 @@
+"""The plots of section 5: Figs. 5.1, 5.3, 5.6, 5.8, 5.9 and 5.11, all computed anew."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from evenbreak.plots.contours import contour_axes
+from evenbreak.plots.style import LINES, label_beside, label_on, new_axes, note, unit_axis
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+_P = np.linspace(0.0, 1.0, 201)
+_GAME = "$p$ = P(player 1 wins a game)"
+_MATCH = "$W$ = P(player 1 wins the match)"
+_BREAK_1 = "$p_1$ = P(player 1 wins | player 1 breaks)"
+_BREAK_2 = "$p_2$ = P(player 2 wins | player 2 breaks)"
+
+
+def races() -> Figure:
+    """Fig. 5.1: W(p; n, n) and W(p; 2n, n), n = 1 ... 10, and where 2:1 and 4:2 cross."""
+    figure, axes = new_axes(_GAME, _MATCH, size=(7.2, 6.4))
+    _race_curves(axes, _P, range(1, 11))
+    unit_axis(axes, "x", "y")
+    axes.legend(loc="upper left", frameon=False)
+    for m, n, p in ((1, 1, 0.2), (10, 10, 0.6)):
+        label_beside(axes, p, _race(p, m, n), f"{m}:{n}", "left")
+    for m, n, p in ((2, 1, 0.94), (20, 10, 0.55)):
+        label_beside(axes, p, _race(p, m, n), f"{m}:{n}", "right")
+    _crossing(axes)
+    return figure
+
+
+def _crossing(axes: Axes) -> None:
+    """Enlarge the point where the races 2:1 and 4:2 are equally good."""
+    from scipy.optimize import brentq
+
+    inset = axes.inset_axes((0.71, 0.08, 0.26, 0.33))
+    _race_curves(inset, np.linspace(0.6, 0.7, 101), (1, 2))
+    # No tick in the corners, from which the lines to the part enlarged begin.
+    inset.set(xlim=(0.6, 0.7), ylim=(0.34, 0.52), xticks=(0.62, 0.65, 0.68), yticks=(0.4, 0.5))
+    inset.tick_params(direction="in", top=True, right=True, labelsize=8)
+    axes.indicate_inset_zoom(inset, edgecolor="0.4")
+    label_beside(inset, 0.685, _race(0.685, 2, 1), "2:1", "below")
+    label_beside(inset, 0.675, _race(0.675, 4, 2), "4:2", "left")
+    p = brentq(lambda p: _race(p, 2, 1) - _race(p, 4, 2), 0.6, 0.7)
+    for panel, size in ((axes, 3.0), (inset, 4.5)):
+        panel.plot([p], [_race(p, 2, 1)], "ko", markersize=size, zorder=4)
+    note(inset, f"$p$ = {p:.3f}", (p, _race(p, 2, 1)), (8, -11), fontsize=10, va="center")
+
+
+def _race(p: Any, m: int, n: int) -> Any:
+    from evenbreak.matches import race_win_probability
+
+    return race_win_probability(p, m, n)
+
+
+def _race_curves(axes: Axes, p: NDArray[np.float64], lengths: Iterable[int]) -> None:
+    even, uneven = LINES[0], LINES[1]
+    for n in lengths:
+        first = n == 1
+        axes.plot(
+            p, _race(p, n, n), **even._asdict(), lw=1, label="n:n, n = 1 … 10" if first else None
+        )
+        axes.plot(
+            p,
+            _race(p, 2 * n, n),
+            **uneven._asdict(),
+            lw=1.2,
+            label="2n:n, n = 1 … 10" if first else None,
+        )
+
+
+def one_ball() -> Figure:
+    """Fig. 5.3: the one-ball game, by the infinite and by the two-shot look-ahead."""
+    from matplotlib.figure import Figure
+
+    from evenbreak.practice.shots import one_ball_win
+
+    figure = Figure(figsize=(9.0, 4.7), layout="constrained")
+    panels = figure.subplots(1, 2)
+    names = {"infinite": "Infinite look-ahead", "two shots": "Two-shot look-ahead"}
+    for axes, (look_ahead, name) in zip(panels, names.items(), strict=True):
+        contour_axes(
+            axes,
+            partial(one_ball_win, look_ahead=look_ahead),
+            x="$p_1$ = P(player 1 makes the shot)",
+            y="$p_2$ = P(player 2 makes the shot)",
+        )
+        axes.set_title(f"{name}: $W$ = P(player 1 wins)")
+    return figure
+
+
+def break_formats() -> Figure:
+    """Fig. 5.6: player 1's share of the games by break format, and WB less LB."""
+    from evenbreak.plots.break_formats import share_panels
+
+    figure, panels = share_panels(x=_BREAK_1, y=_BREAK_2)
+    names = ("Winner breaks", "Loser breaks", "Alternate breaks")
+    titles = [f"{name}: player 1's share $W$" for name in names]
+    for axes, title in zip(panels, [*titles, "Winner breaks less loser breaks"], strict=True):
+        axes.set_title(title)
+    return figure
+
+
+def progressive_drill() -> Figure:
+    """Fig. 5.8: where the progressive nine-ball drill spends its attempts, level by level."""
+    from evenbreak.chains import chain_of, stochastic_limit
+    from evenbreak.games import Drill
+
+    levels = range(1, 10)
+    limits = [stochastic_limit(chain_of(Drill.progressive(p)), 1) for p in _P]
+    figure, axes = new_axes(
+        "$p$ = P(one shot is made)", "$v$ = share of the attempts at a level", size=(7.2, 5.4)
+    )
+    for level in levels:
+        share = np.array([limit.get(level, 0.0) for limit in limits])
+        axes.plot(_P, share, **LINES[level - 1]._asdict(), lw=1.4, label=f"$v_{level}$")
+    unit_axis(axes, "x", "y")
+    # Where the curves peak they lie too close to be named one by one.
+    axes.legend(title="level", loc="upper center", ncols=3, frameon=False, handlelength=4.0)
+    return figure
+
+
+def rating_ladders() -> Figure:
+    """Fig. 5.9: how far ratings stray on the NPL ladder, for four charts."""
+    from evenbreak.handicaps.charts.chart import chart
+    from evenbreak.handicaps.ladders.ladder import Ladder
+
+    figure, axes = new_axes(
+        "rating error, points", "$v$ = probability of the error", size=(7.2, 5.0)
+    )
+    for games, marker, line in zip((8, 10, 12, 20), "os^D", LINES, strict=False):
+        law = Ladder(chart(f"npl_{games}")).law()
+        axes.plot(
+            np.array(law.values, float),
+            np.array(law.probability, float),
+            **line._asdict(),
+            lw=1.2,
+            marker=marker,
+            ms=4,
+            label=f"Chart-{games}",
+        )
+    axes.set(xlim=(-20, 20), ylim=(0, None))
+    axes.legend(frameon=False)
+    return figure
+
+
+def ahead_matches() -> Figure:
+    """Fig. 5.11: n-ahead matches whose two handicaps add up to six games."""
+    from evenbreak.games import Ahead, Rack
+    from evenbreak.matches import win_probability
+
+    figure, axes = new_axes(_GAME, _MATCH, size=(6.4, 6.2))
+    for m, line in zip(range(1, 6), LINES, strict=False):
+        n = 6 - m
+        chance = win_probability(Ahead(m, n, Rack(_P)))
+        axes.plot(_P, chance, **line._asdict(), lw=1.4)
+        # On the falling diagonal the curves are farthest apart.
+        here = int(np.argmin(np.abs(_P + chance - 1.0)))
+        label_on(axes, _P[here], chance[here], f"{m}:{n}")
+    unit_axis(axes, "x", "y")
+    return figure

@@ -1,0 +1,104 @@
+"""What is said of a validated season besides the verdict: each cause by its name, and only then."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from evenbreak.answers.validate_remarks import remarks
+from evenbreak.files.results import read_results
+from evenbreak.ratings import Results, scale_of, validate
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.half_life import HalfLifeGain
+from evenbreak.ratings.race_lengths import RaceLengths
+from evenbreak.ratings.within_matches import Dispersion
+from places import SHARED
+
+NPL = scale_of("npl")
+SEASON = SHARED / "data" / "snooker_2016_17_results.csv"
+
+
+def said(found, word):
+    """Return the one remark with this word in it, or None."""
+    texts = [text for text in remarks(found, NPL) if word in text]
+    assert len(texts) < 2
+    return texts[0] if texts else None
+
+
+def winners_first(season):
+    turned = season.score_b > season.score_a
+    a, b = (season.player_a, season.player_b), (season.score_a, season.score_b)
+    return Results(
+        season.players, np.where(turned, a[1], a[0]), np.where(turned, a[0], a[1]),
+        np.maximum(*b), np.minimum(*b), date=season.date,
+    )  # fmt: skip
+
+
+def test_a_file_that_lists_winners_first_is_recognised(play_season):
+    season = play_season(1, matches=300)
+    found = validate(winners_first(season), prior_sd=0.5)
+    text = said(found, "first column")
+    assert "100%" in text
+    assert "list winners first" in text
+    assert "home" not in text
+    plain = validate(season, prior_sd=0.5)
+    assert found.scored[0].log_loss.value == pytest.approx(plain.scored[0].log_loss.value)
+    assert said(plain, "first column") is None
+
+
+@pytest.mark.parametrize(("side", "first", "home"), [(0.3, "winners", "home player"),
+                                                     (-0.3, "losers", "visitor")])  # fmt: skip
+def test_the_order_of_the_file_is_the_first_cause_and_home_advantage_the_second(
+    play_season, side, first, home
+):
+    text = said(validate(play_season(1, side=side), prior_sd=0.5), "first column")
+    assert 0 < text.index(first) < text.index(home)
+
+
+def test_a_half_life_is_advised_only_where_it_clearly_helps(chosen):
+    assert chosen.half_lives
+    assert said(chosen, "--half-life") is None
+    helps = HalfLifeGain(90.0, Estimate(0.01, 0.005, 0.015))
+    perhaps = HalfLifeGain(90.0, Estimate(0.01, 0.0, 0.02))
+    for gain, expected in ((helps, True), (perhaps, False)):
+        found = dataclasses.replace(chosen, half_lives=(gain, *chosen.half_lives[1:]))
+        assert (said(found, "--half-life 90") is not None) is expected
+
+
+def halves(short, long):
+    """Return races to 4 and to 9, 400 each, by the favourites' share; 0.65 was predicted."""
+    return tuple(
+        RaceLengths(
+            needed, needed, 400, round(400 * share), share, share - 0.04, share + 0.04, 0.65
+        )
+        for needed, share in ((4, short), (9, long))
+    )
+
+
+@pytest.mark.parametrize(
+    ("shares", "sentence"),
+    [
+        ((0.55, 0.65), "So short races are less certain than predicted."),
+        ((0.66, 0.58), "So long races are less certain than predicted."),
+        ((0.66, 0.63), "Both differences may be luck."),
+    ],
+)
+def test_short_and_long_races_are_as_the_data_show(chosen, shares, sentence):
+    found = dataclasses.replace(
+        chosen, dispersion=Dispersion(1.3, 1.0, 1e-6, 800), lengths=halves(*shares)
+    )
+    text = said(found, "Match scores")
+    assert text.endswith(sentence)
+    assert "30% more" in text
+
+
+@pytest.mark.skipif(not SEASON.exists(), reason="the season's results are not beside this checkout")
+def test_a_real_season_in_which_short_races_are_not_the_surer_ones():
+    found = validate(read_results(SEASON).results)
+    short, long = found.lengths
+    assert (short.longest, long.shortest) == (4, 5)
+    assert short.predicted - short.share > long.predicted - long.share
+    assert "luck" in said(found, "Match scores")
+    assert all(one.gain.value < 0 for one in found.half_lives)
+    assert said(found, "--half-life") is None
+    assert "57%" in said(found, "first column")

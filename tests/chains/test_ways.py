@@ -1,0 +1,67 @@
+"""Every way to the limit gives the same numbers, or says why it cannot and which way can."""
+
+import numpy as np
+import pytest
+
+from evenbreak.chains import chain_of, limit_matrix, spectrum, stochastic_limit
+from evenbreak.errors import AccuracyError, ChainError, InputError
+from evenbreak.game import Game, graph_of
+from evenbreak.games import CATALOGUE, Ahead, OneBall, Race, Rack
+from evenbreak.handicaps import Ladder, chart
+
+LADDERS = {name: Ladder(chart(name)) for name in ("npl_8", "npl_10", "npl_12", "npl_20")}
+GAMES = CATALOGUE | LADDERS
+
+
+@pytest.mark.parametrize("game", GAMES.values(), ids=GAMES.keys())
+def test_from_the_graph_to_eigenvectors_to_the_limit(game: Game) -> None:
+    """A digraph, its sparse matrix, the eigenvectors of eigenvalue 1, the limit."""
+    chain = chain_of(graph_of(game))
+    direct = stochastic_limit(chain)
+    found = stochastic_limit(chain, via="eigen")
+    assert found.period == direct.period
+    np.testing.assert_allclose(found.probability, direct.probability, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("game", GAMES.values(), ids=GAMES.keys())
+def test_elimination_and_the_kernel(game: Game) -> None:
+    chain = chain_of(game)
+    by_elimination = stochastic_limit(chain, via="elimination")
+    if chain.birth_death is None:
+        with pytest.raises(ChainError, match="via='elimination'"):
+            stochastic_limit(chain, via="kernel")
+        return
+    by_kernel = stochastic_limit(chain, via="kernel")
+    assert by_kernel.period == by_elimination.period
+    np.testing.assert_allclose(by_kernel.probability, by_elimination.probability, rtol=1e-12)
+
+
+@pytest.mark.parametrize("via", ["elimination", "eigen"])
+def test_a_density_as_the_start(via) -> None:
+    chain = chain_of(OneBall(0.3, 0.6))
+    half = {"S1": 0.5, "S2": 0.5}
+    expected = limit_matrix(chain) @ chain.density(half)
+    assert stochastic_limit(chain, half, via=via).probability == pytest.approx(expected, rel=1e-14)
+    with pytest.raises(ChainError, match="density"):
+        stochastic_limit(chain_of(Ahead(3, 3, Rack(0.5))), {(0, 0): 1.0}, via="kernel")
+
+
+def test_a_race_has_too_few_eigenvectors_but_all_of_eigenvalue_1() -> None:
+    chain = chain_of(Race(9, 9, Rack(0.6)))
+    with pytest.raises(AccuracyError, match="defective"):
+        spectrum(chain)
+    found = stochastic_limit(chain, via="eigen")
+    assert found.probability == pytest.approx(stochastic_limit(chain).probability, abs=1e-14)
+
+
+def test_eigenvectors_that_are_hidden_by_a_close_eigenvalue() -> None:
+    e = 1e-9
+    arcs = [(b + j, b + i, (1 - e) / 3) for b in (0, 3) for j in range(3) for i in range(3)]
+    chain = chain_of(arcs + [(j, (j + 3) % 6, e) for j in range(6)], start=0)
+    with pytest.raises(AccuracyError, match="via='elimination'"):
+        stochastic_limit(chain, via="eigen")
+
+
+def test_an_unknown_way() -> None:
+    with pytest.raises(InputError, match="via is 'power'"):
+        stochastic_limit(chain_of(OneBall(0.3, 0.6)), via="power")

@@ -1,0 +1,46 @@
+"""--system, --scale and --chart: what goes together, and what is worth a warning."""
+
+import click
+import pytest
+
+from evenbreak.cli.kit.systems import chart_for, on_scale, read_system
+from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.ratings.scale import SCALES, scale_of
+
+NPL = system_of("npl")
+
+
+def test_a_system_by_its_name():
+    assert read_system("step 2 1").name == "step 2 1"
+    with pytest.raises(click.UsageError, match="'chess'"):
+        read_system("chess")
+
+
+def test_the_rule_stays_when_the_scale_is_another():
+    fargo = on_scale(NPL, SCALES["fargo"])
+    assert (fargo.name, fargo.scale) == ("npl", SCALES["fargo"])
+    assert on_scale(NPL, None) is NPL
+    elo = system_of("elo 16")
+    assert on_scale(elo, elo.scale).scale == elo.scale
+
+
+@pytest.mark.parametrize(
+    ("system", "scale", "named"), [("npl", 0.9, "--scale 0.9"), ("elo 16", 30, "--scale")]
+)
+def test_scales_that_a_system_cannot_have(system, scale, named):
+    with pytest.raises(click.UsageError, match=named):
+        on_scale(system_of(system), scale_of(scale))
+
+
+def test_without_a_name_it_is_the_chart_of_the_system():
+    chart, warnings = chart_for(NPL, None)
+    assert (chart.name, warnings) == ("npl_10", [])
+
+
+def test_a_chart_of_another_scale_is_a_warning_and_one_of_skill_levels_is_refused():
+    chart, [warning] = chart_for(NPL, "fargo_r6_hot")
+    assert chart.name == "fargo_r6_hot"
+    assert "30" in warning
+    assert chart_for(on_scale(NPL, SCALES["fargo"]), "fargo_r6_hot")[1] == []
+    with pytest.raises(click.UsageError, match="'apa_8ball'"):
+        chart_for(NPL, "apa_8ball")

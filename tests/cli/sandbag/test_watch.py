@@ -1,0 +1,101 @@
+"""`evenbreak sandbag watch`: who is flagged, and what it rests on."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from places import DATA
+
+SEASON = (str(DATA / "demo_sandbag.csv"), "--roster", str(DATA / "demo_sandbag_roster.csv"))
+LEAGUE = ("--dumps-in", "League night")
+
+
+@pytest.fixture
+def watch(run):
+    def ask(*words):
+        result = run("sandbag", "watch", *SEASON, *words)
+        assert result.exit_code == 0, result.stderr
+        return result.stdout
+
+    return ask
+
+
+def table(text):
+    return list(csv.DictReader(text.splitlines()))
+
+
+def test_into_a_pipe_goes_a_row_for_each_player(watch):
+    rows = table(watch(*LEAGUE))
+    assert len(rows) == 10
+    (flagged,) = [row for row in rows if row["flagged"] == "yes"]
+    assert flagged["player"] == "Vito Drago"
+    assert flagged["alarm_match"].isdigit()
+    assert flagged["alarm_date"].startswith("2025-")
+    assert float(flagged["p_value"]) == pytest.approx(1 / float(flagged["largest_e"]), abs=1e-6)
+
+
+def test_json_and_the_picture(watch, tmp_path):
+    path = tmp_path / "watch.png"
+    answer = json.loads(watch("--json", "--plot", str(path)))
+    assert (answer["alpha"], answer["honest"], len(answer["players"])) == (0.01, "any", 10)
+    assert [row["event"] for row in answer["players"] if row["flagged"]] == ["League night"]
+    assert path.read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_cheater_of_the_demo_league_is_flagged_without_naming_the_event(watch):
+    answer = json.loads(watch("--json"))
+    assert sorted(answer["tried_events"]) == ["Cup", "League night"]
+    (flagged,) = [row for row in answer["players"] if row["flagged"]]
+    assert (flagged["player"], flagged["event"]) == ("Vito Drago", "League night")
+    (named,) = [row for row in json.loads(watch("--json", *LEAGUE))["players"] if row["flagged"]]
+    assert named["e_value"] / 3 < flagged["e_value"] < named["e_value"]
+    assert json.loads(watch("--json", "--player", "Vito Drago"))["event"] == "League night"
+    assert "League night" in watch("--text")
+
+
+def test_what_each_match_of_a_player_weighs(watch):
+    one = json.loads(watch("--json", "--player", "Gus Lindahl"))
+    assert (one["player"], len(one["matches"])) == ("Gus Lindahl", 52)
+    rows = table(watch("--player", "Gus Lindahl"))
+    assert {row["won"] for row in rows} == {"yes", ""}
+
+
+def test_varying_form_weakens_the_evidence(watch, run):
+    plain = {row["player"]: row for row in table(watch(*LEAGUE))}
+    varied = {row["player"]: row for row in table(watch(*LEAGUE, "--day-sd", "30"))}
+    assert float(varied["Vito Drago"]["e_any"]) < float(plain["Vito Drago"]["e_any"]) / 10.0
+    refused = run("sandbag", "watch", *SEASON, "--day-sd", "500")
+    assert refused.exit_code == 2
+    assert "--day-sd is 500.0; give a number from 0 to 120" in refused.stderr
+
+
+def test_a_roster_of_mixed_scales_is_a_warning(run, tmp_path):
+    roster = tmp_path / "mixed.csv"
+    header, *rows = Path(SEASON[2]).read_text(encoding="utf-8").splitlines()
+    place = header.split(",").index("rating")
+    for number, row in enumerate(rows[:3]):
+        cells = row.split(",")
+        cells[place] = "570"
+        rows[number] = ",".join(cells)
+    roster.write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
+    result = run("sandbag", "watch", SEASON[0], "--roster", str(roster), "--json")
+    (warning,) = json.loads(result.stdout)["warnings"]
+    assert f"3 of {len(rows)} ratings" in warning
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("-", "--roster", "-"), "only one file"),
+        (("x.csv",), "'--roster'"),
+        ((*SEASON, "--player", "Nobody"), "'Nobody'"),
+        ((*SEASON, "--alpha", "1"), "'1'"),
+        ((*SEASON, "--dumps-in", "league"), "Cup, League night"),
+    ],
+)
+def test_what_is_wrong_is_refused_by_name(run, words, named):
+    result = run("sandbag", "watch", *words)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert named in result.stderr

@@ -1,0 +1,87 @@
+import numpy as np
+import pytest
+
+from evenbreak.errors import DataError
+from evenbreak.files.entrants import read_entrants, roster_of_entrants
+from evenbreak.files.league import league_of_entrants, read_league
+from evenbreak.files.roster import read_roster
+
+LEAGUE = "player,rating,standard_error,games,scale\nAnn Lee,92,6,140,npl\nBo Diaz,71,9,60,npl\n"
+
+
+@pytest.fixture
+def written(tmp_path):
+    def write(text, name="entrants.txt"):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Ann Lee\nBo Diaz\n",
+        "\ufeff\n  Ann  Lee \n\nBo Diaz",
+        "Name\nAnn Lee\nBo Diaz\n",
+        "player;rating\nAnn Lee;92\nBo Diaz;\n",
+        "Seed,Player\n1,Ann Lee\n2,Bo Diaz\n",
+    ],
+)
+def test_names_stand_on_lines_or_in_a_column(written, text):
+    assert read_entrants(written(text)).roster.players == ("Ann Lee", "Bo Diaz")
+
+
+def test_a_name_with_a_comma_is_a_name(written):
+    assert read_entrants(written("Lee, Ann\nDiaz, Bo\n")).roster.players == ("Lee, Ann", "Diaz, Bo")
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [("Ann Lee\nann  lee\n", 2), ("Ann Lee,92\n", 1), ("player,rating\nAnn,high\n", 2)],
+)
+def test_what_cannot_be_meant_is_refused_with_its_line(written, text, line):
+    with pytest.raises(DataError, match=f"entrants.txt:{line}: "):
+        read_entrants(written(text))
+
+
+def test_entrants_have_their_ratings_and_strangers_none(written):
+    league = read_roster(written(LEAGUE, "club.csv"))
+    file = roster_of_entrants(league, read_entrants(written("bo diaz\nAnne Lee\nCy\n")))
+    assert file.roster.players == ("Bo Diaz", "Anne Lee", "Cy")
+    assert file.roster.rating.tolist() == pytest.approx([71, np.nan, np.nan], nan_ok=True)
+    assert file.roster.games.tolist() == [60, 0, 0]
+    assert file.scale.name == "npl"
+    near, far = file.warnings
+    assert "'Ann Lee'" in near
+    assert "entrants.txt:2" in near
+    assert "did you mean" not in far
+
+
+def test_a_stated_rating_is_for_strangers_only(written):
+    league = read_roster(written(LEAGUE, "club.csv"))
+    file = roster_of_entrants(
+        league, read_entrants(written("player,rating\nAnn Lee,70\nCy,64\nBo Diaz,71\n"))
+    )
+    assert file.roster.rating.tolist() == [92, 64, 71]
+    assert any("entrants.txt:2: the rating 70" in warning for warning in file.warnings)
+    assert not any("Bo Diaz" in warning for warning in file.warnings)
+
+
+def test_two_scales_are_refused(written):
+    league = read_roster(written(LEAGUE, "club.csv"))
+    entrants = read_entrants(written("player,rating,scale\nCy,480,fargo\n"))
+    with pytest.raises(DataError, match="fargo"):
+        roster_of_entrants(league, entrants)
+
+
+def test_a_season_of_entrants(written):
+    league = read_league(written(LEAGUE, "club.csv"))
+    entrants = read_entrants(written("Cy\nAnn Lee\n"))
+    file = league_of_entrants(league, entrants, starter=80.0, starter_sd=30.0)
+    assert file.players.names == ("Cy", "Ann Lee")
+    assert file.players.rating.tolist() == [80, 92]
+    assert file.players.skill_sd.tolist() == [30, 6]
+    assert (file.drawn, file.exact) == (2, 0)
+    assert file.players.played[0] == 0

@@ -1,0 +1,145 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.special import betainc
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.fair import fair_races
+from evenbreak.handicaps.charts.given_ratings import (
+    fair_races_given_ratings,
+    length_given_ratings,
+    win_given_ratings,
+)
+from evenbreak.matches.races import race_odds
+from evenbreak.ratings.scale import SCALES
+
+
+def averaged(f, difference, error, scale="npl"):
+    """Return the mean of f(p) by quadrature over slices of the normal law."""
+
+    def integrand(z):
+        p = SCALES[scale].win_probability(difference + error * z)
+        return math.exp(-z * z / 2.0) / math.sqrt(2.0 * math.pi) * f(p)
+
+    return math.fsum(quad(integrand, a / 4, (a + 1) / 4, epsabs=1e-13)[0] for a in range(-36, 36))
+
+
+@pytest.mark.parametrize("race", [(1, 1), (5, 5), (7, 2), (13, 5), (25, 25), (100, 60)])
+@pytest.mark.parametrize("error", [3.0, 12.0, 42.0, 90.0, 290.0])
+def test_win_is_the_integral(race, error):
+    for difference in (-20.0, 0.0, 35.0):
+        exact = averaged(lambda p: betainc(*race, p), difference, error)
+        assert win_given_ratings(difference, error, *race) == pytest.approx(exact, abs=1e-9)
+
+
+def test_without_error_it_is_the_plug_in_value():
+    p = SCALES["fargo"].win_probability(91.0)
+    plug_in = race_odds(7, 4, p).p_win_1
+    assert win_given_ratings(91.0, 0.0, 7, 4, scale="fargo") == pytest.approx(plug_in, rel=1e-13)
+
+
+@given(st.floats(-200, 200), st.floats(0, 100), st.integers(1, 30), st.integers(1, 30))
+@settings(max_examples=50)
+def test_the_two_players_share_one_match(difference, error, m, n):
+    one = win_given_ratings(difference, error, m, n)
+    other = win_given_ratings(-difference, error, n, m)
+    assert one + other == pytest.approx(1.0, abs=1e-12)
+    assert 0.0 <= one <= 1.0 + 1e-12
+
+
+def test_doubt_pulls_an_even_length_race_towards_even():
+    chances = [win_given_ratings(30.0, error, 7, 7) for error in (0.0, 10.0, 30.0, 60.0)]
+    assert chances == sorted(chances, reverse=True)
+    assert chances[-1] > 0.5
+
+
+def test_arrays_are_broadcast():
+    chances = win_given_ratings([[0.0], [30.0]], [0.0, 10.0, 20.0], 5, [4, 5, 6])
+    assert chances.shape == (2, 3)
+    # One rule serves all elements, so they may differ in the last digits.
+    assert chances[1, 2] == pytest.approx(win_given_ratings(30.0, 20.0, 5, 6), abs=1e-12)
+    assert isinstance(win_given_ratings(30.0, 20.0, 5, 6), float)
+
+
+def test_length_is_the_integral():
+    length = length_given_ratings(35.0, 42.0, 7, 3)
+    for games, chance in zip(length.games.tolist(), length.probability, strict=True):
+        place = games - 3
+        exact = averaged(lambda p, k=place: race_odds(7, 3, p).probability[k], 35.0, 42.0)
+        assert chance == pytest.approx(exact, abs=1e-9)
+    mean = averaged(lambda p: race_odds(7, 3, p).mean, 35.0, 42.0)
+    assert length.mean == pytest.approx(mean, abs=1e-8)
+
+
+def test_length_without_error_is_that_of_the_race():
+    law = race_odds(6, 4, SCALES["npl"].win_probability(25.0))
+    length = length_given_ratings(25.0, 0.0, 6, 4)
+    assert length.probability == pytest.approx(law.probability, rel=1e-12)
+    assert (length.mean, length.sd) == pytest.approx((law.mean, law.sd), rel=1e-12)
+    assert length.quantile(0.9) == law.quantile(0.9)
+    many = length_given_ratings([25.0, -25.0], 0.0, 6, 4)
+    assert many.mean[0] == pytest.approx(law.mean, rel=1e-12)
+    assert many.quantile(0.9).shape == (2,)
+
+
+def test_lengths_whose_chance_is_nothing_at_some_difference():
+    length = length_given_ratings([0.0, 40.0], 200.0, 60, 50)
+    assert length.games.tolist() == list(range(50, 110))
+    assert length.probability.sum(axis=-1) == pytest.approx([1.0, 1.0], abs=1e-12)
+    certain = length_given_ratings(1e6, 0.0, 5, 3)
+    assert (certain.mean, certain.quantile(0.9)) == (5.0, 5)
+
+
+@pytest.mark.parametrize("limits", [{"games": (7, 13)}, {"games": (1, 4)}, {"race_to": 6}])
+def test_without_error_the_races_are_those_of_fair_races(limits):
+    differences = np.arange(-90, 91, 5)
+    m, n = fair_races_given_ratings(differences, 0.0, **limits)
+    for k, difference in enumerate(differences.tolist()):
+        best = fair_races(SCALES["npl"].win_probability(difference), top=1, **limits)[0]
+        assert (m[k], n[k]) == (best.race_1, best.race_2)
+
+
+def test_with_error_the_race_is_the_nearest_of_all():
+    for difference, error in ((20.0, 30.0), (55.0, 42.0), (-33.0, 15.0)):
+        m, n = fair_races_given_ratings(difference, error, games=(5, 11))
+        every = {
+            (i, longest + 1 - i): abs(
+                win_given_ratings(difference, error, i, longest + 1 - i) - 0.5
+            )
+            for longest in range(5, 12)
+            for i in range(1, longest + 1)
+        }
+        assert every[int(m), int(n)] == pytest.approx(min(every.values()), abs=1e-9)
+
+
+def test_many_pairs_go_in_parts():
+    rng = np.random.default_rng(5)
+    differences, errors = rng.uniform(-80, 80, 20_000), rng.uniform(0, 40, 20_000)
+    m, n = fair_races_given_ratings(differences, errors, games=(7, 13))
+    for k in (0, 9_999, 19_999):
+        alone = fair_races_given_ratings(differences[k], errors[k], games=(7, 13))
+        assert (m[k], n[k]) == alone
+
+
+@pytest.mark.parametrize(
+    ("call", "remedy"),
+    [
+        (lambda: win_given_ratings(math.inf, 1.0, 5, 5), "difference is inf"),
+        (lambda: win_given_ratings(0.0, -1.0, 5, 5), "is -1"),
+        (lambda: win_given_ratings(0.0, 301.0, 5, 5), "is 301"),
+        (lambda: win_given_ratings([0.0, 1.0], 1.0, [1, 2, 3], 5), "m has shape"),
+        (lambda: win_given_ratings(0.0, 1.0, 1.5, 5), "whole number"),
+        (lambda: length_given_ratings(0.0, 1.0, 0, 5), "1 or more"),
+        (lambda: fair_races_given_ratings(0.0, 1.0), "games is None and race_to is None"),
+        (lambda: fair_races_given_ratings(0.0, 1.0, games=(9, 7)), "smaller number first"),
+        (lambda: fair_races_given_ratings(0.0, 1.0, race_to=0), "1 or more"),
+        (lambda: fair_races_given_ratings(0.0, 1.0, race_to=5, target=2.0), "from 0 to 1"),
+    ],
+)
+def test_refused(call, remedy):
+    with pytest.raises(InputError, match=remedy):
+        call()

@@ -1,0 +1,79 @@
+"""Formulas against the kernels at fractions, and against those of the source text."""
+
+from fractions import Fraction
+
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.games import Ahead, OneBall, Race, Rack, alternate_breaks, winner_breaks
+from evenbreak.matches import win_formula, win_probability
+
+sympy = pytest.importorskip("sympy", reason="the extra 'symbolic' is not installed")
+p, q, p1, p2 = sympy.symbols("p q p1 p2")
+
+
+def value(formula, chances):
+    """Return the value of a formula, exactly."""
+    fractions = {name: sympy.Rational(x.numerator, x.denominator) for name, x in chances.items()}
+    return float(formula.subs(fractions))
+
+
+@pytest.mark.parametrize(
+    "match",
+    [
+        Race(3, 2, Rack(2 / 3)),
+        Race(9, 5, Rack(2 / 3)),
+        Ahead(5, 3, Rack(2 / 3)),
+        Race(3, 3, Rack(2 / 3), win_by=2),
+        Race(3, 1, Race(3, 3, Rack(2 / 3))),
+        Race(5, 4, Rack(2 / 3), score=(2, 1)),
+        Race(2, 2, Race(2, 2, Rack(2 / 3), score=(1, 0))),
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("player", [1, 2])
+def test_a_formula_has_the_value_of_the_kernel(match, player):
+    found = value(win_formula(match, player=player), {p: Fraction(2, 3), q: Fraction(1, 3)})
+    assert found == pytest.approx(win_probability(match, player=player), rel=1e-13)
+
+
+@pytest.mark.parametrize("breaks", [winner_breaks, alternate_breaks])
+@pytest.mark.parametrize("player", [1, 2])
+def test_a_formula_may_depend_on_the_break(breaks, player):
+    chances = {p1: Fraction(3, 5), p2: Fraction(11, 20)}
+    for match in (
+        Race(3, 2, Rack(0.6, 0.55), breaks=breaks, first_breaker=2),
+        Ahead(2, 2, Rack(0.6, 0.55), breaks=breaks),
+    ):
+        found = value(win_formula(match, player=player), chances)
+        assert found == pytest.approx(win_probability(match, player=player), rel=1e-13)
+
+
+def test_the_texts_formulas():
+    """P5.5, P5.20 and P5.27."""
+    race = sum(sympy.binomial(3 + b - 1, b) * p**3 * q**b for b in range(2))
+    assert sympy.simplify((win_formula("3:2") - race).subs(q, 1 - p)) == 0
+    assert sympy.simplify(win_formula(OneBall(0, 1)) - p1 / (1 - (1 - p1) * (1 - p2))) == 0
+    ruin = p**5 * (p**3 - q**3) / (p**8 - q**8)
+    assert sympy.simplify((win_formula("ahead 5:3") - ruin).subs(q, 1 - p)) == 0
+
+
+def test_the_chances_of_both_players_add_up_to_1():
+    for played in ("4:3", "ahead 3:2", "3:3 win by 2", "2:1 of 2:2"):
+        both = win_formula(played) + win_formula(played, player=2)
+        assert sympy.simplify(both.subs(q, 1 - p)) == 1
+    both = win_formula(OneBall(0, 1)) + win_formula(OneBall(0, 1), player=2)
+    assert sympy.simplify(both) == 1
+
+
+def test_a_match_that_is_over_is_won():
+    assert win_formula(Race(2, 2, Rack(0.5), score=(2, 0))) == 1
+    assert win_formula(Race(2, 2, Rack(0.5), score=(2, 0)), player=2) == 0
+
+
+@pytest.mark.parametrize("wrong", [5, "nine games", Rack(0.5)])
+def test_other_things_have_no_formula(wrong):
+    with pytest.raises(InputError):
+        win_formula(wrong)
+    with pytest.raises(InputError, match="player"):
+        win_formula("3:2", player=3)

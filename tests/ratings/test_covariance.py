@@ -1,0 +1,55 @@
+"""Uncertainty from the curvature, against the dense inverse."""
+
+import numpy as np
+import pytest
+
+from evenbreak.ratings import covariance as module
+from evenbreak.ratings.covariance import Curvature
+
+LOW, HIGH = np.array([0, 0, 1, 2]), np.array([1, 2, 3, 3])
+WEIGHT = np.array([3.0, 0.5, 2.0, 1.5])
+BORDER, CORNER = np.array([0.4, -0.1, 0.2, -0.5]), 6.0
+
+
+def whole(curvature):
+    matrix = np.zeros((5, 5))
+    matrix[:4, :4] = curvature.matrix.toarray()
+    matrix[4, :4] = matrix[:4, 4] = curvature.border
+    matrix[4, 4] = curvature.corner
+    return matrix
+
+
+@pytest.fixture(params=["factorised", "iterated"])
+def bordered(request, monkeypatch):
+    if request.param == "iterated":
+        monkeypatch.setattr(module, "_DENSE_UP_TO", 0)
+    return Curvature(4, LOW, HIGH, WEIGHT, 0.7, BORDER, CORNER)
+
+
+def test_rows_sum_to_the_prior_precision():
+    matrix = Curvature(4, LOW, HIGH, WEIGHT, 0.7).matrix.toarray()
+    np.testing.assert_allclose(matrix.sum(axis=0), 0.7)
+    assert (matrix == matrix.T).all()
+
+
+def test_variances_with_a_break_advantage(bordered):
+    exact = np.linalg.inv(whole(bordered))
+    np.testing.assert_allclose(bordered.variances(), np.diagonal(exact)[:4], rtol=1e-10)
+    assert bordered.border_variance == pytest.approx(exact[4, 4], rel=1e-10)
+
+
+def test_covariances_of_a_contrast(bordered):
+    exact = np.linalg.inv(whole(bordered))[:4, :4]
+    contrast = np.array([1.0, 0.0, -1.0, 0.0])
+    np.testing.assert_allclose(bordered.times(contrast), exact @ contrast, rtol=1e-9)
+
+
+def test_without_an_advantage_there_is_no_variance_of_it():
+    assert Curvature(4, LOW, HIGH, WEIGHT, 0.7).border_variance is None
+
+
+def test_a_newton_step_solves_the_whole_system(bordered):
+    gradient, slope = np.array([1.0, -0.3, 0.2, 0.4]), -0.6
+    step, shift = bordered.newton_step(gradient, slope, 1e-12)
+    exact = -np.linalg.solve(whole(bordered), np.append(gradient, slope))
+    np.testing.assert_allclose(np.append(step, shift), exact, rtol=1e-8)

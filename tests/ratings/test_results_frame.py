@@ -1,0 +1,130 @@
+"""Results from a DataFrame: what each cell may hold, and errors that name its row."""
+
+from datetime import date
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from evenbreak.errors import DataError, InputError
+from evenbreak.files import read_results
+from evenbreak.ratings import Results, fit
+from places import DATA
+
+
+def frame(**columns):
+    given = {"player_a": ["Ann", "Bo"], "player_b": ["Bo", "Cy"], "score_a": [7, 4]}
+    return pd.DataFrame({**given, "score_b": [5, 7], **columns})
+
+
+def test_a_frame_holds_what_the_file_holds():
+    path = DATA / "demo_league.csv"
+    from_file = read_results(path).results
+    found = Results.from_frame(pd.read_csv(path))
+    assert found.players == from_file.players
+    for name in ("player_a", "player_b", "score_a", "score_b", "race_a", "race_b", "forfeit"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(from_file, name))
+    for name in ("date", "first_break", "break_format", "event"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(from_file, name))
+    np.testing.assert_array_equal(fit(found).rating, fit(from_file).rating)
+
+
+@pytest.mark.parametrize("kind", ["Int64", "float", "object", "string", "category"])
+def test_numbers_may_have_any_type(kind):
+    scores = pd.Series([5, 7]).astype(str).astype(kind) if kind == "string" else pd.Series([5, 7])
+    assert Results.from_frame(frame(score_b=scores.astype(kind))).score_b.tolist() == [5, 7]
+
+
+@pytest.mark.parametrize(
+    "days",
+    [
+        ["2026-01-31", None],
+        [date(2026, 1, 31), None],
+        pd.to_datetime(["2026-01-31 20:15", None]),
+        np.array(["2026-01-31", "NaT"], dtype="datetime64[D]"),
+    ],
+)
+def test_days_may_be_text_dates_or_timestamps(days):
+    assert Results.from_frame(frame(date=days)).date.astype(str).tolist() == ["2026-01-31", "NaT"]
+
+
+def test_titles_may_be_written_as_in_files():
+    titles = {"player_a": "Player A", "score_b": "SCORE B"}
+    assert len(Results.from_frame(frame().rename(columns=titles))) == 2
+
+
+def test_sides_are_letters_or_names():
+    found = Results.from_frame(frame(winner=["Ann", "b"], first_break=["Bo", None]))
+    assert found.winner.tolist() == [1, 2]
+    assert found.first_break.tolist() == [2, 0]
+
+
+def test_a_match_may_be_known_by_race_and_winner_alone():
+    known = frame(score_a=[7, None], score_b=[5, None], race_a=7, race_b=7, winner=["a", "b"])
+    assert Results.from_frame(known).unscored.tolist() == [False, True]
+
+
+def test_a_forfeit_needs_no_score():
+    found = Results.from_frame(frame(score_a=[7, None], score_b=[5, None], forfeit=["no", "yes"]))
+    assert found.forfeit.tolist() == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("columns", "named"),
+    [
+        ({"score_b": [5, 2.5]}, r"row 1: score_b is 2.5"),
+        ({"score_b": [5, -1]}, r"row 1: score_b is -1"),
+        ({"score_b": [5, "7-5"]}, r"row 1: score_b is '7-5'"),
+        ({"score_b": [5, None]}, r"row 1: score_b is empty"),
+        ({"score_b": [5, True]}, r"row 1: score_b is True"),
+        ({"score_b": [5, 10**30]}, r"row 1: score_b is 1000"),
+        ({"player_b": ["Bo", None]}, r"row 1: player_b is empty"),
+        ({"player_b": ["Bo", 7]}, r"row 1: player_b is 7"),
+        ({"player_b": ["Bo", "bo"]}, r"'Bo' and 'bo' differ in case"),
+        ({"player_b": ["Bo", "Bo"]}, r"row 1: .*both sides|row 1: .*'Bo'"),
+        ({"date": ["2026-01-31", "31/1/2026"]}, r"row 1: date is '31/1/2026'"),
+        ({"date": ["2026-01-31", 20260131]}, r"row 1: date is 20260131"),
+        ({"winner": ["a", "Zoe"]}, r"row 1: winner is 'Zoe'"),
+        ({"winner": ["a", "a"], "race_a": 7, "race_b": 7}, r"row 1: winner"),
+        ({"forfeit": [False, "perhaps"]}, r"row 1: forfeit is 'perhaps'"),
+        ({"forfeit": [False, []]}, r"row 1: forfeit is \[\]"),
+        ({"break_format": ["winner", "random"]}, r"row 1: break_format is 'random'"),
+        ({"racks": ["aaaaaaabbbbb", "abc"]}, r"row 1: racks is 'abc'"),
+        ({"race_a": [7, 7], "race_b": [7, 9]}, r"row 1: "),
+    ],
+)
+def test_errors_name_the_row(columns, named):
+    with pytest.raises(DataError, match=named):
+        Results.from_frame(frame(**columns))
+
+
+def test_rows_are_called_by_their_labels_and_all_problems_come_at_once():
+    wrong = frame(score_a=["x", 4], score_b=[5, "y"]).set_index(pd.Index(["first", "second"]))
+    with pytest.raises(DataError) as caught:
+        Results.from_frame(wrong)
+    assert [line[:16] for line in caught.value.problems] == ["row first: score", "row second: scor"]
+
+
+def test_many_problems_are_counted():
+    wrong = pd.concat([frame(score_a=["x", "y"])] * 50, ignore_index=True)
+    with pytest.raises(DataError, match="and 80 more problems"):
+        Results.from_frame(wrong)
+
+
+def test_missing_and_repeated_columns_are_named():
+    with pytest.raises(DataError, match="no column score_b"):
+        Results.from_frame(frame().drop(columns="score_b"))
+    twice = frame().assign(**{"Player A": "Di"})
+    with pytest.raises(DataError, match="two columns mean player_a"):
+        Results.from_frame(twice)
+
+
+def test_columns_that_are_not_used_are_named_in_a_warning():
+    with pytest.warns(UserWarning, match="columns not used: table"):
+        Results.from_frame(frame(table=[1, 2]))
+
+
+@pytest.mark.parametrize("wrong", [[("Ann", "Bo", 7, 5)], "season.csv", None])
+def test_only_frames_are_read(wrong):
+    with pytest.raises(InputError, match="give a DataFrame"):
+        Results.from_frame(wrong)

@@ -1,0 +1,54 @@
+"""No public result prints its arrays: a notebook shows each on a line or two."""
+
+import dataclasses
+import importlib
+import inspect
+import re
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from evenbreak.chains import chain_of, spectrum, stochastic_limit
+from evenbreak.games import Drill, Race, Rack
+from evenbreak.matches import final_scores, match_length
+
+ROOMS = ("answers", "chains", "files", "handicaps", "league", "matches", "practice", "ratings")
+ARRAYS = re.compile(r"Floats|Ints|Bools|NDArray|DataFrame|csc_array|MeanT|ChanceT")
+
+
+def classes() -> Iterator[tuple[str, type]]:
+    for room in ROOMS:
+        package = importlib.import_module(f"evenbreak.{room}")
+        for name in dir(package):
+            found = getattr(package, name)
+            if inspect.isclass(found) and dataclasses.is_dataclass(found):
+                shown = [field for field in dataclasses.fields(found) if field.repr]
+                if any(ARRAYS.search(str(field.type)) for field in shown):
+                    yield f"{room}.{name}", found
+
+
+CLASSES = dict(classes())
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_results_with_arrays_have_a_repr_of_their_own(name: str) -> None:
+    assert not hasattr(vars(CLASSES[name])["__repr__"], "__wrapped__")
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        match_length(Race(50, 50, Rack(0.6))),
+        match_length(Race(50, 50, Rack(np.linspace(0, 1, 99)))),
+        final_scores(Race(50, 50, Rack(0.6))),
+        spectrum(chain_of(Drill.progressive(0.8, levels=40))),
+        chain_of(Race(7, 7, Rack(0.6))),
+        chain_of(Race(7, 7, Rack(0.6))).structure,
+        stochastic_limit(chain_of(Race(7, 7, Rack(0.6)))),
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_reprs_are_short(value: object) -> None:
+    assert len(repr(value)) < 600
+    assert "array(" not in repr(value)
