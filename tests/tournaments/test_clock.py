@@ -9,19 +9,18 @@ from hypothesis import strategies as st
 from scipy.stats import lognorm
 
 from evenbreak.errors import InputError
+from evenbreak.matches.pace import PACES, Pace, Turnover
 from evenbreak.tournaments import (
-    PACES,
     InPlay,
-    Pace,
     Races,
     Timed,
-    Turnover,
     double_elimination,
+    event_pace,
     finish,
     groups_then_knockout,
     learned_pace,
-    pair_odds,
     minutes_later,
+    pair_odds,
     round_robin,
     single_elimination,
 )
@@ -40,9 +39,11 @@ def laws_of(bracket, race=3):
 
 
 def test_paces_as_fitted() -> None:
-    assert PACES["9-ball"].per_game == 5.58
-    assert PACES["8-ball"].median_minutes(5) == pytest.approx(0.876 * (3.8 + 5 * 9.82))
-    assert PACES["10-ball"].match_sd == 0.288
+    for discipline, usual in PACES.items():
+        pace = event_pace(discipline)
+        assert pace.mean_minutes(5) == pytest.approx(0.876 * usual.mean_minutes(5))
+        assert (pace.match_sd, pace.evening_sd) == (usual.match_sd, 0.15)
+    assert event_pace(PACES["9-ball"]) is PACES["9-ball"]
     with pytest.raises(InputError, match="snooker"):
         finish(double_elimination(4), laws_of(double_elimination(4)), tables=2, pace="snooker")
 
@@ -50,19 +51,19 @@ def test_paces_as_fitted() -> None:
 def test_learning_is_a_normal_posterior() -> None:
     before = Pace(0.0, 6.0, 0.3, 0.15)
     logs = [0.2, -0.1, 0.3, 0.25]
-    played = [Timed(7, 42.0 * np.exp(x)) for x in logs]
+    played = [Timed(7, 42.0 * np.exp(x - 0.3**2 / 2)) for x in logs]
     after = learned_pace(before, played)
     grid = np.linspace(-1.5, 1.5, 20001)
-    density = np.exp(-0.5 * (grid / 0.15) ** 2)
+    density = np.exp(-0.5 * (grid / 0.15 + 0.15 / 2) ** 2)  # the evening's factor has mean 1
     for x in logs:
         density *= np.exp(-0.5 * ((x - grid) / 0.3) ** 2)
     density /= density.sum()
     mean = density @ grid
-    assert np.log(after.level) == pytest.approx(mean, abs=1e-9)
+    assert after.per_game == pytest.approx(6.0 * (density @ np.exp(grid)), rel=1e-9)
     assert after.evening_sd == pytest.approx(np.sqrt(density @ (grid - mean) ** 2), abs=1e-9)
     assert learned_pace(before, []) == before
     sure = learned_pace(Pace(0.0, 6.0, 0.0, 0.15), [Timed(10, 66.0)])
-    assert sure.level == pytest.approx(1.1)
+    assert sure.per_game == pytest.approx(6.6)
     with pytest.raises(InputError, match="minutes"):
         learned_pace(before, [Timed(7, 0.0)])
 
@@ -143,7 +144,7 @@ def test_one_match_is_its_own_law() -> None:
     bracket = single_elimination(2)
     pace = Pace(4.0, 6.0, 0.3, 0.15)
     found = finish(bracket, laws_of(bracket, 1), tables=1, pace=pace, turnover=AT_ONCE, runs=4000)
-    law = lognorm(np.hypot(0.3, 0.15), scale=10.0)
+    law = lognorm(np.hypot(0.3, 0.15), scale=10.0 * np.exp(-(0.3**2 + 0.15**2) / 2))
     assert found.bands == pytest.approx(law.ppf([0.1, 0.5, 0.9]), rel=0.02)
     assert found.start("F") == (0.0, 0.0, 0.0, 1.0)
 
@@ -168,7 +169,7 @@ def test_turnover_is_short_as_often_as_it_is_in_real_events() -> None:
     found = finish(bracket, laws_of(bracket, 1), tables=1, pace=EXACT, runs=4000)
     extra = found.starts[:, found.names.index("F")] - 30.0
     gaps = np.sort(extra)
-    assert gaps.mean() == pytest.approx(8.0, abs=0.3)
+    assert gaps.mean() == pytest.approx(2 * 0.38 * 10.8, abs=0.3)
     assert (gaps < 1e-9).mean() == pytest.approx(0.62**2, abs=0.02)
 
 
@@ -227,7 +228,7 @@ def test_a_match_that_lasts_already_is_a_long_one() -> None:
         return float(now.finishes.mean() - minutes)
 
     games = laws["F"].ends[0, 1] + laws["F"].ends[1, 0]
-    luck = np.exp(0.2 * np.random.default_rng(1).standard_normal(400_000))
+    luck = np.exp(-0.02 + 0.2 * np.random.default_rng(1).standard_normal(400_000))
     drawn = 10.0 * luck * np.random.default_rng(2).choice(len(games), 400_000, p=games)
     for minutes in (0.0, 20.0, 45.0, 70.0):
         want = drawn[drawn > minutes].mean() - minutes

@@ -7,6 +7,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import alternate_breaks, winner_breaks
+from evenbreak.games.rack import Rack
 from evenbreak.handicaps import chart, fair_races
 from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import scale_of
@@ -50,7 +51,7 @@ def test_breaks(breaks) -> None:
     scale = scale_of("npl")
     laws = pair_odds(BRACKET, RATINGS, 5, scale="npl", break_advantage=12, breaks=breaks)
     p1, p2 = scale.win_probability(70.0 + 12), scale.win_probability(12 - 70.0)
-    both = [race_odds(5, 5, p1, p2, breaks, first).p_win_1 for first in (1, 2)]
+    both = [race_odds(5, 5, Rack(p1, p2), breaks, first).p_win_1 for first in (1, 2)]
     assert laws["F"].win[0, 1] == pytest.approx(np.mean(both))
 
 

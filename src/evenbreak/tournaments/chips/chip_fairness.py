@@ -8,20 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import column, whole
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.chips.chip_charts import ChipChart, chip_chart
 from evenbreak.tournaments.chips.play import ChipOdds, play_chips
 from evenbreak.tournaments.chips.racks import rack_chances
-from evenbreak.tournaments.odds.chances import Floats
-
-Ints: TypeAlias = NDArray[np.int64]
 
 _SEARCH_RUNS = 3_000
 _MOST_STEPS = 60

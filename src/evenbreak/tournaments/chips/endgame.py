@@ -16,13 +16,13 @@ from typing import TypeAlias, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.chains.absorption import expected_visits
 from evenbreak.chains.explore import chain_of
 from evenbreak.checks import number_probability, whole
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.tournaments.chips.racks import checked_racks
-from evenbreak.tournaments.odds.chances import Floats
 
 State: TypeAlias = tuple[tuple[int, ...], tuple[int, ...]]
 """The line (who stays at the table, the challenger, who waits), and everybody's chips."""

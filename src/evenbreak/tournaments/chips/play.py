@@ -11,18 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.tournaments.chips.racks import break_matters, checked_racks
-from evenbreak.tournaments.odds.chances import Floats
-
-Ints: TypeAlias = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import column, floats, number
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.tournaments.odds.chances import Floats
 
 
 def rack_chances(

@@ -8,21 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.errors import InputError
+from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.brackets.standing import NOBODY, Standing
-from evenbreak.tournaments.clock.pace import Pace, Turnover
-from evenbreak.tournaments.odds.chances import Chances, Floats
+from evenbreak.tournaments.clock.event_pace import lognormal, turnovers
+from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.play import play_out, stratified_uniforms
 from evenbreak.tournaments.odds.races import PairOdds
-
-Bools: TypeAlias = NDArray[np.bool_]
-Ints: TypeAlias = NDArray[np.int64]
 
 
 class InPlay(NamedTuple):
@@ -70,7 +69,7 @@ def play_evenings(
     now: Standing,
     laws: Mapping[str, PairOdds],
     pace: Pace,
-    turnover: Turnover,
+    turnover: Turnover | None,
     *,
     playing: Sequence[InPlay] = (),
     clock: float = 0.0,
@@ -86,7 +85,7 @@ def play_evenings(
     laws
         the law of each match still to be played.
     pace, turnover
-        how long matches take, and the time between two on a table.
+        how long matches take, and the time between two on a table (see `turnovers`).
     playing
         the matches under way.
     clock
@@ -100,7 +99,7 @@ def play_evenings(
         if name not in laws:
             raise InputError(f"laws has no match {name!r}; give the law of every match")
     rng = np.random.default_rng(seed)
-    evening = pace.level * np.exp(pace.evening_sd * ndtri(stratified_uniforms(rng, runs)))
+    evening = lognormal(ndtri(stratified_uniforms(rng, runs)), pace.evening_sd)
     chances = Chances({m.name: _padded(laws[m.name].win) for m in remaining.matches})
     under_way = {}
     for match in playing:
@@ -117,15 +116,15 @@ def play_evenings(
         needed[:, k] = (one < nobody) & (other < nobody)
         first[:, k], second[:, k] = one, other
         games_luck, match_luck, between_luck = (stratified_uniforms(luck, runs) for _ in range(3))
-        between[:, k] = _between(turnover, between_luck)
+        between[:, k] = turnovers(turnover, between_luck)
         if name in under_way:
             minutes[:, k] = under_way[name][1]
             continue
         winner = np.where(played.first_won[name], one, other)
         loser = np.where(played.first_won[name], other, one)
         games = _games(laws[name], winner, loser, needed[:, k], games_luck)
-        noise = np.exp(pace.match_sd * ndtri(match_luck))
-        minutes[:, k] = evening * noise * (pace.overhead + pace.per_game * games)
+        noise = lognormal(ndtri(match_luck), pace.match_sd)
+        minutes[:, k] = evening * noise * pace.mean_minutes(games)
     return Evenings(names, needed, minutes, between, first, second)
 
 
@@ -155,13 +154,6 @@ def _games(law: PairOdds, winner: Ints, loser: Ints, needed: Bools, luck: Floats
     return games
 
 
-def _between(turnover: Turnover, luck: Floats) -> Floats:
-    """Return times between two matches: none, or exponential."""
-    later = np.maximum(luck - turnover.at_once, 0.0) / (1.0 - turnover.at_once)
-    mean: Floats = -turnover.mean / (1.0 - turnover.at_once) * np.log1p(-later)
-    return mean
-
-
 def _under_way(
     now: Standing,
     laws: Mapping[str, PairOdds],
@@ -183,7 +175,8 @@ def _under_way(
         raise InputError(f"{match.match} started at {match.started:g}; it is {clock:g} now")
     ends = np.concatenate([laws[match.match].ends[one, other], laws[match.match].ends[other, one]])
     games = np.tile(np.arange(len(ends) // 2), 2)
-    median = evening[:, None] * np.maximum(pace.overhead + pace.per_game * games, 1e-9)
+    usual = np.maximum(pace.mean_minutes(games), 1e-9)
+    median = evening[:, None] * usual * lognormal(0.0, pace.match_sd)
     with np.errstate(divide="ignore"):
         passed = np.log(elapsed / median) / max(pace.match_sd, 1e-9)
     lasts = ndtr(-passed)  # P(it takes longer than it has)

@@ -8,15 +8,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import floats, number, whole
 from evenbreak.errors import InputError
+from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.clock.evenings import Evenings, InPlay, play_evenings
+from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
 from evenbreak.tournaments.clock.matches_of import Waiting, waiting
-from evenbreak.tournaments.clock.pace import Pace, Timed, Turnover, learned_pace
 from evenbreak.tournaments.clock.table_schedule import Schedule, schedule
-from evenbreak.tournaments.odds.chances import Floats
 from evenbreak.tournaments.odds.races import PairOdds
 
 QUANTILES = (0.1, 0.5, 0.9)
@@ -197,12 +198,13 @@ def finish(
         how many tables there are, or from when on each of them is free, in minutes since the
         first start. The tables of matches under way are among them.
     pace
-        how long matches take: a discipline, or a `Pace`.
+        how long matches take: a discipline, calibrated to whole events, or a `Pace`.
     turnover
-        the time between two matches on a table; None: the usual one.
+        the time between two matches on a table with both players free; None: none in 62 of 100
+        cases, as in real events, and otherwise the usual one.
     wait_for_rounds
         whether a round begins only when the rounds that feed it are over, as it does on most
-        evenings; the paces that come with the package are calibrated for that.
+        evenings; the pace of a discipline is calibrated for that.
     results
         the results so far.
     played
@@ -237,7 +239,7 @@ def finish(
         where,
         laws,
         speed,
-        turnover or Turnover(),
+        turnover,
         playing=playing,
         clock=clock,
         runs=whole(runs, "runs", at_least=10),

@@ -6,11 +6,9 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools
 from evenbreak.tournaments.brackets.bracket import Bracket, Match, Source
-
-Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,16 +10,12 @@ Mathematics 17.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.tournaments.clock.matches_of import Waiting
-from evenbreak.tournaments.odds.chances import Floats
-
-Bools: TypeAlias = NDArray[np.bool_]
-Ints: TypeAlias = NDArray[np.int64]
 
 
 class Schedule(NamedTuple):

@@ -17,8 +17,9 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
-from evenbreak.tournaments.odds.chances import Chances, Floats
+from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.forward import ForwardPass, joined
 from evenbreak.tournaments.odds.group_odds import rank_orders, rank_states, result_chances
 from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan

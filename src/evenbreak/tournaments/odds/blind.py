@@ -19,22 +19,20 @@ from itertools import combinations
 from math import comb, factorial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.brackets.standing import standing
-from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
+from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
 from evenbreak.tournaments.odds.forward import forward_pass
-from evenbreak.tournaments.odds.meetings import group_meetings, plan_meetings, place_odds
+from evenbreak.tournaments.odds.meetings import group_meetings, place_odds, plan_meetings
 from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.title import PlaceOdds, odds_now
 
 _MOST_PLAYERS = 16
 _FEW_DRAWS = 5040
 _CELLS = 4_000_000
-
-Ints = NDArray[np.int64]
 
 
 def blind_draw_odds(

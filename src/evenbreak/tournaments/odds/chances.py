@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import floats, number_probability
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.brackets.standing import Standing
-
-Floats: TypeAlias = NDArray[np.float64]
 
 
 @runtime_checkable

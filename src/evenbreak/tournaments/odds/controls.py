@@ -15,16 +15,17 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Bracket, Source
 from evenbreak.tournaments.brackets.standing import Standing
-from evenbreak.tournaments.odds.chances import Chances, Floats
+from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.cut import exact_starts
 from evenbreak.tournaments.odds.forward import forward_pass
 from evenbreak.tournaments.odds.meetings import (
     Meeting,
     group_meetings,
-    plan_meetings,
     place_odds,
+    plan_meetings,
 )
 from evenbreak.tournaments.odds.planning import plan_of
 from evenbreak.tournaments.odds.play import PlayedOut

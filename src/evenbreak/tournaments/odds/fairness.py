@@ -14,11 +14,11 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import column
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.brackets.bracket import Bracket
-from evenbreak.tournaments.odds.chances import Floats
 from evenbreak.tournaments.odds.races import PairOdds, Race, Races, pair_odds
 from evenbreak.tournaments.odds.title import TitleOdds, title_odds
 

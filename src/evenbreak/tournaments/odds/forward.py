@@ -17,7 +17,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from evenbreak.tournaments.odds.chances import Chances, Floats
+from evenbreak.arrays import Floats
+from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.group_odds import rank_orders, rank_states, result_chances
 from evenbreak.tournaments.odds.plan import (
     Branch,

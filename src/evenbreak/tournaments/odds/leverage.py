@@ -12,19 +12,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, standing
 from evenbreak.tournaments.odds.backward import ResultValues, backward_pass
-from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
+from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
 from evenbreak.tournaments.odds.forward import ForwardPass, forward_pass
 from evenbreak.tournaments.odds.group_odds import rank_orders
 from evenbreak.tournaments.odds.meetings import (
     goes_on,
     group_meetings,
-    plan_meetings,
     meetings_so_far,
     place_odds,
+    plan_meetings,
     settled_ranks,
 )
 from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
@@ -127,7 +128,9 @@ def _plan(now: Standing) -> Plan:
     return plan
 
 
-def _expected(now: Standing, plan: Plan, chances: Chances, through: ForwardPass, value: Floats) -> Floats:
+def _expected(
+    now: Standing, plan: Plan, chances: Chances, through: ForwardPass, value: Floats
+) -> Floats:
     meetings = meetings_so_far(now) | group_meetings(plan.bracket, chances)
     meetings |= plan_meetings(plan, through)
     law = place_odds(now.bracket, meetings, {**settled_ranks(now), **through.ranks})
@@ -136,7 +139,12 @@ def _expected(now: Standing, plan: Plan, chances: Chances, through: ForwardPass,
 
 
 def _lever(
-    now: Standing, chances: Chances, name: str, found: ResultValues, through: ForwardPass, expected: Floats
+    now: Standing,
+    chances: Chances,
+    name: str,
+    found: ResultValues,
+    through: ForwardPass,
+    expected: Floats,
 ) -> Leverage:
     seats = now.seats[name]
     if name in through.meet:

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Bracket, Match, Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Standing
-from evenbreak.tournaments.odds.chances import Chances, Floats
+from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.forward import ForwardPass, summed
 from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players
 

@@ -12,9 +12,10 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import betainc
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import column, number, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, alternate_breaks
@@ -23,9 +24,6 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.matches.antidiagonals import race_endings
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Match
-from evenbreak.tournaments.odds.chances import Floats
-
-Ints: TypeAlias = NDArray[np.int64]
 
 
 @dataclass(frozen=True)

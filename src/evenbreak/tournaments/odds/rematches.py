@@ -13,9 +13,10 @@ from typing import TypeAlias
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, standing
-from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
+from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
 from evenbreak.tournaments.odds.forward import gathered, group_odds, joined, split
 from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
 from evenbreak.tournaments.odds.planning import exact_plan

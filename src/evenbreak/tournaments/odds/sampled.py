@@ -16,9 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Bracket, Place, Slot, Source
 from evenbreak.tournaments.brackets.standing import Standing
-from evenbreak.tournaments.odds.chances import Chances, Floats
+from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.controls import controls_of
 from evenbreak.tournaments.odds.cut import Cut, cut_before
 from evenbreak.tournaments.odds.forward import ForwardPass, forward_pass

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import floats, whole
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.swiss import (
@@ -17,7 +18,6 @@ from evenbreak.tournaments.brackets.swiss import (
     swiss_round,
     swiss_standings,
 )
-from evenbreak.tournaments.odds.chances import Floats
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,23 +13,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.odds.backward import conditional
-from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
-from evenbreak.tournaments.odds.sampled import BATCHES, sampled_odds
+from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
 from evenbreak.tournaments.odds.forward import forward_pass
 from evenbreak.tournaments.odds.meetings import (
     Meeting,
     group_meetings,
-    plan_meetings,
     meetings_so_far,
     place_odds,
+    plan_meetings,
     settled_ranks,
 )
 from evenbreak.tournaments.odds.planning import MOST_STATES, exact_plan
+from evenbreak.tournaments.odds.sampled import BATCHES, sampled_odds
 
 SAMPLES = 10_000
 """The number of samples of the first rounds, where they are sampled."""
@@ -244,7 +245,9 @@ def odds_now(
     meetings = meetings_so_far(now) | group_meetings(remaining, chances)
     meetings |= plan_meetings(plan, through)
     p_place = place_odds(now.bracket, meetings, {**settled_ranks(now), **through.ranks})
-    return TitleOdds(now.bracket, p_place, np.zeros_like(p_place), 0, _in_order(now.bracket, meetings))
+    return TitleOdds(
+        now.bracket, p_place, np.zeros_like(p_place), 0, _in_order(now.bracket, meetings)
+    )
 
 
 def _sampled(
@@ -260,7 +263,9 @@ def _sampled(
     certain = place_odds(now.bracket, meetings, settled_ranks(now))
     meetings |= found.meetings
     p_place = certain + found.p_place
-    return TitleOdds(now.bracket, p_place, found.error, found.samples, _in_order(now.bracket, meetings))
+    return TitleOdds(
+        now.bracket, p_place, found.error, found.samples, _in_order(now.bracket, meetings)
+    )
 
 
 def _in_order(bracket: Bracket, meetings: Mapping[str, Meeting]) -> dict[str, Meeting]:

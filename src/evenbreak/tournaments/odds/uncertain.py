@@ -13,19 +13,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.checks import column, floats, whole
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
-from evenbreak.tournaments.odds.chances import Chances, Floats, Wins, chances_of
+from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
 from evenbreak.tournaments.odds.forward import forward_pass
 from evenbreak.tournaments.odds.meetings import (
     Meeting,
     averaged,
     group_meetings,
-    plan_meetings,
     meetings_so_far,
     place_odds,
+    plan_meetings,
     settled_ranks,
 )
 from evenbreak.tournaments.odds.plan import Plan
@@ -111,7 +112,9 @@ def over_ratings(
     plan = exact_plan(remaining, (), _MOST_STATES)
     sure = odds_now(now, tables[0], rng=rng)
     if plan is None:
-        each = [odds_now(now, part, samples=_SAMPLES_EACH, rng=rng, batches=2) for part in tables[1:]]
+        each = [
+            odds_now(now, part, samples=_SAMPLES_EACH, rng=rng, batches=2) for part in tables[1:]
+        ]
         laws = np.stack([odds.p_place for odds in each], axis=2)
         meetings = sure.meetings
     else:
