@@ -82,6 +82,6 @@ def _rounds_before(
     for name in feeds:
         feeding = bracket.by_name[name]
         before |= set(rounds[feeding.side, feeding.round])
-    if not feeds:  # of a group: the round before it
+    if any(match.name in group.matches for group in bracket.groups):
         before |= set(rounds.get((match.side, match.round - 1), ()))
     return before
