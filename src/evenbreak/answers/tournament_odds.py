@@ -18,7 +18,7 @@ from evenbreak.tournaments.odds.title import TitleOdds, title_odds
 from evenbreak.tournaments.odds.uncertain import over_ratings
 
 _NAMED = {1: "title", 2: "second", 3: "third", 4: "fourth"}
-_SHOWN = 4  # places that everybody sees; the others are details
+_SHOWN = 3  # places that everybody sees; the others are details
 
 
 def tournament_odds_answer(
