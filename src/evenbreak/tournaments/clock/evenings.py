@@ -83,7 +83,7 @@ def play_evenings(
     now
         where it stands.
     laws
-        the law of each match still to be played.
+        who wins each match still to be played and in how many games.
     pace, turnover
         how long matches take, and the time between two on a table (see `turnovers`).
     playing
@@ -97,7 +97,9 @@ def play_evenings(
     names = tuple(match.name for match in remaining.matches if match.name not in now.winners)
     for name in names:
         if name not in laws:
-            raise InputError(f"laws has no match {name!r}; give the law of every match")
+            raise InputError(
+                f"laws has no match {name!r}; give the odds of every match (`pair_odds`)"
+            )
     rng = np.random.default_rng(seed)
     evening = lognormal(ndtri(stratified_uniforms(rng, runs)), pace.evening_sd)
     chances = Chances({m.name: _padded(laws[m.name].win) for m in remaining.matches})

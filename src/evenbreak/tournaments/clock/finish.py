@@ -193,7 +193,7 @@ def finish(
     bracket
         the tournament.
     laws
-        the law of each match, as `pair_odds` gives it.
+        who wins each match and in how many games, as `pair_odds` gives it.
     tables
         how many tables there are, or from when on each of them is free, in minutes since the
         first start. The tables of matches under way are among them.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import floats, number_probability
@@ -46,6 +46,22 @@ class Chances:
     def of(self, match: str) -> Floats:
         """Return the table of a match."""
         return self.tables[match]
+
+    def each(self, match: str, first: NDArray[np.integer], second: NDArray[np.integer]) -> Floats:
+        """Return the chance of slot 1's player in each sample, given who plays in it.
+
+        The samples are the last axis of `first` and `second`.
+        """
+        return of_samples(self.of(match), first, second)
+
+
+def of_samples(table: Floats, first: NDArray[np.integer], second: NDArray[np.integer]) -> Floats:
+    """Return the entries of a table; of one with a third axis, those of each sample."""
+    if table.ndim == 2:
+        found: Floats = table[first, second]
+    else:
+        found = table[first, second, np.arange(table.shape[2])]
+    return found
 
 
 def chances_of(

@@ -90,7 +90,7 @@ def controls_of(
     """Return the controls for samples of the early matches of a bracket.
 
     They are who comes to which slot, and who leaves for which place, in as many of the early
-    rounds as can be worked out exactly.
+    rounds as can be calculated exactly.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A bracket cut in two: first rounds that are drawn by lot, later ones worked out exactly."""
+"""A bracket cut in two: first rounds that are drawn by lot, later ones calculated exactly."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def cut_before(bracket: Bracket, most_states: float) -> Cut:
 
 
 def exact_starts(bracket: Bracket, early: frozenset[str], most_states: float) -> Iterator[Bracket]:
-    """Yield the early rounds that can be worked out exactly: the most first, then fewer.
+    """Yield the early rounds that can be calculated exactly: the most first, then fewer.
 
     First matches alone are left out: samples that are spread evenly have nothing wrong there.
     """

@@ -2,7 +2,7 @@
 
 A player's title odds are linear in the chances of one match. So the difference between
 the odds after a win and after a loss of slot 1's player is a derivative, and one pass back
-through the joint laws gives it for all matches at once.
+through the joint distributions gives it for all matches at once.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.title import prizes
 
 MOST_STATES = 2e7
-"""How many joint states times players one match may have for leverages to be worked out."""
+"""How many joint states times players one match may have for leverages to be calculated."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -59,7 +59,7 @@ def play_out(
     bracket
         the matches still to be played, with the players who are known in their slots.
     chances
-        their chances.
+        their chances; with a third axis, those of each run.
     rng
         where pseudo-random numbers come from.
     runs
@@ -100,7 +100,7 @@ def play_out(
         if given is not None and match.name in given:
             won = given[match.name]
         else:
-            won = luck < chances.of(match.name)[one, other]
+            won = luck < chances.each(match.name, one, other)
         first[match.name], second[match.name], first_won[match.name] = one, other, won
         for slot in outlets.get(match.name, ()):
             sent[slot] = _sent_on(slot, one, other, won, nobody)

@@ -1,7 +1,7 @@
 """What is played in each match: races by round and side, by a chart or fairest of a length.
 
-A match's law says for each pair of players who wins and in how many games. The win chances
-feed the title odds, the games the clock.
+For every two players the odds of a match say who wins and in how many games. The chances of winning
+go into the title odds, the games into the time.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ def pair_odds(
     break_advantage: float = 0.0,
     breaks: BreakFormat = alternate_breaks,
 ) -> dict[str, PairOdds]:
-    """Return the law of each match, given the ratings: what `title_odds` takes as `win`.
+    """Return the odds of each match, given the ratings: what `title_odds` takes as `win`.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def pair_odds(
     break_advantage
         by how many points the breaker of a game plays better.
     breaks
-        who breaks next; the first break is anybody's, by lag. Only with a break advantage.
+        who breaks next; either player may win the lag. It matters with a break advantage only.
 
     Raises
     ------

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Bracket, Place, Slot, Source
 from evenbreak.tournaments.brackets.standing import Standing
-from evenbreak.tournaments.odds.chances import Chances
+from evenbreak.tournaments.odds.chances import Chances, of_samples
 from evenbreak.tournaments.odds.controls import controls_of
 from evenbreak.tournaments.odds.cut import Cut, cut_before
 from evenbreak.tournaments.odds.forward import ForwardPass, forward_pass
@@ -105,10 +105,46 @@ def sampled_odds(
     return SampledOdds(mean.reshape(shape), error.reshape(shape), meetings, size * batches)
 
 
+def places_of_samples(
+    now: Standing, tables: Chances, samples: int, rounds: int, rng: np.random.Generator
+) -> Floats:
+    """Return P(each place) for each player in each sample, shape (players, places, samples).
+
+    Parameters
+    ----------
+    now
+        the state of the tournament.
+    tables
+        the chances of the matches, whose third axis runs over the samples.
+    samples
+        the number of samples.
+    rounds
+        how often each sample's first rounds are played; the places are averaged over these.
+    rng
+        the random numbers.
+    """
+    bracket = now.remaining
+    cut = cut_before(bracket, _STATES_PER_SAMPLE)
+    sampler = _Sampler(now, bracket, tables, cut, at_once=samples)
+    total: Floats | float = 0.0
+    for _ in range(rounds):
+        played = play_out(bracket, tables, rng, samples, only=cut.early)
+        total = total + sampler.batch(played, samples).places
+    places: Floats = np.asarray(total).reshape(samples, len(bracket.players), -1) / rounds
+    return places.transpose(1, 2, 0)
+
+
 class _Sampler:
     """What all batches have in common."""
 
-    def __init__(self, now: Standing, bracket: Bracket, chances: Chances, cut: Cut) -> None:
+    def __init__(
+        self,
+        now: Standing,
+        bracket: Bracket,
+        chances: Chances,
+        cut: Cut,
+        at_once: int | None = None,
+    ) -> None:
         self.bracket, self.chances, self.cut = bracket, chances, cut
         self.column = {place: k for k, place in enumerate(now.bracket.places)}
         self.going = goes_on(now.bracket)
@@ -116,7 +152,7 @@ class _Sampler:
         self.first, self.second = who_can_sit(bracket)
         self.nobody = len(bracket.players)
         largest = max((step.size for step in self.plan.steps), default=1)
-        self.at_once = max(1, _CELLS // largest)
+        self.at_once = at_once or max(1, _CELLS // largest)
 
     def batch(self, played: PlayedOut, size: int) -> _Batch:
         """Return a batch, given the results of its first rounds."""
@@ -183,7 +219,7 @@ class _Sampler:
         for match in self.cut.rest.matches:
             table = self.chances.of(match.name)
             if id(table) not in made:
-                made[id(table)] = table[who[:, None, :], who[None, :, :]]
+                made[id(table)] = of_samples(table, who[:, None, :], who[None, :, :])
             tables[match.name] = made[id(table)]
         return Chances(tables)
 

@@ -1,7 +1,7 @@
 """Title odds when the ratings are uncertain: averaged over what the ratings may be.
 
 Odds that take ratings for certain are too sure of themselves: a favourite by a rating of
-few games is a favourite in every match at once. Ratings are drawn from their joint law,
+few games is a favourite in every match at once. Ratings are drawn from their joint distribution,
 each draw is solved, and the odds are averaged.
 """
 
@@ -31,6 +31,7 @@ from evenbreak.tournaments.odds.meetings import (
 )
 from evenbreak.tournaments.odds.plan import Plan
 from evenbreak.tournaments.odds.planning import exact_plan
+from evenbreak.tournaments.odds.sampled import places_of_samples
 from evenbreak.tournaments.odds.title import TitleOdds, odds_now
 
 _CELLS = 4_000_000
@@ -112,10 +113,9 @@ def over_ratings(
     plan = exact_plan(remaining, (), _MOST_STATES)
     sure = odds_now(now, tables[0], rng=rng)
     if plan is None:
-        each = [
-            odds_now(now, part, samples=_SAMPLES_EACH, rng=rng, batches=2) for part in tables[1:]
-        ]
-        laws = np.stack([odds.p_place for odds in each], axis=2)
+        certain = place_odds(bracket, meetings_so_far(now), settled_ranks(now))
+        every = _stacked(tables[1:])
+        laws = certain[:, :, None] + places_of_samples(now, every, 2 * pairs, _SAMPLES_EACH, rng)
         meetings = sure.meetings
     else:
         laws, meetings = _exactly(now, plan, tables[1:])
