@@ -36,6 +36,7 @@ ASKED = {
     "odds": "odds 612 521 --scale fargo --race 7:5",
     "odds_sets": "odds --p 0.66 --race 3:1 --set 3:3 --score 1:0",
     "odds_exact": "odds --p 0.6 --ahead 3:2 --exact",
+    "odds_via": "odds --p 0.6 --race 5:4 --via eigen",
     "fair": "fair 612 521 --scale fargo --race-to 7 --top 3",
     "live": "live --p 0.6 --race 7:5 --racks abbab",
     "live_table": "live --p 0.6 --set 4:3 --race 3:3 --score 1:1 --set-score 2:2 --table",
@@ -79,6 +80,7 @@ ASKED = {
     "oneball_later": "oneball 0.4 0.8 0.6 0.5 --or 0.3:0.3:0.2:0.4",
     "chain": "chain data/safety_battle.csv",
     "chain_steps": "chain data/safety_battle.csv --steps 4",
+    "chain_via": "chain data/safety_battle.csv --via eigen",
     "rate": "rate data/demo_league.csv --scale fargo",
     "rate_asked": "rate data/demo_league.csv --prior best --half-life 180 --break-advantage fit "
     "--anchor 'Zoë Kestleman=100'",
@@ -102,6 +104,7 @@ ASKED = {
     "--games 7..13 --minutes-per-game 8 --tables 2",
     "matchups_uneven": "matchups data/demo_roster.csv --race-to 3",
     "ladder": "ladder --chart npl_10 --equal-skill --from -20 --newcomer",
+    "ladder_via": "ladder --chart npl_8 --via elimination",
     "ladder_drift": "ladder --league data/demo_roster.csv --day-sd 5 --drift 0.1",
     "ladder_inflation": "ladder --system 'step 2 1'",
     "ladder_compare": "ladder --compare",

@@ -171,7 +171,7 @@ def _too_many(max_states: int) -> GameError:
     )
 
 
-def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
+def graph_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     """Return the game's diagram: every state that can be reached from its start.
 
     Arcs carry `probability` (of the target, given the source); nodes carry `kind`
@@ -182,6 +182,8 @@ def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     ----------
     game
         the game.
+    start
+        the state to start from; None: the game's own start.
     max_states
         give up beyond this many states; the game may be endless.
 
@@ -200,12 +202,12 @@ def graph_of(game: Game, *, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     import networkx as nx
     import numpy as np
 
-    arcs = arcs_of(game, max_states=max_states)
+    arcs = arcs_of(game, start=start, max_states=max_states)
     states = list(arcs.states)
     graph: nx.DiGraph[Any] = nx.DiGraph()
     graph.add_nodes_from(states, kind="transient", winner=None)
     arc_counts = np.bincount(arcs.sources, minlength=len(states))
-    graph.nodes[game.start]["kind"] = "start"
+    graph.nodes[game.start if start is None else start]["kind"] = "start"
     for i in np.flatnonzero(arc_counts == 0).tolist():
         graph.nodes[states[i]].update(kind="terminal", winner=game.winner(states[i]))
     # One call for all arcs, without a list of triples, is three times as fast.

@@ -85,3 +85,17 @@ def test_a_season_of_entrants(written):
     assert file.players.skill_sd.tolist() == [30, 6]
     assert (file.drawn, file.exact) == (2, 0)
     assert file.players.played[0] == 0
+
+
+def test_skill_levels_and_points_do_not_mix(written):
+    league = "player,rating\nAnn Lee,92\nBo Diaz,71\n"
+    entrants = read_entrants(written("Name,Skill Level\nAnn Lee,5\nCy,4\n"))
+    path = written(league, "league.csv")
+    for join in (
+        lambda: roster_of_entrants(read_roster(path), entrants),
+        lambda: league_of_entrants(read_league(path), entrants, starter=75, starter_sd=30),
+    ):
+        with pytest.raises(DataError, match="skill levels"):
+            join()
+    named = read_entrants(written("Name\nAnn Lee\nBo Diaz\n"))
+    assert len(roster_of_entrants(read_roster(path), named).roster) == 2

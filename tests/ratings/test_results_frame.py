@@ -9,6 +9,7 @@ import pytest
 from evenbreak.errors import DataError, InputError
 from evenbreak.files import read_results
 from evenbreak.ratings import Results, fit
+from evenbreak.ratings.result_words import FORMATS
 from places import DATA
 
 
@@ -128,3 +129,20 @@ def test_columns_that_are_not_used_are_named_in_a_warning():
 def test_only_frames_are_read(wrong):
     with pytest.raises(InputError, match="give a DataFrame"):
         Results.from_frame(wrong)
+
+
+@pytest.mark.parametrize("word", ["walkover", "w/o", "t", "Yes", True, 1])
+def test_a_frame_knows_the_words_for_a_forfeit_that_a_file_knows(word):
+    frame = pd.DataFrame(
+        {
+            "player_a": ["Ann", "Bo"],
+            "player_b": ["Bo", "Cy"],
+            "score_a": [5, None],
+            "score_b": [3, None],
+            "forfeit": [None, word],
+            "break_format": ["alternating", None],
+        }
+    )
+    found = Results.from_frame(frame)
+    assert found.forfeit.tolist() == [False, True]
+    assert found.break_format.tolist() == [FORMATS.index("alternate"), 0]

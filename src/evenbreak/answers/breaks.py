@@ -5,8 +5,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.by_way import by_way
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import chance, count_of, decimals, listed, percent
+from evenbreak.chains.ways import Way
 from evenbreak.games.rack import Rack
 from evenbreak.practice.breaks import BreakFormatValue, compare_break_formats
 
@@ -19,7 +21,12 @@ _LARGE = 1_000_000
 
 
 def breaks_answer(
-    rack: Rack[float], *, win: float = 1.0, lose: float = 1.0, first_breaker: int = 1
+    rack: Rack[float],
+    *,
+    win: float = 1.0,
+    lose: float = 1.0,
+    first_breaker: int = 1,
+    via: Way | None = None,
 ) -> Answer:
     """Return the break formats, the best for player 1 first; player 1 is A.
 
@@ -27,7 +34,7 @@ def breaks_answer(
     ----------
     rack
         the chances with the break.
-    win, lose, first_breaker
+    win, lose, first_breaker, via
         as for `compare_break_formats`.
 
     >>> from evenbreak.games import Rack
@@ -36,7 +43,9 @@ def breaks_answer(
     At these stakes A comes out ahead with winner and alternate breaks and behind with loser breaks.
     Over 100 racks with winner breaks, A comes out 50 points ahead on average, give or take 17.
     """
-    values = compare_break_formats(rack, win=win, lose=lose, first_breaker=first_breaker)
+    stakes: dict[str, Any] = {"win": win, "lose": lose, "first_breaker": first_breaker}
+    values = compare_break_formats(rack, via=via, **stakes)
+    kernel = {value.name: value.share for value in compare_break_formats(rack, **stakes)}
     usual = [value for value in values if value.name in USUAL]
     columns = [
         Column("breaks", "breaks", _who, left=True),
@@ -56,6 +65,7 @@ def breaks_answer(
             Table("formats", columns, [_row(value, lose) for value in values]),
             "'Even if a win pays': what A should get for a rack won to make the stakes fair. "
             "'First break': how many more racks A wins in a long session by breaking first.",
+            *by_way(via, ((value.share, kernel[value.name]) for value in values)),
         ],
         [
             "'Spread of points': multiply it by the square root of N for the standard deviation of "

@@ -4,19 +4,27 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.by_way import by_way
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.wording import chance, count_of, games, listed
 from evenbreak.chains.chain import Chain
 from evenbreak.chains.limits import Limit, stochastic_limit
 from evenbreak.chains.passage_times import steps_to_absorption
 from evenbreak.chains.powers import propagate
+from evenbreak.chains.ways import Way
 from evenbreak.errors import AccuracyError
 
 NAMED = 5
 """States that a sentence names, the likeliest ones."""
 
 
-def chain_answer(chain: Chain, *, steps: int | None = None, warnings: Sequence[str] = ()) -> Answer:
+def chain_answer(
+    chain: Chain,
+    *,
+    steps: int | None = None,
+    warnings: Sequence[str] = (),
+    via: Way | None = None,
+) -> Answer:
     """Return the stochastic limit of a chain from its start, or its density after some steps.
 
     Parameters
@@ -27,15 +35,17 @@ def chain_answer(chain: Chain, *, steps: int | None = None, warnings: Sequence[s
         files then hold the density after so many steps, in place of the limit.
     warnings
         what may be wrong with the chain, a sentence each.
+    via
+        the way to the limit, as for `stochastic_limit`.
 
     >>> from evenbreak.chains import chain_of
     >>> arcs = [("S1", "W", 0.3), ("S1", "S2", 0.7), ("S2", "L", 0.2), ("S2", "S1", 0.8)]
     >>> print(chain_answer(chain_of(arcs, start="S1")).sentences[0])
     The chain ends in 'W' (0.6818) or 'L' (0.3182), after 3.86 steps on average.
     """
-    limit = stochastic_limit(chain)
+    limit = stochastic_limit(chain, via=via)
     mean_steps, doubts = _mean_steps(chain)
-    if limit.residual is not None:
+    if limit.residual is not None and via != "eigen":
         doubts.append(
             f"the limit was solved with residual {limit.residual:.3g}, without a bound for each "
             "entry"
@@ -56,7 +66,11 @@ def chain_answer(chain: Chain, *, steps: int | None = None, warnings: Sequence[s
     classes = zip(states, structure.label.tolist(), structure.kinds, strict=True)
     return Answer(
         f"A chain of {count_of(len(states), 'state')} that starts in {chain.start!r}",
-        ["\n".join(sentences), Table("", columns, list(zip(*values, strict=True)))],
+        [
+            "\n".join(sentences),
+            Table("", columns, list(zip(*values, strict=True))),
+            *_way(via, limit),
+        ],
         [
             "A transient state is left for good, an absorbing state is never left, and a recurrent "
             "state is returned to again and again."
@@ -78,6 +92,16 @@ def chain_answer(chain: Chain, *, steps: int | None = None, warnings: Sequence[s
             list((density or limit.to_dict()).items()),
         ),
     )
+
+
+def _way(via: Way | None, limit: Limit) -> list[Part]:
+    """Return how the limit was found, beside the closed form of a line or else elimination."""
+    if via is None:
+        return []
+    beside: Way = "kernel" if limit.chain.birth_death is not None else "elimination"
+    known = stochastic_limit(limit.chain, via=beside)
+    pairs = zip(limit.probability.tolist(), known.probability.tolist(), strict=True)
+    return by_way(via, pairs, beside=beside)
 
 
 def _mean_steps(chain: Chain) -> tuple[float | None, list[str]]:

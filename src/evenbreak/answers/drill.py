@@ -1,9 +1,11 @@
 """Where a progressive drill settles, and which level to practise."""
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.by_way import by_way
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.wording import chance, decimals
-from evenbreak.practice.drills import DrillStatistics
+from evenbreak.chains.ways import Way
+from evenbreak.practice.drills import DrillStatistics, drill_statistics
 from evenbreak.practice.levels import MORE
 from evenbreak.stats.summary import Distribution
 
@@ -11,7 +13,9 @@ MUCH = 1e6
 """From here on a gain is shown with three digits."""
 
 
-def drill_answer(statistics: DrillStatistics, description: str) -> Answer:
+def drill_answer(
+    statistics: DrillStatistics, description: str, *, via: Way | None = None
+) -> Answer:
     """Return where a drill settles in the long run, and what to practise.
 
     Parameters
@@ -20,6 +24,8 @@ def drill_answer(statistics: DrillStatistics, description: str) -> Answer:
         of the drill.
     description
         which drill it is, in a line.
+    via
+        the way by which the statistics were found.
 
     >>> from evenbreak.games import Drill
     >>> from evenbreak.practice import drill_statistics
@@ -46,13 +52,20 @@ def drill_answer(statistics: DrillStatistics, description: str) -> Answer:
     ]
     return Answer(
         description,
-        [*parts, Table("levels", columns, list(rows))],
+        [*parts, Table("levels", columns, list(rows)), *_way(via, statistics)],
         details=[
             Quantities([Quantity("mean", law.mean, "average level", decimals(3)), *spread(law)]),
             GAIN_WORDS,
         ],
         data={"practise_next": statistics.practise_next, "period": statistics.period},
     )
+
+
+def _way(via: Way | None, statistics: DrillStatistics) -> list[Part]:
+    if via is None:
+        return []
+    kernel = drill_statistics(statistics.drill).distribution.probability
+    return by_way(via, zip(statistics.distribution.probability, kernel, strict=True))
 
 
 def _advice(statistics: DrillStatistics) -> str:

@@ -1,16 +1,33 @@
 """The races that are nearest to an even chance."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.by_way import DEFECTIVE, by_way
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, games, percent
+from evenbreak.chains.ways import Way
+from evenbreak.games.race import Race
 from evenbreak.handicaps.charts.fair import FairRace
 
 
-def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float = 0.5) -> Answer:
+def fair_answer(
+    players: TwoPlayers,
+    races: Sequence[FairRace],
+    *,
+    target: float = 0.5,
+    via: Way | None = None,
+) -> Answer:
     """Return races as found by `fair_races`, the nearest to the target first.
+
+    Parameters
+    ----------
+    players, races, target
+        as for `fair_races`, and what it returns.
+    via
+        the way by which the chances of these races were found.
 
     >>> from evenbreak.answers.two_players import TwoPlayers
     >>> from evenbreak.games import Rack
@@ -41,8 +58,23 @@ def fair_answer(players: TwoPlayers, races: Sequence[FairRace], *, target: float
                 ],
                 rows,
             ),
+            *_way(via, players, races),
             *filter(None, [players.averaged]),
         ],
         warnings=players.doubts,
         data={"target": target, **players.named},
     )
+
+
+def _way(via: Way | None, players: TwoPlayers, races: Sequence[FairRace]) -> list[Part]:
+    if via is None:
+        return []
+    from evenbreak.matches.win import win_probability
+
+    order: dict[str, Any] = {"breaks": players.break_format, "first_breaker": players.first_breaker}
+    kernel = [
+        win_probability(Race(race.race_1, race.race_2, players.rack, **order)) for race in races
+    ]
+    pairs = zip([race.p_win_1 for race in races], kernel, strict=True)
+    long = any(race.race_1 + race.race_2 > 2 for race in races)
+    return by_way(via, pairs, note=DEFECTIVE if via == "eigen" and long else "")

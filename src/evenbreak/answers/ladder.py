@@ -5,8 +5,9 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.by_way import by_way
 from evenbreak.answers.ladder_findings import LadderFindings
-from evenbreak.answers.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.wording import count_of, decimals
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.settling import Settling
@@ -59,12 +60,20 @@ more than 5 points, 1 in 70 by more than 10.
     ]
     return Answer(
         _heading(found),
-        [*filter(None, said), Table("", columns, shares)],
+        [*filter(None, said), Table("", columns, shares), *_way(found)],
         details=[_statistics(found), *_how_soon_forgotten(found)],
         warnings=[*warnings, *found.missing],
         data=_data(found),
         csv=_errors(found),
     )
+
+
+def _way(found: LadderFindings) -> list[Part]:
+    via = found.question.via
+    if via is None:
+        return []
+    kernel = found.ladder.law().probability
+    return by_way(via, zip(found.law.probability, kernel, strict=True))
 
 
 def ladder_title(ladder: Ladder) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import NamedTuple, TypeVar
 
+from evenbreak.chains.ways import Way
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.ladders.inflation import NewcomerInflation, inflation, newcomer_inflation
 from evenbreak.handicaps.ladders.ladder import Ladder
@@ -28,12 +29,15 @@ class LadderQuestion(NamedTuple):
         whether that player moves by the system's newcomer steps.
     opponents
         who the opponents are: natural, autocorrelated, equal skill or league.
+    via
+        the way to the distribution, as for `Ladder.law`.
     """
 
     start: int
     within: int
     newcomer: bool
     opponents: str
+    via: Way | None = None
 
 
 class LadderFindings:
@@ -59,7 +63,7 @@ class LadderFindings:
     @cached_property
     def law(self) -> Distribution:
         """The distribution of the rating error in the long run, in points."""
-        return self.ladder.law()
+        return self.ladder.law(via=self.question.via)
 
     @cached_property
     def off(self) -> Distribution:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Quantities, Quantity
+from evenbreak.answers.parts import Part, Quantities, Quantity
 from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.answers.wording import chance, decimals, games, percent
 from evenbreak.games.ahead import Ahead
@@ -16,8 +16,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from fractions import Fraction
 
+    from evenbreak.chains.ways import Way
 
-def odds_answer(players: TwoPlayers, match: Match, *, exact: bool = False) -> Answer:
+
+def odds_answer(
+    players: TwoPlayers, match: Match, *, exact: bool = False, via: Way | None = None
+) -> Answer:
     """Return the chances of a match between two players, and its length.
 
     They are averaged over how far ratings from a list may be off.
@@ -28,6 +32,8 @@ def odds_answer(players: TwoPlayers, match: Match, *, exact: bool = False) -> An
         who plays what.
     exact
         whether to add the chances of winning as fractions, of players without ratings.
+    via
+        the way to the chances, of players whose ratings are taken as exact; see `match_odds`.
 
     >>> from evenbreak.answers.two_players import TwoPlayers
     >>> from evenbreak.games import Race, Rack
@@ -36,7 +42,7 @@ def odds_answer(players: TwoPlayers, match: Match, *, exact: bool = False) -> An
     A wins the match 53% of the time.
     It lasts 9.3 games on average, and 9 out of 10 such matches end within 11.
     """
-    odds = _odds(players, match)
+    odds = _odds(players, match) if via is None else match_odds(match, via=via)
     p_win = _exact_wins(match) if exact else ()
     a, b = players.names
     from_now = " from now on" if any(match.score) else ""
@@ -78,6 +84,7 @@ def odds_answer(players: TwoPlayers, match: Match, *, exact: bool = False) -> An
             _in_words(odds, match, players),
             *([_exact_words(p_win, players.names)] if exact else []),
             Quantities(quantities),
+            *_way(via, odds, match),
             *filter(None, [players.averaged]),
         ],
         warnings=players.doubts,
@@ -121,6 +128,23 @@ def _odds(players: TwoPlayers, match: Match) -> MatchOdds:
     from evenbreak.handicaps.charts.odds_given_ratings import odds_given_ratings
 
     return odds_given_ratings(match, players.difference, players.error, scale=players.scale)
+
+
+def _way(via: Way | None, odds: MatchOdds, match: Match) -> list[Part]:
+    if via is None:
+        return []
+    from evenbreak.answers.by_way import DEFECTIVE, by_way
+    from evenbreak.matches.endings import is_bounded
+
+    # A match of two racks or more that ends has states that lead to each other, but not back.
+    defective = is_bounded(match) and (odds.mean_games or 0.0) > 1.0
+    names = [name for name in odds._fields if name.startswith("p_")]
+    kernel = match_odds(match)
+    return by_way(
+        via,
+        [(getattr(odds, name), getattr(kernel, name)) for name in names],
+        note=DEFECTIVE if via == "eigen" and defective else "",
+    )
 
 
 def _p_game(players: TwoPlayers) -> float | None:

@@ -4,9 +4,17 @@ from collections.abc import Sequence
 from typing import Any
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.by_way import by_way
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import chance, count_of, listed, percent
-from evenbreak.practice.shots import RankedShot, ShotChoice, compare_shots, critical_p2
+from evenbreak.chains.ways import Way
+from evenbreak.practice.shots import (
+    CHOICE_LOOK_AHEADS,
+    RankedShot,
+    ShotChoice,
+    compare_shots,
+    critical_p2,
+)
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""
@@ -35,7 +43,9 @@ _COLUMNS = (
 )
 
 
-def oneball_answer(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -> Answer:
+def oneball_answer(
+    shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", via: Way | None = None
+) -> Answer:
     """Return the shots that a player may choose from, the best first, and which to take.
 
     Parameters
@@ -44,15 +54,17 @@ def oneball_answer(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite")
         what the player may choose from, named by numbers.
     look_ahead
         as for `compare_shots`.
+    via
+        the way to the chances of winning.
 
     >>> from evenbreak.practice import ShotChoice
     >>> print(oneball_answer([ShotChoice("1", 0.4, 0.8), ShotChoice("2", 0.3, 0.3)]).sentences[0])
     Take shot 2: you win 59% of the time, against 45% with shot 1.
     Shot 2 stays the best as long as a miss leaves the opponent a chance below 0.5143.
     """
-    ranked = compare_shots(shots, look_ahead=look_ahead)
+    ranked = compare_shots(shots, look_ahead=look_ahead, via=via)
     other = "two shots" if look_ahead == "infinite" else "infinite"
-    otherwise = compare_shots(shots, look_ahead=other)
+    otherwise = compare_shots(shots, look_ahead=other, via=via)
     shot = ranked[0].shot
     heading = (
         f"You make the shot with probability {shot.p1:g}; after a miss, the opponent makes theirs "
@@ -75,24 +87,32 @@ def oneball_answer(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite")
         heading,
         [
             _advice(ranked, otherwise, look_ahead),
-            Table("shots", columns, [_row(one, look_ahead, known=known) for one in ranked]),
+            Table("shots", columns, [_row(one, look_ahead, via, known=known) for one in ranked]),
             words,
+            *by_way(
+                via,
+                (
+                    (shot.win(ahead, via=via), shot.win(ahead))
+                    for shot in shots
+                    for ahead in CHOICE_LOOK_AHEADS
+                ),
+            ),
         ],
         data={"look_ahead": look_ahead},
     )
 
 
-def _row(one: RankedShot, look_ahead: str, *, known: bool) -> tuple[Any, ...]:
+def _row(one: RankedShot, look_ahead: str, via: Way | None, *, known: bool) -> tuple[Any, ...]:
     shot = one.shot
     cells = {
         "shot": int(shot.name),
         "kind": shot.region,
         "p1": shot.p1,
         "p2": shot.p2,
-        "p_win_infinite": shot.win(),
-        "p_win_two_shots": shot.win("two shots"),
+        "p_win_infinite": shot.win(via=via),
+        "p_win_two_shots": shot.win("two shots", via=via),
         "later": " ".join(map("{:g}".format, shot.later)),
-        "p_win_all_shots": shot.win("all shots"),
+        "p_win_all_shots": shot.win("all shots", via=via),
         "critical_p2": _even_at(shot, look_ahead),
         "behind": one.behind,
         "turning_p2": one.turning_p2,

@@ -2,7 +2,7 @@
 
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.handicap_fairness import HandicapFairness
-from evenbreak.ratings.results_frame import FORMATS
+from evenbreak.ratings.result_words import FORMATS
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.scored import Of, Scored
 from evenbreak.ratings.validate import Validation

@@ -8,6 +8,7 @@ from .explore import chain_of as chain_of
 from .fit import FittedChain as FittedChain
 from .fit import fit_chain as fit_chain
 from .limit_matrix import limit_matrix as limit_matrix
+from .limit_of import limit_of as limit_of
 from .limits import Limit as Limit
 from .limits import stochastic_limit as stochastic_limit
 from .mean_passages import kemeny_constant as kemeny_constant

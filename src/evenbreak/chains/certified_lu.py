@@ -89,7 +89,8 @@ class CertifiedLU:
         try:
             return cls(csc_array(out[states]), outflow, int(np.diff(arcs.indptr)[states].max()))
         except AccuracyError as error:
-            raise AccuracyError(f"{error}; for the limit alone, use stochastic_limit") from None
+            hint = "for the limit alone, use stochastic_limit, by elimination"
+            raise AccuracyError(f"{error}; {hint}") from None
 
     def solve(self, b: NDArray[np.float64], *, transposed: bool = False) -> NDArray[np.float64]:
         """Return A^-1 b, or A^-T b, for b of shape (m,) or (m, k), as floats give it."""

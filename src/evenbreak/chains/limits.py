@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from evenbreak.chains.absorption import absorption, closed_classes_reached, ends
 from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.exact import exact_limit
 from evenbreak.chains.stationary import laws_of
+from evenbreak.chains.ways import WAYS, Way
 from evenbreak.checks import one_of
 from evenbreak.errors import AccuracyError, ChainError, InputError
 
@@ -37,9 +38,6 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 Default = TypeVar("Default")
-Way: TypeAlias = Literal["kernel", "elimination", "eigen"]
-"""A way to the limit."""
-WAYS: tuple[Way, ...] = ("kernel", "elimination", "eigen")
 _ERROR_BY_EIGENVECTORS = 1e-12
 
 _SHOWN = 5
@@ -234,7 +232,7 @@ def stochastic_limit(
     if via == "kernel":
         raise ChainError(
             "there is no closed form for this chain and start: its states do not stand in a line "
-            "in the order given, or the start is a density; use via='elimination'"
+            "in the order given, or the start is a density; use elimination"
         )
     structure = chain.structure
     if structure.is_acyclic:
@@ -254,16 +252,29 @@ def stochastic_limit(
 
 
 def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
-    """Return the limit as sum R_i (L_i v) over the eigenvalues 1."""
-    from evenbreak.chains.spectrum import spectrum
+    """Return the limit as sum R_i (L_i v) over the eigenvalues 1.
 
-    pairs = spectrum(chain, k=int(chain.structure.closed.sum()))
-    if not pairs.limit_error <= _ERROR_BY_EIGENVECTORS:
+    The vectors are solved for from the matrix. Those of reversible classes, which `spectrum` has
+    in closed form, serve where the others are not accurate enough.
+    """
+    from evenbreak.chains.eigenpairs import UnitPairs
+    from evenbreak.chains.spectrum import check_room, spectrum
+
+    v, units = chain.density(start), int(chain.structure.closed.sum())
+    check_room(units, len(chain))
+    pairs = UnitPairs(chain)
+    error, right, left = pairs.error, pairs.right, pairs.left
+    if not error <= _ERROR_BY_EIGENVECTORS:
+        found = spectrum(chain, k=units)
+        error, right, left = found.limit_error, found.right, found.left
+    if not error <= _ERROR_BY_EIGENVECTORS:
         raise AccuracyError(
-            f"the limit by eigenvectors may be wrong by {pairs.limit_error:.1e}: other eigenvalues "
-            "are too close to 1; use via='elimination', which loses no digits there"
+            f"the limit by eigenvectors may be wrong by {error:.1e}: the states are too many, or "
+            "other eigenvalues are too close to 1; use elimination, which loses no digits there"
         )
-    return Limit(chain, pairs.limit(start), _period_reached(chain, start), pairs.residual)
+    limit = right @ (left @ v)
+    missed = float(np.abs(chain.matrix @ limit - limit).max())
+    return Limit(chain, limit, _period_reached(chain, start), missed)
 
 
 def _period_reached(chain: Chain, start: Any) -> int:

@@ -190,11 +190,7 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     k = whole(k, "k", at_least=units)
     if k > n:
         raise InputError(f"k is {k}; the chain has {n} states, give {n} or fewer")
-    if k * n > MOST_ENTRIES:
-        raise ChainError(
-            f"{k} pairs of vectors over {n} states do not fit in memory; ask for fewer, or use "
-            "stochastic_limit"
-        )
+    check_room(k, n)
     if forms is not None:
         return _of_reversible(chain, forms, k, units)
     pairs = UnitPairs(chain)
@@ -210,6 +206,15 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
         raise no_basis(k, units, residual)
     values, right, left = _real(values), _real(right), _real(left)
     return Spectrum(chain, values, units, residual, pairs.error, None, right, left)
+
+
+def check_room(k: int, n: int) -> None:
+    """Refuse more vectors than fit in memory: k pairs over n states."""
+    if k * n > MOST_ENTRIES:
+        raise ChainError(
+            f"{k} pairs of vectors over {n} states do not fit in memory; ask for fewer, or find "
+            "the limit by elimination (stochastic_limit)"
+        )
 
 
 def _of_reversible(chain: Chain, forms: list[SymmetricForm], k: int, units: int) -> Spectrum:
@@ -233,7 +238,7 @@ def _check_bound(error: float) -> None:
     if not np.isfinite(error):
         raise AccuracyError(
             "the errors of the eigenvectors of eigenvalue 1 cannot be bounded: the chain is too "
-            "slow or too close to falling apart; use stochastic_limit"
+            "slow or too close to falling apart; use stochastic_limit, by elimination"
         )
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from itertools import pairwise
 from typing import Any, TypeVar
 
 from evenbreak.checks.limits import Limits
@@ -141,6 +143,28 @@ def whole(
                 f" from {at_least} to {at_most}" if at_least is not None else f", at most {at_most}"
             )
         raise InputError(f"{name} is {value!r}; give {wanted or 'a whole number' + limits}")
+    return found
+
+
+def increasing(values: Iterable[Any], name: str, *, at_least: int | None = 0) -> tuple[int, ...]:
+    """Return whole numbers that increase; each is called by its name and place.
+
+    Raises
+    ------
+    InputError
+        if one is not a whole number within the limit, or not larger than the one before.
+
+    >>> increasing([2, 3, 5], "level")
+    (2, 3, 5)
+    >>> increasing([2, 2], "level")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: level 2 comes after 2; give increasing numbers
+    """
+    found = tuple(whole(one, f"{name} {i}", at_least=at_least) for i, one in enumerate(values, 1))
+    for below, above in pairwise(found):
+        if below >= above:
+            raise InputError(f"{name} {above} comes after {below}; give increasing numbers")
     return found
 
 

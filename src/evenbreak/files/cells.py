@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import TextTable
+from evenbreak.ratings.result_words import LARGEST_WHOLE, letters
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
 # A comma or point before three zeros may group thousands.
@@ -23,7 +24,6 @@ _WHOLE = re.compile(r"[+-]?[0-9]+(\.0{0,2}|\.0{4,}|,00?)?", re.ASCII)
 _GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}[.,][0-9]{3}", re.ASCII)
 _IN_NUMBERS = "0123456789+-.eE"
 _DECIMAL_COMMA = re.compile(r"[^.,]*,[^.,]*")
-LARGEST_WHOLE = 1_000_000
 LARGEST_GROUPED = 10_000  # 92,347 means 92.347: no rating of 92347 points is in use
 LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of digits
 
@@ -206,15 +206,6 @@ def texts(table: TextTable, name: str, meaning: Callable[[str], str]) -> Values:
     return read_cells(
         table, name, meaning, wanted="", remedy="", dtype=object, empty="", may_be_empty=True
     )
-
-
-def letters(text: str) -> str:
-    """Return the letters and digits of a text, in one case.
-
-    >>> letters("W/O"), letters("Player A")
-    ('wo', 'playera')
-    """
-    return "".join(letter for letter in text.casefold() if letter.isalnum())
 
 
 def _read_two_ways(texts: Sequence[str], at_most: int, *, points: bool) -> NDArray[np.bool_]:

@@ -8,7 +8,7 @@ from itertools import product
 from pathlib import Path
 
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.cells import LARGEST_WHOLE, whole_numbers
+from evenbreak.files.cells import whole_numbers
 from evenbreak.files.problems import Problems, printable, quoted
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
@@ -16,6 +16,7 @@ from evenbreak.handicaps.charts.chart_of import catalogue_name
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
 from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS, PointsChart, points_chart
 from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow, row_faults
+from evenbreak.ratings.result_words import LARGEST_WHOLE
 
 DIFFERENCES = {
     "difference_from": ("from", "gap from", "points from"),

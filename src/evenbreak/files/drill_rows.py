@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.cells import letters
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import TextTable
+from evenbreak.ratings.result_words import letters
 
 DRILL = {"drill": ("exercise", "drill name")}
 """The column that names the drill, with its other names."""

@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,9 @@ from evenbreak.files.roster import OPTIONAL, REQUIRED, WRITTEN, RosterFile, rost
 from evenbreak.files.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.text_table import read_table
 from evenbreak.ratings.roster import Roster
+
+if TYPE_CHECKING:
+    from evenbreak.files.league import LeagueFile
 
 PLAYER = {"player": REQUIRED["player"]}
 MORE = {"rating": REQUIRED["rating"], **OPTIONAL, **WRITTEN}
@@ -158,15 +161,9 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
     Raises
     ------
     DataError
-        if the two files state different scales.
+        if the ratings of the two files are not on one scale.
     """
-    if league.scale and entrants.scale and not league.scale.same_points(entrants.scale):
-        raise DataError(
-            [
-                f"{entrants.source}: its scale {entrants.scale.text} differs from "
-                f"{league.scale.text} in {league.source}; put all ratings on one scale"
-            ]
-        )
+    check_one_scale(league, entrants)
     found = entered(entrants, league.roster.players, league.source)
     known, stated = league.roster, entrants.roster
     at = np.array(found.places, dtype=np.int64)
@@ -200,4 +197,32 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
         warnings=(*league.warnings, *found.warnings, *warnings),
         by_quasi=frozenset(np.flatnonzero(on_list & np.isin(at, list(league.by_quasi))).tolist()),
         scale=league.scale or entrants.scale,
+        levels=league.levels or entrants.levels,
+    )
+
+
+def check_one_scale(league: RosterFile | LeagueFile, entrants: RosterFile) -> None:
+    """Refuse entrants whose ratings are on another scale than those of the league's list.
+
+    Raises
+    ------
+    DataError
+        if the two files state different scales, or one has skill levels and the other points.
+    """
+    if np.isnan(entrants.roster.rating).all():
+        return
+    if league.scale and entrants.scale and not league.scale.same_points(entrants.scale):
+        ours, theirs = league.scale.text, entrants.scale.text
+    elif league.levels != entrants.levels and not (league.scale and entrants.scale):
+        ours, theirs = (
+            "of skill levels" if levels else "of points"
+            for levels in (league.levels, entrants.levels)
+        )
+    else:
+        return
+    raise DataError(
+        [
+            f"{entrants.source}: its scale {theirs} differs from {ours} in {league.source}; "
+            "put all ratings on one scale"
+        ]
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.cells import numbers, whole_numbers
-from evenbreak.files.entrants import entered
+from evenbreak.files.entrants import check_one_scale, entered
 from evenbreak.files.roster import (
     FARTHEST,
     LEAGUE,
@@ -53,6 +53,8 @@ class LeagueFile:
         for how many the rating is taken as the skill, for lack of a skill and a standard error.
     scale
         the scale of the ratings; None if the file does not state it.
+    levels
+        whether the title of the ratings says that they are skill levels.
     """
 
     players: LeaguePlayers
@@ -62,6 +64,7 @@ class LeagueFile:
     drawn: int
     exact: int
     scale: Scale | None = None
+    levels: bool = False
 
 
 def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
@@ -141,6 +144,7 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
         drawn=int((sd > 0).sum()),
         exact=int(np.isnan(sd).sum()),
         scale=file.scale,
+        levels=file.levels,
     )
 
 
@@ -162,8 +166,10 @@ def league_of_entrants(
     Raises
     ------
     DataError
-        if fewer than two players have entered.
+        if fewer than two players have entered, or the ratings of the two files are not on one
+        scale.
     """
+    check_one_scale(file, entrants)
     if len(entrants.roster) < 2:
         raise DataError([f"{entrants.source}: has 1 player; a league needs two or more"])
     found = entered(entrants, file.roster.players, file.source)
@@ -197,6 +203,8 @@ def league_of_entrants(
         warnings=(*file.warnings, *found.warnings),
         drawn=int((players.skill_sd > 0.0).sum()),
         exact=int(exact.sum()),
+        scale=file.scale or entrants.scale,
+        levels=file.levels or entrants.levels,
     )
 
 

@@ -10,10 +10,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.cells import Values, letters, read_cells
+from evenbreak.files.cells import Values, read_cells
 from evenbreak.files.csv_writer import undefused
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import TextTable
+from evenbreak.ratings.result_words import letters
 
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 

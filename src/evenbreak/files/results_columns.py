@@ -10,7 +10,7 @@ from evenbreak.files.date_cells import DateOrder, dates
 from evenbreak.files.player_names import PlayerNames
 from evenbreak.files.results_layout import BY_WINNER
 from evenbreak.files.text_table import TextTable
-from evenbreak.ratings.results_frame import FORMATS
+from evenbreak.ratings.result_words import FORFEIT_WORDS, FORMAT_WORDS
 
 NAMES = ("player_a", "player_b")
 
@@ -51,15 +51,6 @@ INSTEAD = {
 """What can take the place of a column: winner and loser, a score in one cell, who won which
 race, or who won each rack."""
 
-_FORFEIT = {
-    **dict.fromkeys(("yes", "y", "true", "t", "1", "x", "forfeit", "walkover", "wo"), True),
-    **dict.fromkeys(("no", "n", "false", "f", "0"), False),
-}
-_FORMATS = {
-    **{form + tail: code for code, form in enumerate(FORMATS) if form for tail in ("", "breaks")},
-    **dict.fromkeys(("alternating", "alternatingbreaks"), FORMATS.index("alternate")),
-}
-
 
 def results_columns(
     table: TextTable, names: PlayerNames, order: DateOrder | None = None
@@ -75,7 +66,7 @@ def results_columns(
         "player_a": a,
         "player_b": b,
         "date": dates(table, "date", order),
-        "forfeit": words(table, "forfeit", _FORFEIT, choices="yes or no", empty=False),
+        "forfeit": words(table, "forfeit", FORFEIT_WORDS, choices="yes or no", empty=False),
     }
     for name in ("score_a", "score_b"):
         columns[name] = whole_numbers(table, name, may_be_empty=True)
@@ -85,7 +76,7 @@ def results_columns(
     for name in ("winner", "first_break"):
         columns[name] = names.read_side(table, name, a, b)
     choices = "winner, loser, alternate, a or b"
-    columns["break_format"] = words(table, "break_format", _FORMATS, choices=choices, empty=0)
+    columns["break_format"] = words(table, "break_format", FORMAT_WORDS, choices=choices, empty=0)
     columns["racks"] = texts(table, "racks", _without_blanks)
     columns["event"] = texts(table, "event", partial(unicodedata.normalize, "NFC"))
     return columns

@@ -11,11 +11,11 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from evenbreak.files.cells import letters
 from evenbreak.files.date_cells import read_date
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import Texts, TextTable
 from evenbreak.matches.formats import BETWEEN
+from evenbreak.ratings.result_words import letters
 
 BY_WINNER = {
     "score": ("result", "final score", "match score"),

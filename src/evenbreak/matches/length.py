@@ -7,19 +7,25 @@ from typing import Any, overload
 import numpy as np
 
 from evenbreak.arrays import Floats
+from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import number_probability
+from evenbreak.errors import InputError
 from evenbreak.game import Game
 from evenbreak.games.match import Match, Score
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.game_odds import game_odds
 from evenbreak.matches.length_law import MatchLength
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.parameters import at_score, in_shape
+from evenbreak.matches.parameters import at_score, in_shape, rack_in
 
 
 @overload
 def match_length(
-    match: Match[float], score: Score | None = None, *, tail: float = 1e-12
+    match: Match[float],
+    score: Score | None = None,
+    *,
+    tail: float = 1e-12,
+    via: Way | None = None,
 ) -> MatchLength[float, float | None]: ...
 @overload
 def match_length(  # type: ignore[overload-overlap]  # a match is a game too
@@ -27,9 +33,11 @@ def match_length(  # type: ignore[overload-overlap]  # a match is a game too
 ) -> MatchLength[Floats, Floats]: ...
 @overload
 def match_length(
-    match: Game, score: Any = None, *, tail: float = 1e-12
+    match: Game, score: Any = None, *, tail: float = 1e-12, via: Way | None = None
 ) -> MatchLength[float, float | None]: ...
-def match_length(match: Game, score: Any = None, *, tail: float = 1e-12) -> MatchLength[Any, Any]:
+def match_length(
+    match: Game, score: Any = None, *, tail: float = 1e-12, via: Way | None = None
+) -> MatchLength[Any, Any]:
     """Return the distribution of the number of racks that `match` still takes.
 
     Parameters
@@ -44,11 +52,15 @@ def match_length(match: Game, score: Any = None, *, tail: float = 1e-12) -> Matc
         how much probability may be left out of the distribution if there is no longest
         length. It is cut off after 100,000 racks in any case (fewer for large arrays);
         `tail_mass` is what was left out.
+    via
+        the way, for plain numbers: 'kernel', or 'elimination' in the chain of the match's graph.
+        A length is no stochastic limit, so there is no way by eigenvectors of eigenvalue 1.
+        None: the kernel, or elimination for any other game, which has none.
 
     Raises
     ------
     InputError
-        if the score cannot be reached or `tail` is not a probability.
+        if the score cannot be reached, `tail` is not a probability, or there is no such way.
 
     Notes
     -----
@@ -63,9 +75,19 @@ def match_length(match: Game, score: Any = None, *, tail: float = 1e-12) -> Matc
     >>> round(length.mean, 9), length.span, length.tail_mass < 1e-12
     (4.0, 80, True)
     """
+    way = way_of_limit(via)
+    if way == "eigen":
+        raise InputError(
+            "via is 'eigen', but a length is not a stochastic limit; give 'kernel' or 'elimination'"
+        )
     if not isinstance(match, Match) and isinstance(match, Game):
+        if via == "kernel":
+            raise InputError("via is 'kernel', but a game of your own has none; use elimination")
         return game_odds(match, score, tail=tail).length
     match, shape = at_score(match, score)
+    if way is not None:
+        rack_in(match).of_numbers()
+        return game_odds(match, tail=tail).length
     tail = number_probability(tail, "tail")
     bounded = is_bounded(match)
     # A race of racks has too many scores for a chain, and no tail.

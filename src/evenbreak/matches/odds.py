@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.matches.parameters import checked_match, rack_in
@@ -47,7 +48,7 @@ class MatchOdds(NamedTuple):
     p_shutout_2: float | None
 
 
-def match_odds(match: Match) -> MatchOdds:
+def match_odds(match: Match, *, via: Way | None = None) -> MatchOdds:
     """Return the odds of `match`: who wins, how long it takes, how close it gets.
 
     Parameters
@@ -55,11 +56,15 @@ def match_odds(match: Match) -> MatchOdds:
     match
         a race or an n-ahead match, of racks, of sets or of a game of your own, with plain
         numbers as probabilities. For other games see `game_odds`.
+    via
+        the way to the chances (see `win_probability`). By 'elimination', mean and standard
+        deviation of the length come from the same chain; no eigenvector of eigenvalue 1 gives
+        a length, so with 'eigen' they come from the kernel, as the quantiles always do.
 
     Raises
     ------
     InputError
-        if the probabilities are arrays, or `match` is another game.
+        if the probabilities are arrays, `match` is another game, or there is no such way.
 
     Notes
     -----
@@ -70,7 +75,16 @@ def match_odds(match: Match) -> MatchOdds:
     >>> odds.p_win_1, odds.mean_games, odds.games_p50, odds.p_hill_hill, odds.p_shutout_1
     (0.5, 2.5, 2, 0.5, 0.25)
     """
-    match = checked_match(match)
+    way = way_of_limit(via)
+    odds = _by_kernel(checked_match(match))
+    if way is None:
+        return odds
+    from evenbreak.matches.by_limit import match_odds_by_limit
+
+    return odds._replace(**match_odds_by_limit(match, way))
+
+
+def _by_kernel(match: Match) -> MatchOdds:
     rack = rack_in(match).of_numbers()
     if isinstance(match, Race) and match.win_by == 1 and match.rack is rack:
         race = race_odds(match.m, match.n, rack, match.breaks, match.first_breaker, match.score)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
+from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import one_of, plain, probability, together, whole, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.game import Game
@@ -17,6 +18,7 @@ from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.matches.by_limit import odds_by_limit
 from evenbreak.matches.exact_win import exact_win, exact_win_of_game
 from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.own_games import ends_of_game
@@ -31,6 +33,7 @@ def win_probability(
     *,
     player: int = 1,
     exact: Literal[False] = False,
+    via: Way | None = None,
 ) -> float: ...
 @overload
 def win_probability(  # type: ignore[overload-overlap]  # a match is a game too
@@ -42,9 +45,21 @@ def win_probability(
 ) -> Fraction: ...
 @overload
 def win_probability(
-    match: Game, score: Any = None, *, player: int = 1, exact: Literal[False] = False
+    match: Game,
+    score: Any = None,
+    *,
+    player: int = 1,
+    exact: Literal[False] = False,
+    via: Way | None = None,
 ) -> float: ...
-def win_probability(match: Game, score: Any = None, *, player: int = 1, exact: bool = False) -> Any:
+def win_probability(
+    match: Game,
+    score: Any = None,
+    *,
+    player: int = 1,
+    exact: bool = False,
+    via: Way | None = None,
+) -> Any:
     """Return P(`player` wins the match).
 
     Parameters
@@ -64,6 +79,11 @@ def win_probability(match: Game, score: Any = None, *, player: int = 1, exact: b
     exact
         whether to calculate in fractions. A chance of the rack given as a `Fraction` is taken
         as it is, a float as the decimal that it prints: 0.6 is 3/5.
+    via
+        the way to a chance in plain numbers. 'kernel': the fast closed form or recursion of
+        this room. 'elimination', 'eigen': the stochastic limit of the game's graph, by
+        elimination or by eigenvectors (see `evenbreak.chains.limit_of`); the three agree to
+        1e-12. None: the kernel, or elimination for a game of your own, which has none.
 
     Returns
     -------
@@ -74,8 +94,10 @@ def win_probability(match: Game, score: Any = None, *, player: int = 1, exact: b
     Raises
     ------
     InputError
-        if the score cannot be reached, `match` is not a game, `player` is not one, or an
-        exact answer is asked for arrays.
+        if the score cannot be reached, `match` is not a game, `player` is not one, an exact
+        answer is asked for arrays, or there is no such way.
+    AccuracyError
+        by eigenvectors, if the error may be above 1e-12.
     GameError, ChainError
         as `game_odds` does, for a game of your own; also, with `exact`, if the moves from a
         state of it do not sum to exactly 1.
@@ -96,13 +118,21 @@ def win_probability(match: Game, score: Any = None, *, player: int = 1, exact: b
     >>> win_probability(OneBall(0.5, 0.25)), win_probability(Race(2, 2, OneBall(0.5, 0.25)))
     (0.8, 0.896)
     """
+    way = way_of_limit(via, exact=exact)
     if not isinstance(match, Match) and isinstance(match, Game):
         whole(player, "player", at_least=1)
+        if way is not None:
+            return odds_by_limit(match, way, score).p_win(player)
+        if via == "kernel":
+            raise InputError("via is 'kernel', but a game of your own has none; use elimination")
         ends = ends_of_game(match, score)
         return exact_win_of_game(ends, player) if exact else ends.p_win(player)
     one_of(player, "player", (1, 2))
     if exact and isinstance(match, Match):
         return exact_win(match if score is None else replace(match, score=score), player)
+    if way is not None and isinstance(match, Match):
+        match = match if score is None else replace(match, score=score)
+        return odds_by_limit(match, way).p_win(player)
     match, shape = at_score(match, score)
     return in_shape(_win(match, player), shape)
 

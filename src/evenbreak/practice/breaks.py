@@ -21,10 +21,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
+from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import number, plain
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
+from evenbreak.games.series import Series
 from evenbreak.practice.breakers import Breakers
 
 _SQUARABLE = 1e100
@@ -33,13 +35,15 @@ _SQUARABLE = 1e100
 
 @overload
 def long_run_share(
-    p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int = 1
+    p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int = 1, via: Way | None = None
 ) -> float: ...
 @overload
 def long_run_share(
     p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
 ) -> Floats: ...
-def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
+def long_run_share(
+    p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1, via: Way | None = None
+) -> Any:
     """Return the fraction of racks that player 1 wins in the long run; elementwise.
 
     Parameters
@@ -53,6 +57,9 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     first_breaker
         who breaks the first rack, 1 or 2. It matters only if the break never passes on: with
         p1 = p2 = 1 and winner breaks, for example, the first breaker wins every rack.
+    via
+        the way to a fraction in plain numbers: the formula ('kernel', or None), or the stochastic
+        limit of a `Series` by 'elimination' or 'eigen' (see `evenbreak.chains.limit_of`).
 
     Returns
     -------
@@ -63,7 +70,7 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     ------
     InputError
         if p1 or p2 is not a probability, their shapes do not broadcast, `breaks` is not a
-        break format, or `first_breaker` is not 1 or 2.
+        break format, `first_breaker` is not 1 or 2, or there is no such way.
 
     Notes
     -----
@@ -77,7 +84,23 @@ def long_run_share(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int 
     array([0.8333, 0.1667])
     """
     racks = Breakers.of(p1, p2, breaks)
+    if (way := way_of_limit(via)) is not None:
+        return _shares_by_limit(
+            Series(Rack(p1, p2), breaks=breaks, first_breaker=first_breaker), way
+        )[0]
     return plain(racks.won(first_breaker))
+
+
+def _shares_by_limit(series: Series, via: Way) -> tuple[float, float]:
+    """Return the fractions of racks that player 1 wins and loses."""
+    from evenbreak.chains.limit_of import limit_of  # the formulas do without scipy
+
+    broken, rack = limit_of(series, via=via), series.rack
+    win, lose = (
+        sum(broken.get(breaker, 0.0) * rack.chance(player, breaker) for breaker in (1, 2))
+        for player in (1, 2)
+    )
+    return win, lose
 
 
 @overload
@@ -184,7 +207,12 @@ class BreakFormatValue(NamedTuple):
 
 
 def compare_break_formats(
-    rack: Rack, *, win: float = 1, lose: float = 1, first_breaker: int = 1
+    rack: Rack,
+    *,
+    win: float = 1,
+    lose: float = 1,
+    first_breaker: int = 1,
+    via: Way | None = None,
 ) -> tuple[BreakFormatValue, ...]:
     """Return what each break format is worth, the best for player 1 first.
 
@@ -196,6 +224,8 @@ def compare_break_formats(
         the points that player 1 gains for each rack won, and loses for each rack lost.
     first_breaker
         who breaks the first rack; in formats where one player always breaks, that player does.
+    via
+        the way to the share of racks won, and so to the points, as for `long_run_share`.
 
     Returns
     -------
@@ -206,7 +236,8 @@ def compare_break_formats(
     Raises
     ------
     InputError
-        if `rack` is not a rack or holds arrays, or a stake is not a number, 0 or more.
+        if `rack` is not a rack or holds arrays, or a stake is not a number, 0 or more,
+        or there is no such way.
 
     Notes
     -----
@@ -224,21 +255,29 @@ def compare_break_formats(
     if not isinstance(rack, Rack):
         raise InputError(f"rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)")
     rack.of_numbers()
+    way = way_of_limit(via)
     wanted = "the points of a rack, 0 or more"
     prize = number(win, "win", low=0.0, wanted=wanted)
     price = number(lose, "lose", low=0.0, wanted=wanted)
     values = [
-        _value(name, rack, prize, price, {"player 1": 1, "player 2": 2}.get(name, first_breaker))
+        _value(
+            name, rack, prize, price, {"player 1": 1, "player 2": 2}.get(name, first_breaker), way
+        )
         for name in BREAK_FORMATS
     ]
     return tuple(sorted(values, key=lambda value: -round(value.share, 12)))
 
 
-def _value(name: str, rack: Rack, win: float, lose: float, first: int) -> BreakFormatValue:
+def _value(
+    name: str, rack: Rack, win: float, lose: float, first: int, via: Way | None
+) -> BreakFormatValue:
     p1, p2 = rack.p1, rack.chance(2, breaker=2)
     breaks = BREAK_FORMATS[name]
     racks = Breakers.of(p1, p2, breaks)
     share, loss = float(racks.won(first)), float(racks.lost(first))
+    if via is not None:
+        series = Series(Rack(p1, p2), breaks=breaks, first_breaker=first)
+        share, loss = _shares_by_limit(series, via)
     return BreakFormatValue(
         name=name,
         share=share,

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from evenbreak.chains.explore import chain_of
-from evenbreak.chains.limits import stochastic_limit
+from evenbreak.chains.limit_of import limit_of
+from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.games.drill import Drill
 from evenbreak.practice.levels import level_gains, level_lifts
 from evenbreak.stats.summary import Distribution
@@ -49,13 +49,21 @@ class DrillStatistics:
         return int(np.argmax(self.lift)) + 1 if any(self.lift) else None
 
 
-def drill_statistics(drill: Drill) -> DrillStatistics:
+def drill_statistics(drill: Drill, *, via: Way | None = None) -> DrillStatistics:
     """Return where a drill settles, and what practice at each level is worth.
 
     Parameters
     ----------
     drill
         P(success | an attempt at level i) for each level; the player begins at level 1.
+    via
+        the way to the distribution: the closed form for levels in a line ('kernel', or None),
+        'elimination' or 'eigen' (see `evenbreak.chains.limit_of`).
+
+    Raises
+    ------
+    InputError
+        if there is no such way.
 
     Notes
     -----
@@ -68,7 +76,7 @@ def drill_statistics(drill: Drill) -> DrillStatistics:
     >>> nine_ball.practise_next, round(nine_ball.gain[3], 1), round(nine_ball.lift[3], 3)
     (4, 2.3, 0.114)
     """
-    limit = stochastic_limit(chain_of(drill))
+    limit = limit_of(drill, via=way_of_limit(via))
     levels = range(1, len(drill.success) + 1)
     # The chain has only the levels that can be reached from level 1.
     law = np.array([limit.get(level, 0.0) for level in levels])

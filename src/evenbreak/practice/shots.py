@@ -23,9 +23,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
+from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import number_probability, one_of, plain, probability, together
 from evenbreak.errors import InputError
-from evenbreak.games.one_ball import OneBallLookAhead
+from evenbreak.game import Game
+from evenbreak.games.one_ball import OneBall, OneBallLookAhead
 
 LOOK_AHEADS = ("infinite", "two shots")
 """What is assumed after the first two shots: the same two for ever, or an even game."""
@@ -35,10 +37,12 @@ CHOICE_LOOK_AHEADS = (*LOOK_AHEADS, "all shots")
 
 
 @overload
-def one_ball_win(p1: float, p2: float, *, look_ahead: str = "infinite") -> float: ...
+def one_ball_win(
+    p1: float, p2: float, *, look_ahead: str = "infinite", via: Way | None = None
+) -> float: ...
 @overload
 def one_ball_win(p1: ArrayLike, p2: ArrayLike, *, look_ahead: str = "infinite") -> Floats: ...
-def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
+def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite", via: Way | None = None) -> Any:
     """Return P(player 1 wins the one-ball game), given that player 1 shoots first; elementwise.
 
     Parameters
@@ -51,6 +55,9 @@ def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     look_ahead
         "infinite": the first two shots are repeated until one is made; "two shots": after two
         misses each player wins with probability 1/2.
+    via
+        the way to a chance in plain numbers: the formula ('kernel', or None), or the stochastic
+        limit of the game's graph by 'elimination' or 'eigen' (see `evenbreak.chains.limit_of`).
 
     Returns
     -------
@@ -62,7 +69,7 @@ def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     ------
     InputError
         if p1 or p2 is not a probability, their shapes do not broadcast, or there is no such
-        look-ahead.
+        look-ahead or way.
 
     Notes
     -----
@@ -74,6 +81,9 @@ def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     array([0.46 , 0.545])
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
+    if (way := way_of_limit(via)) is not None:
+        endless = look_ahead == "infinite"
+        return _win_by_limit(OneBall(p1, p2) if endless else OneBallLookAhead([p1, p2]), way)
     first, second = probability(p1, "p1"), probability(p2, "p2")
     together(p1=first, p2=second)
     make, leave = np.broadcast_arrays(first, second)
@@ -84,8 +94,21 @@ def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite") -> Any:
     return plain(win)
 
 
-def look_ahead_win(game: OneBallLookAhead) -> float:
+def _win_by_limit(game: Game, via: Way) -> float:
+    from evenbreak.matches.by_limit import odds_by_limit  # the formulas do without scipy
+
+    return odds_by_limit(game, via).p_win(1)
+
+
+def look_ahead_win(game: OneBallLookAhead, *, via: Way | None = None) -> float:
     """Return P(player 1 wins), given the chances of the next n shots and what follows them.
+
+    Parameters
+    ----------
+    game
+        the chances.
+    via
+        the way, as for `one_ball_win`.
 
     Notes
     -----
@@ -94,6 +117,8 @@ def look_ahead_win(game: OneBallLookAhead) -> float:
     >>> round(look_ahead_win(OneBallLookAhead([0.4, 0.8, 0.5])), 6)
     0.49
     """
+    if (way := way_of_limit(via)) is not None:
+        return _win_by_limit(game, way)
     win = game.after
     for shot in range(len(game.shots), 0, -1):
         made = game.shots[shot - 1]
@@ -220,15 +245,15 @@ class ShotChoice:
             return "must-make" if self.p2 >= 0.5 else "two-way shot"
         return "sell-out" if self.p2 >= 0.5 else "safety"
 
-    def win(self, look_ahead: str = "infinite") -> float:
+    def win(self, look_ahead: str = "infinite", *, via: Way | None = None) -> float:
         """Return P(player 1 wins the game | player 1 takes this shot), see `one_ball_win`.
 
         With "all shots", the shots of `later` follow, and the game is even after the last.
         """
         one_of(look_ahead, "look_ahead", CHOICE_LOOK_AHEADS)
         if look_ahead == "all shots":
-            return look_ahead_win(OneBallLookAhead([self.p1, self.p2, *self.later]))
-        return float(one_ball_win(self.p1, self.p2, look_ahead=look_ahead))
+            return look_ahead_win(OneBallLookAhead([self.p1, self.p2, *self.later]), via=via)
+        return float(one_ball_win(self.p1, self.p2, look_ahead=look_ahead, via=via))
 
     def break_even_p2(self, win: float, look_ahead: str = "infinite") -> float | None:
         """Return the p2 with which this shot wins with chance `win`, as `break_even_p2` does."""
@@ -253,7 +278,7 @@ class RankedShot(NamedTuple):
 
 
 def compare_shots(
-    shots: Iterable[ShotChoice], *, look_ahead: str = "infinite"
+    shots: Iterable[ShotChoice], *, look_ahead: str = "infinite", via: Way | None = None
 ) -> tuple[RankedShot, ...]:
     """Return the shots by the chance of winning the game with each, the best first.
 
@@ -266,11 +291,13 @@ def compare_shots(
     look_ahead
         as for `ShotChoice.win`. With infinite look-ahead the best shot is also the best for a
         player who may choose again after every miss, as the chances stay the same.
+    via
+        the way to the chances of winning, as for `one_ball_win`.
 
     Raises
     ------
     InputError
-        if there is no shot, or no such look-ahead.
+        if there is no shot, or no such look-ahead or way.
 
     Notes
     -----
@@ -286,10 +313,12 @@ def compare_shots(
     for shot in shots:
         if not isinstance(shot, ShotChoice):
             raise InputError(f"a shot is {shot!r}; give ShotChoice(name, p1, p2)")
-    ranked = sorted(shots, key=lambda shot: -round(shot.win(look_ahead), 12))
+    by_win = [(shot, shot.win(look_ahead, via=via)) for shot in shots]
+    by_win.sort(key=lambda one: -round(one[1], 12))
+    ranked = [shot for shot, _ in by_win]
     if not ranked:
         raise InputError("shots is empty; give at least one ShotChoice")
-    wins = [shot.win(look_ahead) for shot in ranked]
+    wins = [win for _, win in by_win]
     best = max(wins)
     rivals = [wins[1] if len(wins) > 1 else None] + [wins[0]] * (len(wins) - 1)
     return tuple(

@@ -10,7 +10,7 @@ from scipy.special import expit, log_expit, logit, logsumexp
 
 from evenbreak.arrays import Floats
 from evenbreak.ratings.calibration import Estimate, logistic_coefficient, two_sided, with_error
-from evenbreak.ratings.results_frame import FORMATS
+from evenbreak.ratings.result_words import FORMATS
 from evenbreak.ratings.walk_forward import NODES, Forecasts
 from evenbreak.ratings.who_broke import breakers
 

@@ -12,6 +12,7 @@ from datetime import date, datetime
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from evenbreak.errors import DataError
+from evenbreak.ratings.result_words import FORFEIT_WORDS, FORMAT_WORDS, LARGEST_WHOLE, letters
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -20,16 +21,9 @@ Meaning = TypeVar("Meaning")
 
 NAMES, SCORES, RACES = ("player_a", "player_b"), ("score_a", "score_b"), ("race_a", "race_b")
 SIDES = ("winner", "first_break")
-FORMATS = ("", "winner", "loser", "alternate", "a", "b")
-"""Break formats in the order of their codes in `Results.break_format`; 0 is not stated."""
 _OTHERS = ("date", "break_format", "racks", "event", "forfeit")
 COLUMNS = (*NAMES, *SCORES, *RACES, *SIDES, *_OTHERS)
-_LARGEST = 1_000_000
 _MOST_PROBLEMS = 20
-_ANSWERS = {
-    **dict.fromkeys((True, 1, "yes", "y", "true", "x"), True),
-    **dict.fromkeys((False, 0, "no", "n", "false"), False),
-}
 
 
 class FrameReader:
@@ -48,11 +42,11 @@ class FrameReader:
 
     def _found(self, frame: pd.DataFrame) -> dict[str, list[Any]]:
         """Return the cells of each known column; None for empty cells."""
-        known = {_letters(name): name for name in COLUMNS}
+        known = {letters(name): name for name in COLUMNS}
         found: dict[str, list[Any]] = {}
         unused = []
         for place, title in enumerate(frame.columns):
-            name = known.get(_letters(str(title)))
+            name = known.get(letters(str(title)))
             if name is None:
                 unused.append(str(title))
             elif name in found:
@@ -169,10 +163,6 @@ def _unscored(reader: FrameReader, columns: dict[str, Any]) -> list[bool]:
     return unscored
 
 
-def _letters(title: str) -> str:
-    return "".join(letter for letter in title.casefold() if letter.isalnum())
-
-
 def _name(cell: Any) -> str | None:
     return " ".join(cell.split()) if isinstance(cell, str) else None
 
@@ -185,14 +175,13 @@ def _count(cell: Any) -> int | None:
         same = str(number) == cell.strip() if isinstance(cell, str) else number == cell
     except (TypeError, ValueError, OverflowError):
         return None
-    return number if same and 0 <= number <= _LARGEST else None
+    return number if same and 0 <= number <= LARGEST_WHOLE else None
 
 
 def _answer(cell: Any) -> bool | None:
-    try:
-        return _ANSWERS.get(cell.strip().casefold() if isinstance(cell, str) else cell)
-    except TypeError:
-        return None
+    if isinstance(cell, str):
+        return FORFEIT_WORDS.get(letters(cell))
+    return bool(cell) if isinstance(cell, int | float) and cell in (0, 1) else None
 
 
 def _day(cell: Any) -> str | None:
@@ -205,8 +194,7 @@ def _day(cell: Any) -> str | None:
 
 
 def _format(cell: Any) -> int | None:
-    text = cell.strip().casefold().removesuffix(" breaks") if isinstance(cell, str) else ""
-    return FORMATS.index(text) if text in FORMATS[1:] else None
+    return FORMAT_WORDS.get(letters(cell)) if isinstance(cell, str) else None
 
 
 def _racks(cell: Any) -> str | None:

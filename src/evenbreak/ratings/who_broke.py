@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.errors import InputError
 from evenbreak.ratings.own_break_wins import BreakWinsTerms, break_wins
+from evenbreak.ratings.result_words import FORMATS
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.results_frame import FORMATS
 
 _A, _B = FORMATS.index("a"), FORMATS.index("b")
 

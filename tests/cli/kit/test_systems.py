@@ -44,3 +44,28 @@ def test_a_chart_of_another_scale_is_a_warning_and_one_of_skill_levels_is_refuse
     assert chart_for(on_scale(NPL, SCALES["fargo"]), "fargo_r6_hot")[1] == []
     with pytest.raises(click.UsageError, match="'apa_8ball'"):
         chart_for(NPL, "apa_8ball")
+
+
+LEVELS = "Name,Skill Level\nAnn,7\nBob,4\nCy,5\n"
+NIGHT = "player_a,player_b,games_a,games_b\nAnn,Bob,7,3\n"
+
+
+@pytest.mark.parametrize(
+    ("command", "has_scale"),
+    [
+        (("simulate", "{roster}", "--replicas", "20", "--no-matches", "--out", "{out}"), True),
+        (("ladder", "--league", "{roster}"), True),
+        (("sandbag", "watch", "{night}", "--roster", "{roster}"), False),
+        (("rate", "{night}", "--system", "npl", "--roster", "{roster}"), False),
+    ],
+)
+def test_skill_levels_are_not_taken_as_points(run, tmp_path, command, has_scale):
+    (tmp_path / "apa.csv").write_text(LEVELS, encoding="utf-8")
+    (tmp_path / "night.csv").write_text(NIGHT, encoding="utf-8")
+    places = {"roster": "apa.csv", "night": "night.csv", "out": "season"}
+    asked = [part.format_map({k: tmp_path / v for k, v in places.items()}) for part in command]
+    refused = run(*asked)
+    assert refused.exit_code == 2
+    assert "skill levels" in refused.stderr
+    if has_scale:
+        assert "skill levels" not in run(*asked, "--scale", "2").stderr

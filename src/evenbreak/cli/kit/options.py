@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 import click
 
+from evenbreak.chains.ways import WAYS
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Whole, meant, refuse
 from evenbreak.errors import InputError
@@ -105,6 +106,15 @@ def chart_option(
 ) -> Decorator[Any]:
     """Return the option --chart; `what` says what the chart is for."""
     return click.option("--chart", metavar="NAME|FILE", help=what)
+
+
+via_option = click.option(
+    "--via",
+    type=click.Choice(list(WAYS)),
+    help="The way to the answer: the fast formula (kernel), or the game's graph and matrix, by "
+    "elimination of states or by eigenvectors. They are compared.",
+)
+"""The option --via of the commands that answer for a chain."""
 
 
 def _folder(ctx: click.Context, param: click.Parameter, value: str) -> str:  # noqa: ARG001

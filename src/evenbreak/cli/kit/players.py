@@ -64,7 +64,9 @@ def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers
         refuse(f"--from needs two players, and {len(names)} are named; quote a name with blanks")
     file = read_roster(path)
     if scale is not None:
-        refuse_other_scale(file, scale, "--scale", "leave --scale out, or correct the file")
+        refuse_other_scale(
+            file, scale, "--scale", "leave --scale out, or correct the file", stated=True
+        )
     elif file.scale is None:
         refuse_levels(file, "say with --scale how many levels double the odds")
     roster = file.roster
@@ -88,6 +90,15 @@ def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers
         names=(roster.players[a], roster.players[b]),
         errors=(errors[a], errors[b]),
     )
+
+
+def refuse_uncertain(players: TwoPlayers) -> None:
+    """Refuse --via where chances are averaged over the errors of ratings: they are no limit."""
+    if players.error:
+        refuse(
+            "--via is for one chain, but with --from the answer is an average over how far the "
+            "ratings may be off; give the two ratings as numbers"
+        )
 
 
 from_option = click.option(

@@ -56,9 +56,14 @@ def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:
 
 
 def refuse_other_scale(
-    file: files.RosterFile | files.LeagueFile, scale: Scale, whose: str, remedy: str
+    file: files.RosterFile | files.LeagueFile,
+    scale: Scale,
+    whose: str,
+    remedy: str,
+    *,
+    stated: bool = False,
 ) -> None:
-    """Refuse a list that states another scale for its ratings.
+    """Refuse a list whose ratings are on another scale, or are skill levels.
 
     Parameters
     ----------
@@ -68,6 +73,8 @@ def refuse_other_scale(
         the scale by which the ratings would be read, and where it comes from.
     remedy
         what to do about it.
+    stated
+        whether the user stated the scale, which may then be one of skill levels.
     """
     from evenbreak.answers.scale_words import scale_words
 
@@ -76,9 +83,11 @@ def refuse_other_scale(
             f"{file.source} states that its ratings are {scale_words(file.scale)}, but {whose} is "
             f"{scale_words(scale)}; {remedy}"
         )
+    if file.scale is None and not stated:
+        refuse_levels(file, f"{whose} needs ratings in points; {remedy}")
 
 
-def refuse_levels(file: files.RosterFile, remedy: str) -> None:
+def refuse_levels(file: files.RosterFile | files.LeagueFile, remedy: str) -> None:
     """Refuse a list of skill levels where ratings in points are needed."""
     if file.levels:
         refuse(

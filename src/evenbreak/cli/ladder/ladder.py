@@ -10,7 +10,7 @@ import click
 from evenbreak import handicaps
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import chart_option, scale_option
+from evenbreak.cli.kit.options import chart_option, scale_option, via_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.systems import chart_for, on_scale, system_option
 from evenbreak.cli.kit.terminal import say
@@ -117,6 +117,7 @@ Examples:
 )
 @click.option("--newcomer", is_flag=True, help="Use the system's longer steps for newcomers.")
 @click.option("--compare", is_flag=True, help="Compare systems, charts and step sizes.")
+@via_option
 @plot_option
 @faces()
 def command(chart: str | None, *, compare: bool, plot: str | None, **asked: Any) -> Answer:
@@ -213,7 +214,7 @@ def _question(ladder: handicaps.Ladder, asked: dict[str, Any], opponents: str) -
             f"in the system {ladder.system.name} newcomers move like everybody else; leave "
             "--newcomer out, or use --system npl"
         )
-    return LadderQuestion(start, within, asked["newcomer"], opponents)
+    return LadderQuestion(start, within, asked["newcomer"], opponents, asked["via"])
 
 
 def _draw(found: LadderFindings, title: str, path: str) -> None:

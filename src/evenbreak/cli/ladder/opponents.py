@@ -25,7 +25,9 @@ def opponents_of_options(
     if asked["skill"] is not None and asked["league"] is None:
         refuse("--skill is the player's own in a league; give --league ROSTER.csv, or leave it out")
     if asked["league"] is not None:
-        opponents, warnings = _of_league(asked["league"], asked["skill"], scale)
+        opponents, warnings = _of_league(
+            asked["league"], asked["skill"], scale, stated=asked.get("scale") is not None
+        )
         return opponents, "league", warnings
     if asked["autocorrelated"]:
         return handicaps.AUTOCORRELATED, "autocorrelated", []
@@ -34,7 +36,9 @@ def opponents_of_options(
     return handicaps.NATURAL, "natural", []
 
 
-def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[handicaps.Opponents, list[str]]:
+def _of_league(
+    path: str, skill: int | None, scale: Scale, *, stated: bool
+) -> tuple[handicaps.Opponents, list[str]]:
     """Return opponents drawn from the rated players of a list, or refuse a skill far from them."""
     import numpy as np
 
@@ -42,7 +46,7 @@ def _of_league(path: str, skill: int | None, scale: Scale) -> tuple[handicaps.Op
     from evenbreak.errors import DataError
 
     file = files.read_roster(path)
-    refuse_other_scale(file, scale, "the ladder", "set it with --scale")
+    refuse_other_scale(file, scale, "the ladder", "set the scale with --scale", stated=stated)
     ratings = file.roster.rating[~np.isnan(file.roster.rating)]
     if not len(ratings):
         raise DataError([f"{file.source}: no player has a rating; write one for each player"])

@@ -178,7 +178,9 @@ def _scale_of_list(
 ) -> tuple[Scale, handicaps.LevelScale | None]:
     """Return the scale of the ratings, and what skill levels are worth if the chart says it."""
     if stated is not None:
-        refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
+        refuse_other_scale(
+            file, stated, "--scale", "leave --scale out, or correct the file", stated=True
+        )
         return stated, None
     if file.scale is not None:
         return file.scale, None

@@ -57,7 +57,13 @@ def season_of_options(
     from evenbreak.answers.scale_doubts import league_doubts
 
     system = on_scale(played["system"], played["scale"])
-    refuse_other_scale(file, system.scale, f"the system {system.name}", "set it with --scale")
+    refuse_other_scale(
+        file,
+        system.scale,
+        f"the system {system.name}",
+        "set the scale with --scale",
+        stated=played["scale"] is not None,
+    )
     chart, of_chart = chart_for(system, played["chart"])
     schedule, weeks, of_schedule = _schedule(file, played)
     play = "racks" if played["racks"] else "matches"

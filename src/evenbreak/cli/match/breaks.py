@@ -3,8 +3,9 @@
 import click
 
 from evenbreak.answers.answer import Answer
+from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand
+from evenbreak.cli.kit.options import PlainCommand, via_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, Number
 from evenbreak.games.rack import Rack
@@ -45,10 +46,17 @@ Examples:
     default="a",
     help="Who breaks the first rack; it matters only if the break never passes on.",
 )
+@via_option
 @plot_option
 @faces()
 def command(
-    p1: float, p2: float, win: float, lose: float, first_break: str, plot: str | None
+    p1: float,
+    p2: float,
+    win: float,
+    lose: float,
+    first_break: str,
+    via: Way | None,
+    plot: str | None,
 ) -> Answer:
     """Compare break formats for two players in the long run, the best for A first.
 
@@ -63,4 +71,4 @@ def command(
         from evenbreak.plots.break_formats import breaks_figure
 
         write_plot(breaks_figure(rack, first_breaker=first), plot)
-    return breaks_answer(rack, win=win, lose=lose, first_breaker=first)
+    return breaks_answer(rack, win=win, lose=lose, first_breaker=first, via=via)

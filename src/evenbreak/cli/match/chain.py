@@ -6,7 +6,9 @@ import click
 
 from evenbreak import chains, files
 from evenbreak.answers.answer import Answer
+from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import via_option
 from evenbreak.errors import DataError
 
 EXAMPLES = """\b
@@ -14,6 +16,7 @@ Examples:
   evenbreak chain arcs.csv
   evenbreak chain arcs.csv --start S2 --json
   evenbreak chain arcs.csv --steps 10
+  evenbreak chain arcs.csv --via eigen
 """
 
 
@@ -26,8 +29,9 @@ Examples:
     metavar="N",
     help="Also give the probabilities after N steps; CSV then has only these.",
 )
+@via_option
 @faces()
-def command(arcs: str, start: str | None, steps: int | None) -> Answer:
+def command(arcs: str, start: str | None, steps: int | None, via: Way | None) -> Answer:
     """Find where any Markov chain ends, or its long-run average, from a file of arcs.
 
     The columns of ARCS.csv are source, target and probability; - reads standard input.
@@ -46,4 +50,4 @@ def command(arcs: str, start: str | None, steps: int | None) -> Answer:
     chain = chains.chain_from_arrays(
         file.states, file.sources, file.targets, file.probabilities, start=start
     )
-    return chain_answer(chain, steps=steps, warnings=file.warnings)
+    return chain_answer(chain, steps=steps, warnings=file.warnings, via=via)

@@ -5,13 +5,17 @@ from typing import Any
 import click
 
 from evenbreak.answers.answer import Answer
+from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand, race_limit_options, refuse_both
-from evenbreak.cli.kit.players import player_options, players_of
+from evenbreak.cli.kit.options import PlainCommand, race_limit_options, refuse_both, via_option
+from evenbreak.cli.kit.players import player_options, players_of, refuse_uncertain
 from evenbreak.cli.kit.values import CHANCE, Whole, refuse
 
 MOST = 300
 """The most races that are listed, so that every answer takes seconds."""
+
+MOST_GRAPHS, MOST_GAMES = 20, 99
+"""The most races whose graph is built with --via, and the most games in them."""
 
 EXAMPLES = """\b
 Examples:
@@ -39,12 +43,14 @@ Examples:
     default=5,
     help="How many races to list.",
 )
+@via_option
 @faces()
 def command(
     games: tuple[int, int] | None,
     race_to: int | None,
     target: float,
     top: int,
+    via: Way | None,
     **who: Any,
 ) -> Answer:
     """Find the fairest races for two players, the fairest first.
@@ -60,6 +66,9 @@ def command(
     if games is None and race_to is None:
         refuse("the length of the race is missing; give --games LO..HI or --race-to N")
     limits: Any = {"games": games, "race_to": race_to, "target": target, "top": top}
+    if via is not None:
+        refuse_uncertain(players)
+        _refuse_many(games, race_to, top)
     if players.error:
         from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
 
@@ -71,6 +80,17 @@ def command(
             players.rack,
             breaks=players.break_format,
             first_breaker=players.first_breaker,
+            via=via,
             **limits,
         )
-    return fair_answer(players, races, target=target)
+    return fair_answer(players, races, target=target, via=via)
+
+
+def _refuse_many(games: tuple[int, int] | None, race_to: int | None, top: int) -> None:
+    """Refuse to build so many graphs, or such large ones, that it would take minutes."""
+    longest = games[1] if games is not None else 2 * (race_to or 1) - 1
+    if longest > MOST_GAMES or top > MOST_GRAPHS:
+        refuse(
+            f"--via builds the graph of each race listed; ask for at most {MOST_GRAPHS} races of "
+            f"at most {MOST_GAMES} games"
+        )

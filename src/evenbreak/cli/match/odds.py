@@ -5,9 +5,10 @@ from typing import Any
 import click
 
 from evenbreak.answers.answer import Answer
+from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand
-from evenbreak.cli.kit.players import player_options
+from evenbreak.cli.kit.options import PlainCommand, via_option
+from evenbreak.cli.kit.players import player_options, refuse_uncertain
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
 
@@ -19,6 +20,7 @@ Examples:
   evenbreak odds --p1 0.6 --p2 0.5 --breaks winner --race 9:9 --score 4:6
   evenbreak odds --p 0.66 --race 3:1 --set 3:3
   evenbreak odds --p 0.6 --race 5:4 --exact
+  evenbreak odds --p 0.6 --race 5:4 --via eigen
 """
 
 
@@ -30,8 +32,9 @@ Examples:
     is_flag=True,
     help="Also give the chances of winning as fractions; needs --p, or --p1 and --p2.",
 )
+@via_option
 @faces()
-def command(*, exact: bool, **asked: Any) -> Answer:
+def command(*, exact: bool, via: Way | None, **asked: Any) -> Answer:
     """Give the odds of a match, and how long it lasts.
 
     Describe the players by two ratings A B, by two names with --from, by --p, or by --p1, --p2 and
@@ -42,6 +45,15 @@ def command(*, exact: bool, **asked: Any) -> Answer:
     players, match = match_of(**asked)
     if exact and players.ratings is not None:
         refuse("--exact needs the chances themselves: give --p, or --p1 and --p2, not ratings")
-    if exact or getattr(match, "win_by", 0) != 1 or match.rack is not players.rack:
+    if exact and via is not None:
+        refuse("--exact has a way of its own; leave --via out")
+    if via is not None:
+        refuse_uncertain(players)
+    if (
+        exact
+        or via is not None
+        or getattr(match, "win_by", 0) != 1
+        or match.rack is not players.rack
+    ):
         refuse_giants(match)  # all but plain races in plain numbers
-    return odds_answer(players, match, exact=exact)
+    return odds_answer(players, match, exact=exact, via=via)

@@ -6,8 +6,9 @@ import click
 
 from evenbreak import plots, practice
 from evenbreak.answers.answer import Answer
+from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand
+from evenbreak.cli.kit.options import PlainCommand, via_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, numbers, refuse
 
@@ -52,6 +53,7 @@ _chances = numbers(
     help="Rank by the first two shots repeated until one is made, or by the first two or all of "
     "the shots, after which the game is even.  [default: all if there is a P3, else infinite]",
 )
+@via_option
 @plot_option
 @faces()
 def command(
@@ -60,6 +62,7 @@ def command(
     later: tuple[float, ...],
     others: tuple[tuple[float, ...], ...],
     look_ahead: str | None,
+    via: Way | None,
     plot: str | None,
 ) -> Answer:
     """Choose the best shot in the one-ball game, and give your odds of winning it.
@@ -81,4 +84,4 @@ def command(
         refuse("--plot draws two chances a shot; add --look-ahead infinite or two")
     if plot is not None:
         write_plot(plots.shots_figure(shots, look_ahead=ahead), plot)
-    return oneball_answer(shots, look_ahead=ahead)
+    return oneball_answer(shots, look_ahead=ahead, via=via)

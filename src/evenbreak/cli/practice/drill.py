@@ -6,8 +6,9 @@ import click
 
 from evenbreak import files, games, practice
 from evenbreak.answers.answer import Answer
+from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import drill_option, seed_option
+from evenbreak.cli.kit.options import drill_option, seed_option, via_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import CHANCE, Whole, numbers, refuse
 from evenbreak.games.drill import EIGHT_BALL_LEVELS
@@ -66,6 +67,7 @@ _chances = numbers(
 )
 @drill_option
 @seed_option(f"The seed of the simulations that test a log.  [default: {SEED}]", default=None)
+@via_option
 @plot_option
 @faces()
 def command(
@@ -76,6 +78,7 @@ def command(
     levels: int | None,
     drill: str | None,
     seed: int | None,
+    via: Way | None,
     plot: str | None,
 ) -> Answer:
     """Find where a progressive drill settles, and which level to practise.
@@ -96,6 +99,8 @@ def command(
         refuse("--seed is for the tests of --log; leave it out")
     if log is None and drill is not None:
         refuse("--drill names a drill of --log; leave it out")
+    if log is not None and via is not None:
+        refuse("--via is for a drill of known chances; leave it out with --log")
     if log is not None:
         return _log(log, levels, drill, SEED if seed is None else seed, plot)
     from evenbreak.answers.drill import drill_answer
@@ -112,12 +117,12 @@ def command(
     else:
         played = games.Drill.progressive(p, LEVELS["9-ball"] if levels is None else levels)
         description = f"A drill in which level i takes i - 1 good shots, each with chance {p:g}"
-    statistics = practice.drill_statistics(played)
+    statistics = practice.drill_statistics(played, via=via)
     if plot is not None:
         from evenbreak.plots.drills import drill_figure
 
         write_plot(drill_figure(statistics), plot)
-    return drill_answer(statistics, description)
+    return drill_answer(statistics, description, via=via)
 
 
 def _log(path: str, levels: int | None, drill: str | None, seed: int, plot: str | None) -> Answer:

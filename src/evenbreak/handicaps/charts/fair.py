@@ -8,10 +8,11 @@ next where the break matters; so all races that can last L games follow from tho
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from heapq import nsmallest
 from typing import NamedTuple
 
+from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import one_of, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat
@@ -74,6 +75,7 @@ def fair_races(
     top: int = 5,
     breaks: BreakFormat | None = None,
     first_breaker: int = 1,
+    via: Way | None = None,
 ) -> list[FairRace]:
     """Return the races in which player 1's chance is nearest to `target`, the nearest first.
 
@@ -95,6 +97,9 @@ def fair_races(
         who breaks next; needed with Rack(p1, p2).
     first_breaker
         who breaks the first game, 1 or 2.
+    via
+        the way to `p_win_1` of the races returned, as for `win_probability`; they are chosen by
+        the kernel.
 
     Returns
     -------
@@ -106,6 +111,8 @@ def fair_races(
     ------
     InputError
         if a parameter is out of range, or not exactly one of `games` and `race_to` is given.
+    AccuracyError
+        by eigenvectors, if the error may be above 1e-12.
 
     Notes
     -----
@@ -126,12 +133,29 @@ def fair_races(
     one_of(first_breaker, "first_breaker", (1, 2))
     target, top = probability(target, "target"), whole(top, "top", at_least=1)
     low, high = longest_matches(games, race_to)
+    way = way_of_limit(via)
     fixed = None if race_to is None else _Fixed(_stronger(rack), low)
     rows = _win_rows(rack, high, breaks, first_breaker)
-    return [
+    races = [
         _describe(rack, m, n, breaks, first_breaker)
         for _, _, m, n in _nearest(rows, low, fixed, target, top)[:top]
     ]
+    return (
+        races
+        if way is None
+        else [_by_limit(race, rack, breaks, first_breaker, way) for race in races]
+    )
+
+
+def _by_limit(
+    race: FairRace, rack: Rack, breaks: BreakFormat | None, first_breaker: int, via: Way
+) -> FairRace:
+    """Return the same race with its chance by the limit of its graph."""
+    from evenbreak.games.race import Race
+    from evenbreak.matches.by_limit import odds_by_limit
+
+    played = Race(race.race_1, race.race_2, rack, breaks=breaks, first_breaker=first_breaker)
+    return replace(race, p_win_1=odds_by_limit(played, via).p_win(1))
 
 
 def _stronger(rack: Rack) -> int:

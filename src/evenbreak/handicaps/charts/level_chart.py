@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Ints
-from evenbreak.checks import together, whole, whole_numbers
+from evenbreak.checks import increasing, together, whole, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.rows import catalogue_rows
 
@@ -50,12 +49,9 @@ class LevelChart:
     needs: Sequence[Sequence[int]]
 
     def __post_init__(self) -> None:
-        levels = tuple(whole(level, f"level {i}") for i, level in enumerate(self.levels, 1))
+        levels = increasing(self.levels, "level")
         if not levels:
             raise InputError("levels is empty; give the skill levels of the chart")
-        for below, above in pairwise(levels):
-            if below >= above:
-                raise InputError(f"level {above} comes after {below}; give increasing levels")
         object.__setattr__(self, "levels", levels)
         object.__setattr__(self, "needs", _needs(self.needs, levels))
 

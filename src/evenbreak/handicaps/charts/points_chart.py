@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import pairwise
 from typing import Any
 
-from evenbreak.checks import whole
+from evenbreak.checks import increasing, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.rows import catalogue_rows
 
@@ -44,18 +43,12 @@ class PointsChart:
     points: Sequence[int]
 
     def __post_init__(self) -> None:
-        levels = tuple(whole(one, f"level {i}") for i, one in enumerate(self.levels, 1))
-        points = tuple(
-            whole(one, f"points of row {i}", at_least=1) for i, one in enumerate(self.points, 1)
-        )
+        levels = increasing(self.levels, "level")
+        points = increasing(self.points, "points", at_least=1)
         if not levels or len(levels) != len(points):
             raise InputError(
                 f"there are {len(levels)} levels and {len(points)} points; give one for each"
             )
-        for name, values in (("level", levels), ("points", points)):
-            for below, above in pairwise(values):
-                if below >= above:
-                    raise InputError(f"{name} {above} comes after {below}; give larger and larger")
         object.__setattr__(self, "levels", levels)
         object.__setattr__(self, "points", points)
 

@@ -15,6 +15,8 @@ import numpy as np
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.chains.birth_death import birth_death_law
+from evenbreak.chains.limit_of import limit_of
+from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import number_probabilities
 from evenbreak.errors import InputError
 from evenbreak.game import ArcArrays
@@ -82,15 +84,36 @@ class ErrorWalk:
         sources, targets = np.nonzero(chances)
         return ArcArrays(self.errors.tolist(), sources, targets, chances[sources, targets])
 
-    def law(self) -> Distribution:
+    def law(self, *, via: Way | None = None) -> Distribution:
         """Return the distribution of the rating error in the long run: the stochastic limit.
 
         If all moves are multiples of g points, no match takes an error from one remainder
         modulo g to another. The skill has nothing to do with g, so each remainder is equally
         likely at the start; the result is the average of the g limits.
+
+        Parameters
+        ----------
+        via
+            the way: the closed form or banded elimination of this room ('kernel', or None), or
+            the limit of the ladder as a game by 'elimination' or 'eigen' (see
+            `evenbreak.chains.limit_of`).
         """
-        chances = long_run_law(self.steps, self.kernel)
+        way = way_of_limit(via)
+        chances = long_run_law(self.steps, self.kernel) if way is None else self._law_by_limit(way)
         return Distribution(tuple(self.errors.tolist()), tuple(chances.tolist()))
+
+    def _law_by_limit(self, via: Way) -> Floats:
+        """Return the average of the limits of all remainders, shape (errors,)."""
+        used = (self.kernel > 0.0).any(axis=0)
+        unit, errors = math.gcd(*self.steps[used].tolist()), self.errors
+        if unit == 0:
+            raise _no_moves()
+        law = np.zeros(len(errors))
+        for first in range(unit):
+            same = errors[(len(errors) // 2 + first) % unit :: unit]
+            limit = limit_of(self, start=int(same[len(same) // 2]), via=via)
+            law[np.array(limit.states) + len(errors) // 2] += limit.probability / unit
+        return law
 
 
 @dataclass(frozen=True)
@@ -161,12 +184,16 @@ def long_run_law(steps: Ints, kernel: Floats) -> Floats:
     unit = math.gcd(*steps.tolist())
     law = np.zeros(len(kernel))
     if unit == 0:
-        raise InputError("no match moves a rating; give a system that moves them by whole points")
+        raise _no_moves()
     middle = len(kernel) // 2
     for first in range(unit):
         places = slice((middle + first) % unit, None, unit)
         law[places] = _law_of_class(steps // unit, kernel[places]) / unit
     return law
+
+
+def _no_moves() -> InputError:
+    return InputError("no match moves a rating; give a system that moves them by whole points")
 
 
 def _law_of_class(steps: Ints, kernel: Floats) -> Floats:

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.arrays import Floats, Ints
+from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import number, whole
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -191,7 +192,7 @@ class Ladder(ErrorWalk):
         """The largest change of a probability in each round, until nothing changed."""
         return self._long_run.changes
 
-    def law(self) -> Distribution:
+    def law(self, *, via: Way | None = None) -> Distribution:
         """Return the distribution of the rating error in the long run: the stochastic limit.
 
         The player's skill stays the same except for the drift. If all moves are multiples of g
@@ -199,13 +200,21 @@ class Ladder(ErrorWalk):
         nothing to do with g, so each remainder is equally likely at the start; the result is the
         average of the g limits.
 
+        Parameters
+        ----------
+        via
+            the way from the chances of each move to the limit: the closed form or banded
+            elimination of this room ('kernel', or None), or the limit of the ladder as a game by
+            'elimination' or 'eigen' (see `evenbreak.chains.limit_of`).
+
         Raises
         ------
         AccuracyError
             if the opponents' self-consistent distribution does not converge, or if more than a
             tenth of the ratings are at the ends of the line, so that only the width holds them.
         """
-        law = self._long_run.law
+        way = way_of_limit(via)
+        law = self._long_run.law if way is None else self._law_by_limit(way)
         held = _at_the_ends(law)
         if held > _MOST_HELD:
             raise AccuracyError(

@@ -1,0 +1,111 @@
+"""Who wins a game, read off the stochastic limit of its graph.
+
+Every kernel of this room has to give the same chances; `via` on its functions leads here.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from evenbreak.chains.explore import chain_of
+from evenbreak.chains.limit_of import limit_of
+from evenbreak.chains.limits import Limit
+from evenbreak.chains.passage_times import steps_to_absorption
+from evenbreak.games.match import Match
+from evenbreak.games.race import Race
+from evenbreak.games.rack import Rack
+from evenbreak.matches.own_games import ends_of_game
+from evenbreak.matches.parameters import checked_match
+
+if TYPE_CHECKING:
+    from evenbreak.chains.ways import Way
+    from evenbreak.game import Game
+
+
+class LimitOdds(NamedTuple):
+    """Who wins, by the limit of the game's chain.
+
+    Parameters
+    ----------
+    limit
+        the limit.
+    by_winner
+        P(the game ends with this winner), by the player; None stands for no winner.
+    p_never_ends
+        P(the game goes on for ever).
+    """
+
+    limit: Limit
+    by_winner: dict[int | None, float]
+    p_never_ends: float
+
+    def p_win(self, player: int) -> float:
+        """Return P(`player` wins)."""
+        return self.by_winner.get(player, 0.0)
+
+
+def odds_by_limit(game: Game, via: Way, start: Any = None) -> LimitOdds:
+    """Return who wins a game, from its stochastic limit by a way.
+
+    Parameters
+    ----------
+    game
+        the game; in a match, the chances are plain numbers.
+    via
+        'elimination' or 'eigen' (see `limit_of`).
+    start
+        the state from which it is played; None: its own start.
+
+    Raises
+    ------
+    InputError
+        if the chances in a match are arrays.
+    AccuracyError, ChainError, GameError
+        as `limit_of` and `game_odds` do.
+
+    >>> from evenbreak.games import Race
+    >>> odds = odds_by_limit(Race(2, 2, Rack(0.5)), "eigen")
+    >>> odds.p_win(1), odds.limit[2, 0], odds.p_never_ends
+    (0.5, 0.25, 0.0)
+    """
+    rack = game.innermost_rack if isinstance(game, Match) else None
+    if isinstance(rack, Rack):
+        rack.of_numbers()
+    by_winner = ends_of_game(game, start).by_winner
+    limit = limit_of(game, start=start, via=via)
+    chances = {
+        winner: min(sum(limit[state] for state in final), 1.0)
+        for winner, final in by_winner.items()
+    }
+    over = {state for final in by_winner.values() for state in final}
+    never = sum(chance for state, chance in limit.items() if state not in over)
+    return LimitOdds(limit, chances, never)
+
+
+def match_odds_by_limit(match: Match, via: Way) -> dict[str, Any]:
+    """Return those of the `MatchOdds` of a match that its limit gives, by name.
+
+    >>> from evenbreak.games import Race
+    >>> match_odds_by_limit(Race(2, 2, Rack(0.5)), "eigen")
+    {'p_win_1': 0.5, 'p_win_2': 0.5, 'p_never_ends': 0.0, 'p_hill_hill': 0.5, 'p_shutout_1': 0.25, \
+'p_shutout_2': 0.25}
+    """
+    odds = odds_by_limit(match, via)
+    found: dict[str, Any] = {
+        "p_win_1": odds.p_win(1),
+        "p_win_2": odds.p_win(2),
+        "p_never_ends": odds.p_never_ends,
+    }
+    in_racks = isinstance(match, Race) and isinstance(match.rack, Rack) and match.win_by == 1
+    if in_racks and match.decided(*match.score) is None:
+        limit: dict[Any, float] = odds.limit.to_dict()
+        ends = [(state[:2], p) for state, p in limit.items() if match.winner(state)]
+        (a, b), last = match.score, match.m + match.n - 1
+        found["p_hill_hill"] = sum(p for score, p in ends if sum(score) == last)
+        found["p_shutout_1"] = sum(p for score, p in ends if score == (match.m, b))
+        found["p_shutout_2"] = sum(p for score, p in ends if score == (a, match.n))
+    if via == "elimination":
+        racks = steps_to_absorption(chain_of(checked_match(match)))
+        found["mean_games"] = racks.mean
+        found["sd_games"] = None if racks.variance is None else racks.variance**0.5
+    return found
